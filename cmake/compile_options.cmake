@@ -1,0 +1,31 @@
+# What every target of the project is compiled with, and how a room of the house becomes a target.
+
+add_library(nearfield_options INTERFACE)
+target_include_directories(nearfield_options INTERFACE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+target_compile_definitions(nearfield_options INTERFACE VK_NO_PROTOTYPES)
+target_compile_options(nearfield_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+    -Wold-style-cast -Woverloaded-virtual)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False alarm on string concatenation in libstdc++ 12 (GCC bug 105651).
+    target_compile_options(nearfield_options INTERFACE -Wno-restrict)
+endif()
+if(NEARFIELD_WARNINGS_AS_ERRORS)
+    target_compile_options(nearfield_options INTERFACE -Werror)
+endif()
+if(NEARFIELD_SANITIZE)
+    target_compile_options(nearfield_options INTERFACE
+        -fsanitize=${NEARFIELD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(nearfield_options INTERFACE -fsanitize=${NEARFIELD_SANITIZE})
+endif()
+
+# nearfield_room(NAME FOLDER [LINK LIBRARY...]) makes the object library nearfield_NAME from all
+# sources of FOLDER.
+function(nearfield_room name folder)
+    cmake_parse_arguments(PARSE_ARGV 2 room "" "" "LINK")
+    file(GLOB sources CONFIGURE_DEPENDS
+         ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+    add_library(nearfield_${name} OBJECT ${sources})
+    target_link_libraries(nearfield_${name} PUBLIC nearfield_options ${room_LINK})
+endfunction()

@@ -1,0 +1,30 @@
+# Shaders are compiled to SPIR-V at build time by glslang and embedded as arrays of words; glslang
+# is a build tool only.
+
+find_program(NEARFIELD_GLSLANG NAMES glslangValidator glslang REQUIRED
+             DOC "glslang, to compile shaders (package glslang-tools)")
+
+# nearfield_shaders(TARGET SHADER...): each shaders/NAME.STAGE becomes a header
+# <shaders/NAME_STAGE.hpp> with the array nearfield::shaders::NAME_STAGE.
+function(nearfield_shaders target)
+    set(output_folder ${PROJECT_BINARY_DIR}/generated/shaders)
+    file(MAKE_DIRECTORY ${output_folder})
+    file(GLOB includes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
+    foreach(shader IN LISTS ARGN)
+        string(REPLACE "." "_" symbol ${shader})
+        set(source ${PROJECT_SOURCE_DIR}/shaders/${shader})
+        set(header ${output_folder}/${symbol}.hpp)
+        add_custom_command(
+            OUTPUT ${header}
+            COMMAND ${NEARFIELD_GLSLANG} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders
+                    --vn words -o ${header}.words ${source}
+            COMMAND ${CMAKE_COMMAND} -DINPUT=${header}.words -DOUTPUT=${header} -DSYMBOL=${symbol}
+                    -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+            DEPENDS ${source} ${includes} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+            COMMENT "Shader ${shader}"
+            VERBATIM)
+        list(APPEND headers ${header})
+    endforeach()
+    target_sources(${target} PRIVATE ${headers})
+    target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated)
+endfunction()

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <exception>
+#include <utility>
+
+#include <nearfield/status.hpp>
+
+namespace nearfield {
+
+/// Carries a Status from deep inside the engine to the door, where it becomes a return value.
+/// Thrown only inside the library; no exception crosses the public interface.
+class Failure : public std::exception {
+public:
+    explicit Failure(Status status) : status_(std::move(status)) {}
+
+    [[nodiscard]] const Status& status() const noexcept { return status_; }
+    [[nodiscard]] const char* what() const noexcept override { return status_.message().c_str(); }
+
+private:
+    Status status_;
+};
+
+}  // namespace nearfield

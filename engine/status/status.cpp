@@ -1,0 +1,39 @@
+#include <nearfield/status.hpp>
+
+namespace nearfield {
+
+const char* to_string(StatusCode code) noexcept {
+    switch (code) {
+        case StatusCode::ok:
+            return "ok";
+        case StatusCode::invalid_shape:
+            return "invalid_shape";
+        case StatusCode::invalid_query:
+            return "invalid_query";
+        case StatusCode::unknown_shape:
+            return "unknown_shape";
+        case StatusCode::too_large:
+            return "too_large";
+        case StatusCode::no_device:
+            return "no_device";
+        case StatusCode::unsupported_device:
+            return "unsupported_device";
+        case StatusCode::out_of_memory:
+            return "out_of_memory";
+        case StatusCode::device_lost:
+            return "device_lost";
+        case StatusCode::device_error:
+            return "device_error";
+    }
+    return "unknown";
+}
+
+std::string Status::text() const {
+    std::string text = std::string(to_string(code_)) + ": " + message_;
+    for (const std::string& reason : reasons_) {
+        text += "\n  - " + reason;
+    }
+    return text;
+}
+
+}  // namespace nearfield

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vulkan/vulkan_core.h>
+
+/// \file
+/// What a Vulkan host hands over.
+
+namespace nearfield {
+
+/// A host's Vulkan objects. nearfield borrows them: they must outlive the context, and are never
+/// destroyed by it.
+///
+/// Nothing needs to be enabled on the device: the base is Vulkan 1.1 without features and without
+/// extensions. The queue family must have VK_QUEUE_GRAPHICS_BIT and VK_QUEUE_COMPUTE_BIT.
+struct HostDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+    /// Every entry point is fetched through this one.
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+    /// The instance was created with VK_EXT_debug_utils: objects are named, passes are labelled.
+    bool debug_utils = false;
+};
+
+/// Which device a headless context takes.
+struct HeadlessOptions {
+    /// A part of the device's name, case-sensitive; empty: the best kind there is (discrete,
+    /// integrated, virtual, then a CPU implementation such as lavapipe).
+    const char* device_name = nullptr;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,11 @@
+#pragma once
+
+/// \file
+/// The whole public interface of nearfield.
+
+#include <nearfield/context.hpp>
+#include <nearfield/host.hpp>
+#include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
+#include <nearfield/shape.hpp>
+#include <nearfield/status.hpp>

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <nearfield/query.hpp>
+#include <nearfield/shape.hpp>
+#include <nearfield/status.hpp>
+
+/// \file
+/// What comes back. Points and directions are in world coordinates, lengths in world units.
+
+namespace nearfield {
+
+/// A rectangle that localisation found, with the grid it was sampled on. Sample (column, row) is
+/// the centre of its cell: min + (column + 1/2, row + 1/2) * cell; row 0 is the lowest.
+struct Region {
+    Vector2 min;
+    Vector2 max;
+    std::uint32_t width = 0;   ///< cells along x
+    std::uint32_t height = 0;  ///< cells along y
+};
+
+/// What every result says.
+struct ResultSummary {
+    Status status;             ///< of this query alone; the rest is meaningful only where it is ok
+    double tolerance = 0.0;    ///< d as asked
+    double error_bound = 0.0;  ///< what the result's own description says it bounds; at most d
+    bool intersects = false;   ///< the closed shapes share a point; containment and touching count
+    double cell = 0.0;         ///< side of a grid cell
+    std::vector<Region> regions;
+};
+
+/// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
+/// rings of the shape in the order given.
+struct Feature {
+    enum class Kind : std::uint8_t { edge, vertex };
+    Kind kind = Kind::edge;
+    std::uint32_t index = 0;
+};
+
+/// One penetrating point of A.
+struct PenetrationRecord {
+    Vector2 point;      ///< on A's boundary, inside B
+    double depth = 0.0; ///< distance from `point` to `nearest`, > 0
+    Vector2 direction;  ///< unit vector from `point` to `nearest`: the way out
+    Vector2 nearest;    ///< the point of B's boundary nearest to `point`
+    Feature feature;    ///< of B: where `nearest` lies
+    /// False where B's boundary holds another point, in another direction, that is no farther than
+    /// `depth` + d/1000: the direction is one of several.
+    bool unique = true;
+};
+
+/// Answer to a PenetrationQuery.
+///
+/// Each record is exact to rounding: `point` and `nearest` are computed in double precision from
+/// the vertices as given. `error_bound` bounds how much deeper than `deepest` any point of A's
+/// boundary can be (any vertex, for PenetrationPoints::vertices).
+struct PenetrationResult : ResultSummary {
+    std::uint32_t count = 0;    ///< penetrating points found
+    PenetrationRecord deepest;  ///< meaningful where count > 0
+    std::vector<PenetrationRecord> records;  ///< in order along A's rings
+};
+
+/// One grid sample that lies in both shapes.
+struct IntersectionSample {
+    static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
+    Vector2 point;                 ///< the centre of a cell
+    std::uint32_t edge = no_edge;  ///< where A takes part by its boundary: an edge of A nearby
+};
+
+/// Answer to an IntersectionQuery.
+///
+/// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
+/// in both (or, by its boundary, lies on it) has a sample within it.
+struct IntersectionResult : ResultSummary {
+    IntersectionKind kind = IntersectionKind::volume_volume;
+    std::uint64_t count = 0;  ///< samples found
+    double area = 0.0;        ///< count times the area of a cell
+    std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
+};
+
+/// Answer to a DistanceFieldQuery. `error_bound` bounds the difference from the exact signed
+/// distance at every cell centre.
+struct DistanceFieldResult : ResultSummary {
+    Vector2 origin;             ///< low corner of cell (0, 0)
+    std::uint32_t width = 0;    ///< cells along x
+    std::uint32_t height = 0;   ///< cells along y
+    std::vector<float> values;  ///< width * height, row by row from the lowest; negative inside B
+};
+
+/// Time one pass took on the device.
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;
+};
+
+/// Where the time of a batch went, in milliseconds.
+struct Timings {
+    double localize = 0.0;  ///< hierarchies on the CPU
+    double plan = 0.0;      ///< simplification, meshes, atlas, upload
+    double record = 0.0;    ///< commands
+    double device = 0.0;    ///< from submission to fence
+    double decode = 0.0;    ///< reading results and making them exact
+    double total = 0.0;
+    std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
+};
+
+using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult>;
+
+template <class Query>
+struct ResultOf;
+template <>
+struct ResultOf<PenetrationQuery> {
+    using type = PenetrationResult;
+};
+template <>
+struct ResultOf<IntersectionQuery> {
+    using type = IntersectionResult;
+};
+template <>
+struct ResultOf<DistanceFieldQuery> {
+    using type = DistanceFieldResult;
+};
+
+/// The results of one batch, in the order of its queries. Reusing one object for every frame keeps
+/// its memory.
+struct Results {
+    std::vector<AnyResult> results;
+    Timings timings;
+
+    /// The result of a query. Precondition: the handle comes from the batch that was run.
+    template <class Query>
+    [[nodiscard]] const typename ResultOf<Query>::type& operator[](QueryHandle<Query> handle) const {
+        return std::get<typename ResultOf<Query>::type>(results[handle.index]);
+    }
+};
+
+}  // namespace nearfield

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+/// \file
+/// Shapes and where they are. Units are the caller's own, the same for every shape, pose and
+/// tolerance; the frame is right-handed (x to the right, y up).
+
+namespace nearfield {
+
+/// A point, a displacement or a direction in the plane.
+struct Vector2 {
+    double x = 0.0;
+    double y = 0.0;
+
+    friend bool operator==(const Vector2&, const Vector2&) = default;
+};
+
+/// One closed line of straight edges. Edge i goes from vertex i to vertex i + 1, the last one back
+/// to vertex 0. A last vertex equal to the first closes the ring twice and is dropped; other
+/// repeated vertices are kept, so that indices stay the caller's. Orientation does not matter.
+using Ring = std::vector<Vector2>;
+
+/// A shape is a list of rings filled by the odd-even rule: outer boundaries, holes and separate
+/// parts are all just rings, in any order. Rings may touch and cross.
+///
+/// A shape is refused (StatusCode::invalid_shape) when it has no ring, a ring has fewer than three
+/// different vertices or lies on one line, a coordinate is not finite or its magnitude exceeds
+/// `largest_coordinate`, or all rings together have more than `most_vertices` vertices.
+inline constexpr double largest_coordinate = 1e12;
+inline constexpr std::uint32_t most_vertices = 1U << 28U;
+
+/// Names a shape of one context. The default value names none.
+struct ShapeHandle {
+    std::uint32_t index = UINT32_MAX;
+    std::uint32_t generation = 0;
+
+    friend bool operator==(const ShapeHandle&, const ShapeHandle&) = default;
+};
+
+/// A rigid transform from shape coordinates to world coordinates: rotate counter-clockwise about
+/// the origin of the shape's own coordinates, then translate.
+struct Pose {
+    Vector2 translation;
+    double angle = 0.0;  ///< radians, counter-clockwise
+};
+
+/// A shape at a place.
+struct Instance {
+    ShapeHandle shape;
+    Pose pose;
+};
+
+/// An axis-aligned rectangle in world coordinates.
+struct Rectangle {
+    Vector2 min;
+    Vector2 max;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// \file
+/// Errors as values. No exception crosses the interface of nearfield: whatever can fail returns a
+/// Status, or an Expected that holds either a value or the Status that says why there is none.
+
+namespace nearfield {
+
+/// What kind of thing went wrong.
+enum class StatusCode {
+    ok,
+    invalid_shape,       ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
+    invalid_query,       ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
+    unknown_shape,       ///< a handle that was never given out, or whose shape was removed
+    too_large,           ///< the answer would need more memory than the stated limit
+    no_device,           ///< no Vulkan driver, or no device in it, that could be used
+    unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
+    out_of_memory,       ///< host or device memory ran out
+    device_lost,         ///< the device was lost; the context can only be destroyed
+    device_error,        ///< any other Vulkan call failed; the message names the call and result
+};
+
+/// The name of a code as it stands in the enumeration ("invalid_shape").
+[[nodiscard]] const char* to_string(StatusCode code) noexcept;
+
+/// Success, or an error with one message for people and every single reason behind it.
+class [[nodiscard]] Status {
+public:
+    /// Success.
+    Status() = default;
+
+    /// An error. `message` says what failed, where and why; `reasons` lists each cause where
+    /// there can be several (all the features a device lacks, say).
+    Status(StatusCode code, std::string message, std::vector<std::string> reasons = {})
+        : code_(code), message_(std::move(message)), reasons_(std::move(reasons)) {}
+
+    [[nodiscard]] bool ok() const noexcept { return code_ == StatusCode::ok; }
+    [[nodiscard]] StatusCode code() const noexcept { return code_; }
+    [[nodiscard]] const std::string& message() const noexcept { return message_; }
+    [[nodiscard]] const std::vector<std::string>& reasons() const noexcept { return reasons_; }
+
+    /// Code, message and reasons in one text, a reason a line.
+    [[nodiscard]] std::string text() const;
+
+private:
+    StatusCode code_ = StatusCode::ok;
+    std::string message_;
+    std::vector<std::string> reasons_;
+};
+
+/// A value, or the error that stands in its place.
+///
+/// Precondition of value(), `*` and `->`: ok() is true.
+template <class Value>
+class [[nodiscard]] Expected {
+public:
+    Expected(Value value) : value_(std::move(value)) {}
+    Expected(Status error) : status_(std::move(error)) {}
+
+    [[nodiscard]] bool ok() const noexcept { return value_.has_value(); }
+    [[nodiscard]] const Status& status() const noexcept { return status_; }
+
+    [[nodiscard]] Value& value() noexcept { return *value_; }
+    [[nodiscard]] const Value& value() const noexcept { return *value_; }
+    [[nodiscard]] Value& operator*() noexcept { return *value_; }
+    [[nodiscard]] const Value& operator*() const noexcept { return *value_; }
+    [[nodiscard]] Value* operator->() noexcept { return &*value_; }
+    [[nodiscard]] const Value* operator->() const noexcept { return &*value_; }
+
+private:
+    std::optional<Value> value_;
+    Status status_;
+};
+
+}  // namespace nearfield
