@@ -1,0 +1,82 @@
+#include <engine/plan/boundary_points.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+/// Calls `visit(edge, length)` for each edge of a chain, in order, wrapping at the ring's end.
+template <class Visit>
+void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Visit&& visit) {
+    const Polygon& polygon = placed.polygon();
+    const std::uint32_t begin = polygon.ring_begin(chain.ring);
+    const std::uint32_t end = polygon.ring_end(chain.ring);
+    std::uint32_t edge = chain.first;
+    for (std::uint32_t i = 0; i < chain.count; ++i) {
+        const std::uint32_t next = edge + 1 == end ? begin : edge + 1;
+        visit(edge, (polygon.vertices()[next] - polygon.vertices()[edge]).norm());
+        edge = next;
+    }
+}
+
+}  // namespace
+
+Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
+    const Vector a = polygon.vertex(point.edge);
+    if (point.parameter == 0.0) {
+        return a;
+    }
+    return a + point.parameter * (polygon.vertex(polygon.polygon().next(point.edge)) - a);
+}
+
+void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
+                   double spacing, std::vector<BoundaryPoint>& points) {
+    for (const localize::Chain& chain : chains) {
+        // A chain's first vertex always starts a new sample: what came before is elsewhere.
+        double since_last = spacing;
+        for_each_edge(polygon, chain, [&](std::uint32_t edge, double length) {
+            if (since_last + length <= spacing) {
+                since_last += length;
+                return;
+            }
+            const double parts = std::max(1.0, std::ceil(length / spacing));
+            for (double part = 0.0; part < parts; part += 1.0) {
+                points.push_back({edge, part / parts});
+            }
+            since_last = length / parts;
+        });
+    }
+}
+
+void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
+                        std::vector<BoundaryPoint>& points) {
+    for (const localize::Chain& chain : chains) {
+        for_each_edge(polygon, chain,
+                      [&](std::uint32_t edge, double) { points.push_back({edge, 0.0}); });
+        // The chain's last vertex starts an edge that may be in no chain.
+        const Polygon& shape = polygon.polygon();
+        const std::uint32_t size = shape.ring_end(chain.ring) - shape.ring_begin(chain.ring);
+        if (chain.count < size) {
+            const std::uint32_t begin = shape.ring_begin(chain.ring);
+            points.push_back({begin + (chain.first - begin + chain.count) % size, 0.0});
+        }
+    }
+}
+
+double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
+                    double spacing) {
+    double count = 0.0;
+    for (const localize::Chain& chain : chains) {
+        for_each_edge(polygon, chain, [&](std::uint32_t, double length) {
+            count += std::max(1.0, std::ceil(length / spacing));
+        });
+    }
+    return count;
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/localize/overlap.hpp>
+
+namespace nearfield::plan {
+
+/// A point on the boundary of A: on edge `edge`, `parameter` of the way along it.
+struct BoundaryPoint {
+    std::uint32_t edge = 0;
+    double parameter = 0.0;  ///< 0: the edge's first vertex; below 1
+};
+
+/// The point in world coordinates.
+[[nodiscard]] geometry::Vector position(const geometry::PlacedPolygon& polygon,
+                                        const BoundaryPoint& point);
+
+/// Appends samples along each chain, consecutive ones at most `spacing` apart along the boundary.
+/// Long edges are divided evenly from vertex to vertex, so corners are sampled; of vertices closer
+/// together than `spacing` some are left out.
+void sample_chains(const geometry::PlacedPolygon& polygon,
+                   const std::vector<localize::Chain>& chains, double spacing,
+                   std::vector<BoundaryPoint>& points);
+
+/// Appends the first vertex of every edge of the chains.
+void vertices_of_chains(const geometry::PlacedPolygon& polygon,
+                        const std::vector<localize::Chain>& chains,
+                        std::vector<BoundaryPoint>& points);
+
+/// What sample_chains may append at the most; needs no memory. A double, since it may be huge.
+[[nodiscard]] double most_samples(const geometry::PlacedPolygon& polygon,
+                                  const std::vector<localize::Chain>& chains, double spacing);
+
+}  // namespace nearfield::plan

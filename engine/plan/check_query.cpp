@@ -1,0 +1,96 @@
+#include <engine/plan/check_query.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::plan {
+namespace {
+
+Status invalid(const std::string& message) {
+    return {StatusCode::invalid_query, message};
+}
+
+Status check_tolerance(double tolerance) {
+    if (!std::isfinite(tolerance) || tolerance <= 0.0) {
+        return invalid("the tolerance is " + number(tolerance) +
+                       "; it must be a finite number above 0");
+    }
+    return {};
+}
+
+Status check_coordinate(double value, const std::string& what) {
+    if (!std::isfinite(value) || std::abs(value) > largest_coordinate) {
+        return invalid(what + " is " + number(value) + "; it must be finite and at most " +
+                       number(largest_coordinate) + " in magnitude");
+    }
+    return {};
+}
+
+Status check_pose(const Pose& pose, const std::string& whose) {
+    if (!std::isfinite(pose.angle)) {
+        return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
+    }
+    Status status = check_coordinate(pose.translation.x, "the x of " + whose + "'s pose");
+    return status.ok() ? check_coordinate(pose.translation.y, "the y of " + whose + "'s pose")
+                       : status;
+}
+
+Status check_rectangle(const Rectangle& rectangle) {
+    for (const double value :
+         {rectangle.min.x, rectangle.min.y, rectangle.max.x, rectangle.max.y}) {
+        if (Status status = check_coordinate(value, "a coordinate of the rectangle");
+            !status.ok()) {
+            return status;
+        }
+    }
+    if (!(rectangle.min.x < rectangle.max.x && rectangle.min.y < rectangle.max.y)) {
+        return invalid("the rectangle is empty: its low corner (" + number(rectangle.min.x) + ", " +
+                       number(rectangle.min.y) + ") is not below its high corner (" +
+                       number(rectangle.max.x) + ", " + number(rectangle.max.y) + ")");
+    }
+    return {};
+}
+
+template <class Query>
+Status check_pair(const Query& query) {
+    Status status = check_tolerance(query.tolerance);
+    if (status.ok()) {
+        status = check_pose(query.a.pose, "A");
+    }
+    return status.ok() ? check_pose(query.b.pose, "B") : status;
+}
+
+}  // namespace
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+}
+
+Status check_query(const AnyQuery& query) {
+    Status status = std::visit([](const auto& any) { return check_pair(any); }, query);
+    if (const auto* field = std::get_if<DistanceFieldQuery>(&query); field && status.ok()) {
+        if (field->rectangle) {
+            return check_rectangle(*field->rectangle);
+        }
+        if (field->a.shape == ShapeHandle{}) {
+            return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
+        }
+    }
+    return status;
+}
+
+Status check_resolution(double tolerance, double largest_magnitude) {
+    const double resolution = 64.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
+    if (tolerance < resolution) {
+        return invalid("the tolerance " + number(tolerance) +
+                       " is below what double precision resolves at coordinates of " +
+                       number(largest_magnitude) + "; the smallest is " + number(resolution));
+    }
+    return {};
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include <nearfield/query.hpp>
+#include <nearfield/status.hpp>
+
+namespace nearfield::plan {
+
+/// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
+[[nodiscard]] Status check_query(const AnyQuery& query);
+
+/// A tolerance that double precision can resolve at these coordinates, or an error.
+[[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);
+
+/// A number as text, with as few digits as tell it apart.
+[[nodiscard]] std::string number(double value);
+
+}  // namespace nearfield::plan

@@ -1,0 +1,119 @@
+#include <engine/plan/edge_lists.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Vector;
+
+constexpr std::uint32_t not_written = UINT32_MAX;
+
+/// A run's vertices and its straight edge are rounded to floats apart from each other.
+constexpr double deviation_slack = 1.0 / 1024.0;
+
+/// The part of an edge with |x| and |y| at most `extent`; the whole edge where there is none.
+TileEdge cut(const TileEdge& edge, double extent) {
+    double from = 0.0;
+    double to = 1.0;
+    const Vector d = edge.b - edge.a;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (d[axis] != 0.0) {
+            const double enter = (-extent - edge.a[axis]) / d[axis];
+            const double leave = (extent - edge.a[axis]) / d[axis];
+            from = std::max(from, std::min(enter, leave));
+            to = std::min(to, std::max(enter, leave));
+        }
+    }
+    if (from > to) {
+        return edge;
+    }
+    // An end that needs no cut stays the very same number: neighbours share it.
+    return {from == 0.0 ? edge.a : Vector(edge.a + from * d),
+            to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
+}
+
+}  // namespace
+
+void EdgeListWriter::begin_tile(const TileBoundary& boundary, const ToCells& to_cells) {
+    boundary_ = &boundary;
+    to_cells_ = &to_cells;
+    runs_.assign(boundary.size(), not_written);
+}
+
+std::uint32_t EdgeListWriter::run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index) {
+    if (runs_[index] == not_written) {
+        runs_[index] = static_cast<std::uint32_t>(geometry_.size());
+        const auto vertices = boundary_->polygon->vertices();
+        for (std::uint32_t i = 0; i < edge.count; ++i) {
+            const Vector v = (*to_cells_)(vertices[edge.first + i]);
+            geometry_.push_back({static_cast<float>(v.x()), static_cast<float>(v.y())});
+        }
+        const Vector& v = boundary_->end(index);
+        geometry_.push_back({static_cast<float>(v.x()), static_cast<float>(v.y())});
+    }
+    return runs_[index];
+}
+
+EdgeData EdgeListWriter::describe(const TileEdge& edge) {
+    EdgeData data;
+    data.ax = static_cast<float>(edge.a.x());
+    data.ay = static_cast<float>(edge.a.y());
+    data.bx = static_cast<float>(edge.b.x());
+    data.by = static_cast<float>(edge.b.y());
+    if (edge.simplified != no_simplified) {
+        const geometry::SimplifiedEdge& simplified = (*boundary_->edges)[edge.simplified];
+        data.first_edge = simplified.first;
+        if (simplified.count > 1) {
+            data.run = run_of(simplified, edge.simplified);
+            data.run_count = simplified.count;
+            data.deviation =
+                static_cast<float>(to_cells_->cells(simplified.deviation) + deviation_slack);
+        }
+    }
+    return data;
+}
+
+void EdgeListWriter::push(const EdgeData& edge) {
+    geometry_.push_back({edge.ax, edge.ay});
+    geometry_.push_back({edge.bx, edge.by});
+    geometry_.push_back({std::bit_cast<float>(edge.run), std::bit_cast<float>(edge.run_count)});
+    geometry_.push_back({edge.deviation, std::bit_cast<float>(edge.first_edge)});
+}
+
+EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double extent) {
+    list_.clear();
+    for (const TileEdge& edge : edges) {
+        const bool exact = edge.simplified == no_simplified ||
+                           (*boundary_->edges)[edge.simplified].count == 1;
+        list_.push_back(describe(exact ? cut(edge, extent) : edge));
+    }
+
+    EdgeListData result;
+    result.count = static_cast<std::uint32_t>(list_.size());
+    result.edges = static_cast<std::uint32_t>(geometry_.size());
+    for (const EdgeData& edge : list_) {
+        push(edge);
+    }
+    result.clusters = static_cast<std::uint32_t>(geometry_.size());
+    for (std::size_t first = 0; first < list_.size(); first += cluster_size) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        Entry low{infinity, infinity};
+        Entry high{-infinity, -infinity};
+        const std::size_t end = std::min<std::size_t>(first + cluster_size, list_.size());
+        for (std::size_t i = first; i < end; ++i) {
+            const EdgeData& edge = list_[i];
+            low.x = std::min(low.x, std::min(edge.ax, edge.bx) - edge.deviation);
+            low.y = std::min(low.y, std::min(edge.ay, edge.by) - edge.deviation);
+            high.x = std::max(high.x, std::max(edge.ax, edge.bx) + edge.deviation);
+            high.y = std::max(high.y, std::max(edge.ay, edge.by) + edge.deviation);
+        }
+        geometry_.push_back(low);
+        geometry_.push_back(high);
+    }
+    return result;
+}
+
+}  // namespace nearfield::plan

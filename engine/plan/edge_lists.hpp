@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/tile_edges.hpp>
+
+namespace nearfield::plan {
+
+/// Writes lists of edges, as compute shaders read them, into one array of 2-vectors.
+class EdgeListWriter {
+public:
+    struct Entry {
+        float x = 0.0F;
+        float y = 0.0F;
+    };
+
+    /// Starts a new array.
+    void clear() { geometry_.clear(); }
+    /// Starts a new tile: runs of edges already written belong to another frame of coordinates.
+    void begin_tile(const TileBoundary& boundary, const ToCells& to_cells);
+
+    /// Writes one list; position i of the list is edge i. Edges that stand for themselves are cut,
+    /// in double precision, to the square |x|, |y| <= `extent` around the tile's low corner, so
+    /// that no coordinate is larger than a float can tell apart: nothing outside may matter.
+    EdgeListData write(const std::vector<TileEdge>& edges, double extent);
+
+    [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
+
+private:
+    [[nodiscard]] std::uint32_t run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index);
+    [[nodiscard]] EdgeData describe(const TileEdge& edge);
+    void push(const EdgeData& edge);
+
+    const TileBoundary* boundary_ = nullptr;
+    const ToCells* to_cells_ = nullptr;
+    std::vector<Entry> geometry_;
+    std::vector<EdgeData> list_;
+    std::vector<std::uint32_t> runs_;  // by simplified edge: where its run stands, if written
+};
+
+}  // namespace nearfield::plan

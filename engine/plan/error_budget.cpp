@@ -1,0 +1,68 @@
+#include <engine/plan/error_budget.hpp>
+
+#include <numbers>
+
+#include <engine/geometry/offset_mesh.hpp>
+
+namespace nearfield::plan {
+namespace {
+
+// Coordinates inside a tile are floats below 2^11 cells: what rounding they suffer, in cells, with
+// room for the few operations of a distance.
+constexpr double float_rounding = 1.0 / 1024.0;
+
+// Errors of the distance mesh and of simplification only cost work in resolve, not accuracy, where
+// resolve walks the original edges; these balance the two on the outlines measured.
+constexpr double mesh_share = 0.125;
+
+}  // namespace
+
+ErrorBudget penetration_budget(const PenetrationQuery& query) {
+    const double d = query.tolerance;
+    ErrorBudget budget;
+    budget.cell = d * std::numbers::sqrt2;
+    budget.simplification = d / 4.0;
+    budget.mesh = mesh_share * budget.cell;
+    // Depth changes by no more than the way along the boundary, and samples are at most a cell
+    // apart on it; vertices are all looked at.
+    const double sampling = query.points == PenetrationPoints::boundary ? budget.cell / 2.0 : 0.0;
+    budget.bound = sampling + float_rounding * d;
+    return budget;
+}
+
+ErrorBudget intersection_budget(const IntersectionQuery& query, geometry::SubpixelGrid grid) {
+    const double d = query.tolerance;
+    ErrorBudget budget;
+    budget.simplification = d / 16.0;
+    // The snapping of the raster in units of half a cell's diagonal.
+    const double snapping = grid.largest_move() * std::numbers::sqrt2;
+    double half_diagonal = 0.0;
+    if (query.kind == IntersectionKind::volume_volume) {
+        half_diagonal = (d - budget.simplification) / (1.0 + snapping);
+    } else {
+        // overreach * (half_diagonal + simplification) + 2 snapping + simplification = d
+        const double overreach = geometry::offset_overreach;
+        half_diagonal = (d - (1.0 + overreach) * budget.simplification) / (overreach + 2.0 * snapping);
+    }
+    budget.cell = half_diagonal * std::numbers::sqrt2;
+    budget.offset = half_diagonal + budget.simplification;
+    budget.bound = d;
+    return budget;
+}
+
+ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid grid) {
+    const double d = query.tolerance;
+    ErrorBudget budget;
+    budget.cell = d * std::numbers::sqrt2;
+    budget.simplification = d / 4.0;
+    budget.mesh = mesh_share * budget.cell;
+    // The sample itself is a cell's centre, so there is no sampling error: what is left is the
+    // simplified boundary, a feature that won although another is nearer by up to the error of the
+    // mesh, the raster's snapping of that mesh and of the fill, and rounding.
+    const double snapping = 2.0 * grid.largest_move() * budget.cell;
+    budget.bound =
+        budget.simplification + budget.mesh + snapping + float_rounding * budget.cell;
+    return budget;
+}
+
+}  // namespace nearfield::plan

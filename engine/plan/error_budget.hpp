@@ -1,0 +1,23 @@
+#pragma once
+
+#include <engine/geometry/mesh.hpp>
+#include <nearfield/query.hpp>
+
+namespace nearfield::plan {
+
+/// How a query spends its tolerance d. Lengths in world units; derivations in docs/error_budget.md.
+struct ErrorBudget {
+    double cell = 0.0;            ///< side of a grid cell
+    double simplification = 0.0;  ///< how far simplified chains may stray from the boundary
+    double mesh = 0.0;            ///< error of the distance mesh
+    double offset = 0.0;          ///< half width of the offset polygon around a boundary
+    double bound = 0.0;           ///< what the result states; at most d
+};
+
+[[nodiscard]] ErrorBudget penetration_budget(const PenetrationQuery& query);
+[[nodiscard]] ErrorBudget intersection_budget(const IntersectionQuery& query,
+                                              geometry::SubpixelGrid grid);
+[[nodiscard]] ErrorBudget field_budget(const DistanceFieldQuery& query,
+                                       geometry::SubpixelGrid grid);
+
+}  // namespace nearfield::plan

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nearfield::plan {
+
+/// What compute shaders read and write; shaders/layout.glsl declares the same structures (std430).
+/// Lengths are in cells of the tile, positions relative to its low corner.
+
+inline constexpr std::uint32_t no_feature = UINT32_MAX;  ///< in an id image: nothing was drawn
+inline constexpr std::uint32_t cluster_size = 16;        ///< edges under one bounding box
+
+/// A list of edges in the geometry array, in clusters: `count` edges (EdgeData) from `edges` on;
+/// from `clusters` on a box (low corner, high corner) for every cluster_size of them. Both are
+/// indices of 2-vectors.
+struct EdgeListData {
+    std::uint32_t clusters = 0;
+    std::uint32_t edges = 0;
+    std::uint32_t count = 0;
+};
+
+struct TileData {
+    std::uint32_t atlas_x = 0;
+    std::uint32_t atlas_y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    EdgeListData nearest;   ///< every edge that can be nearest to a needed sample
+    EdgeListData crossing;  ///< every edge that a ray towards +x from inside the tile can cross
+    float settled = 0.0F;   ///< farther than this from B's boundary, a sample's sign is its cell's
+    float margin = 0.0F;    ///< two distances closer than this count as equal
+};
+static_assert(sizeof(TileData) == 48);
+
+/// A straight edge, exact or standing for a run of B's edges.
+struct EdgeData {
+    float ax = 0.0F, ay = 0.0F, bx = 0.0F, by = 0.0F;
+    std::uint32_t run = 0;        ///< where the run's count + 1 vertices start in the geometry array
+    std::uint32_t run_count = 1;  ///< edges in the run; 1: the edge itself
+    float deviation = 0.0F;       ///< the run stays within this of the edge
+    std::uint32_t first_edge = 0; ///< index of the run's first edge in B
+};
+static_assert(sizeof(EdgeData) == 32);
+
+/// A point whose depth is asked for.
+struct PointData {
+    float x = 0.0F, y = 0.0F;
+    std::uint32_t tile = 0;
+    std::uint32_t unused = 0;
+};
+static_assert(sizeof(PointData) == 16);
+
+/// A resolved point, one word: B's nearest edge and two flags. Zero: outside.
+inline constexpr std::uint32_t point_inside = 1U << 31U;
+inline constexpr std::uint32_t point_unique = 1U << 30U;
+inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
+
+/// A sample found by an intersection.
+struct SampleData {
+    std::uint32_t cell = 0;  ///< column | row << 16, within the tile
+    std::uint32_t tile = 0;
+    std::uint32_t edge = 0;  ///< of A, or no_feature
+};
+static_assert(sizeof(SampleData) == 12);
+
+}  // namespace nearfield::plan

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/vector.hpp>
+
+namespace nearfield::plan {
+
+/// The grid of a region: cell (0, 0) has its low corner at `origin`.
+struct Grid {
+    geometry::Vector origin = geometry::Vector::Zero();
+    double cell = 1.0;
+    std::uint64_t width = 0;
+    std::uint64_t height = 0;
+
+    /// The smallest grid from the low corner of `box` on that covers it; at least one cell.
+    static Grid covering(const geometry::Box& box, double cell);
+
+    [[nodiscard]] double cells() const {
+        return static_cast<double>(width) * static_cast<double>(height);
+    }
+};
+
+/// From coordinates relative to a polygon's centre to cells of a tile, composed in double precision
+/// so that nothing is lost far from the origin of the world.
+class ToCells {
+public:
+    ToCells(const geometry::PlacedPolygon& polygon, const geometry::Vector& origin, double cell)
+        : matrix_(polygon.rotation() / cell),
+          offset_((polygon.translation() - origin) / cell),
+          cell_(cell) {}
+
+    /// A length in cells.
+    [[nodiscard]] double cells(double length) const { return length / cell_; }
+
+    geometry::Vector operator()(const geometry::Vector& v) const { return matrix_ * v + offset_; }
+
+private:
+    Eigen::Matrix2d matrix_;
+    geometry::Vector offset_;
+    double cell_;
+};
+
+}  // namespace nearfield::plan

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <engine/geometry/mesh.hpp>
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/plan/atlas.hpp>
+#include <engine/plan/boundary_points.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/plan/grid.hpp>
+#include <nearfield/query.hpp>
+
+namespace nearfield::plan {
+
+/// The smallest power of two of cells a block has along a side; a tile has at most 16 x 16 blocks.
+inline constexpr std::uint32_t smallest_block = 16;
+inline constexpr std::uint32_t blocks_along = 16;
+
+enum class TileKind : std::uint8_t {
+    points,   ///< depth of boundary points
+    field,    ///< signed distance at every cell
+    overlap,  ///< samples in both shapes
+};
+
+/// A rectangle of cells of one query's grid, and its place in the atlas.
+struct Tile {
+    std::uint32_t query = 0;
+    TileKind kind{};
+    std::uint32_t region = 0;  ///< of the query's regions, the one it belongs to
+    Grid grid;                 ///< of that region
+    std::uint64_t column = 0;  ///< in that grid, of the tile's low corner
+    std::uint64_t row = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    AtlasPlace place;
+    /// Points tiles: which blocks hold points, bit by bit.
+    std::array<std::uint64_t, blocks_along * blocks_along / 64> needed_blocks{};
+
+    [[nodiscard]] geometry::Vector origin() const {
+        return grid.origin + grid.cell * geometry::Vector(static_cast<double>(column),
+                                                          static_cast<double>(row));
+    }
+    [[nodiscard]] std::uint32_t block_side() const;
+};
+
+/// A boundary point and the tile its cell belongs to.
+struct PlannedPoint {
+    BoundaryPoint point;
+    std::uint32_t tile = 0;
+};
+
+/// What one query became. The polygons live in the shape store until the batch is done.
+struct PlannedQuery {
+    const AnyQuery* query = nullptr;
+    const geometry::Polygon* a = nullptr;  // null where the query has none
+    const geometry::Polygon* b = nullptr;
+    Pose pose_a;
+    Pose pose_b;
+    ErrorBudget budget;
+    std::uint32_t first_point = 0;
+    std::uint32_t point_count = 0;
+};
+
+/// A batch as tiles: what is to be rendered, where, and for whom.
+struct Plan {
+    std::vector<PlannedQuery> queries;  ///< by position in the batch
+    std::vector<Tile> tiles;
+    std::vector<PlannedPoint> points;   ///< in order of queries, then along A's rings
+    TileSize extent;                    ///< of the atlas
+    std::uint32_t rounds = 0;
+    /// Bytes all results may need on the host.
+    double result_bytes = 0.0;
+
+    void clear();
+};
+
+}  // namespace nearfield::plan

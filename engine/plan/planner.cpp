@@ -1,0 +1,411 @@
+#include <engine/plan/planner.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <engine/failure.hpp>
+#include <engine/plan/check_query.hpp>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// What a point, a sample and a cell of a field may take on the host: planned and resolved, in the
+// result and in the buffers on the way there.
+constexpr double bytes_per_point = sizeof(PlannedPoint) + sizeof(PenetrationRecord) + 64.0;
+constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
+constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
+
+// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth).
+constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0;
+
+double largest_magnitude(const Box& box) {
+    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+}
+
+Status unknown_shape(const char* which, ShapeHandle handle) {
+    return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
+                                           std::to_string(handle.index) +
+                                           ") is not a shape of this context, or was removed"};
+}
+
+/// An empty result of the right kind that keeps the memory of the last one.
+template <class Result>
+Result& reuse(AnyResult& any) {
+    if (!std::holds_alternative<Result>(any)) {
+        any.emplace<Result>();
+    }
+    auto& result = std::get<Result>(any);
+    result.status = {};
+    result.error_bound = 0.0;
+    result.intersects = false;
+    result.regions.clear();
+    if constexpr (std::is_same_v<Result, PenetrationResult>) {
+        result.count = 0;
+        result.deepest = {};
+        result.records.clear();
+    } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
+        result.count = 0;
+        result.area = 0.0;
+        result.samples.clear();
+    } else {
+        result.origin = {};
+        result.width = result.height = 0;
+        result.values.clear();
+    }
+    return result;
+}
+
+}  // namespace
+
+void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
+                   std::vector<AnyResult>& results) {
+    plan.clear();
+    plan_ = &plan;
+    localize_milliseconds_ = 0.0;
+    results.resize(queries.size());
+    plan.queries.resize(queries.size());
+    for (query_ = 0; query_ < queries.size(); ++query_) {
+        PlannedQuery& planned = plan.queries[query_];
+        planned = {};
+        planned.query = &queries[query_];
+        std::visit(
+            [&](const auto& query) {
+                using Query = std::decay_t<decltype(query)>;
+                auto& result = reuse<typename ResultOf<Query>::type>(results[query_]);
+                result.tolerance = query.tolerance;
+                result.status = check_query(queries[query_]);
+                planned.a = find_shape(query.a.shape);
+                planned.b = find_shape(query.b.shape);
+                planned.pose_a = query.a.pose;
+                planned.pose_b = query.b.pose;
+                const bool a_left_out =
+                    std::is_same_v<Query, DistanceFieldQuery> && query.a.shape == ShapeHandle{};
+                if (result.status.ok() && planned.a == nullptr && !a_left_out) {
+                    result.status = unknown_shape("A", query.a.shape);
+                }
+                if (result.status.ok() && planned.b == nullptr) {
+                    result.status = unknown_shape("B", query.b.shape);
+                }
+                if (result.status.ok()) {
+                    add(query, result);
+                }
+            },
+            queries[query_]);
+    }
+    pack();
+    plan_ = nullptr;
+}
+
+void Planner::require_memory(double bytes, double tolerance, double growth) {
+    plan_->result_bytes += bytes;
+    const auto limit = static_cast<double>(limits_.memory);
+    if (plan_->result_bytes <= limit) {
+        return;
+    }
+    // Memory grows with (1/d)^growth: what this query alone would take at a coarser tolerance.
+    const double smallest = tolerance * std::pow(bytes / limit, 1.0 / growth);
+    std::string hint = bytes > limit ? "; the smallest tolerance that fits is about " +
+                                           number(static_cast<float>(smallest * 1.05))
+                                     : "; together with the queries before it the batch is too large";
+    throw Failure({StatusCode::too_large,
+                   "query " + std::to_string(query_) + " with tolerance " + number(tolerance) +
+                       " needs up to " + number(std::ceil(plan_->result_bytes / 1048576.0)) +
+                       " MiB, more than the limit of " +
+                       number(std::floor(limit / 1048576.0)) + " MiB" + hint});
+}
+
+void Planner::join_chain_boxes(const Box& within, double grow) {
+    boxes_.clear();
+    for (const localize::Chain& chain : chains_) {
+        Box box = chain.box;
+        box.min().array() -= grow;
+        box.max().array() += grow;
+        box = box.intersection(within);
+        if (!box.isEmpty()) {
+            boxes_.push_back(box);
+        }
+    }
+    localize::join_boxes(boxes_);
+    std::sort(boxes_.begin(), boxes_.end(), [](const Box& i, const Box& j) {
+        return i.min().y() != j.min().y() ? i.min().y() < j.min().y() : i.min().x() < j.min().x();
+    });
+}
+
+void Planner::add_regions(double cell, ResultSummary& result) {
+    grids_.clear();
+    for (const Box& box : boxes_) {
+        const Grid& grid = grids_.emplace_back(Grid::covering(box, cell));
+        const geometry::Vector max = grid.origin + cell * geometry::Vector(static_cast<double>(grid.width),
+                                                                          static_cast<double>(grid.height));
+        constexpr std::uint64_t most = UINT32_MAX;
+        result.regions.push_back({geometry::to_public(grid.origin), geometry::to_public(max),
+                                  static_cast<std::uint32_t>(std::min(grid.width, most)),
+                                  static_cast<std::uint32_t>(std::min(grid.height, most))});
+    }
+}
+
+void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    const PlacedPolygon a(*planned.a, query.a.pose);
+    const PlacedPolygon b(*planned.b, query.b.pose);
+    planned.budget = penetration_budget(query);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    const Box box_b = b.box();
+    result.status = check_resolution(
+        query.tolerance, std::max(largest_magnitude(a.box()), largest_magnitude(box_b)));
+    if (!result.status.ok()) {
+        return;
+    }
+
+    const auto start = Clock::now();
+    chains_.clear();
+    localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
+    join_chain_boxes(box_b, 0.0);
+    localize_milliseconds_ += milliseconds_since(start);
+    planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
+    if (chains_.empty()) {
+        return;
+    }
+
+    samples_.clear();
+    if (query.points == PenetrationPoints::vertices) {
+        vertices_of_chains(a, chains_, samples_);
+        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance, 1.0);
+    } else {
+        require_memory(bytes_per_point * most_samples(a, chains_, planned.budget.cell),
+                       query.tolerance, 1.0);
+        sample_chains(a, chains_, planned.budget.cell, samples_);
+    }
+    add_regions(planned.budget.cell, result);
+    spread_points(a, box_b);
+    planned.point_count =
+        static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
+}
+
+void Planner::spread_points(const PlacedPolygon& a, const Box& within) {
+    cells_.clear();
+    keys_.clear();
+    std::size_t kept = 0;
+    for (const BoundaryPoint& sample : samples_) {
+        const geometry::Vector p = position(a, sample);
+        if (!within.contains(p)) {
+            continue;
+        }
+        // A sample on the border of a box may miss all boxes by a rounding; the nearest one takes
+        // it. Samples come in order along the boundary, so the last one's region is tried first.
+        std::uint32_t grid = cells_.empty() ? 0 : cells_.back().grid;
+        if (!boxes_[grid].contains(p)) {
+            double nearest = boxes_[grid].squaredExteriorDistance(p);
+            for (std::uint32_t i = 0; i < boxes_.size() && nearest > 0.0; ++i) {
+                const double distance = boxes_[i].squaredExteriorDistance(p);
+                if (distance < nearest) {
+                    nearest = distance;
+                    grid = i;
+                }
+            }
+        }
+        const Grid& region = grids_[grid];
+        const geometry::Vector local = (p - region.origin) / region.cell;
+        const auto index = [](double value, std::uint64_t count) {
+            const double last = static_cast<double>(count - 1);
+            return static_cast<std::uint64_t>(std::clamp(std::floor(value), 0.0, last));
+        };
+        const PointCell cell{grid, index(local.x(), region.width), index(local.y(), region.height)};
+        cells_.push_back(cell);
+        keys_.push_back({grid, cell.row / limits_.largest_tile, cell.column / limits_.largest_tile});
+        samples_[kept++] = sample;
+    }
+    samples_.resize(kept);
+    std::sort(keys_.begin(), keys_.end());
+    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+
+    const std::size_t first_tile = plan_->tiles.size();
+    for (const TileKey& key : keys_) {
+        Tile& tile = plan_->tiles.emplace_back();
+        tile.query = query_;
+        tile.kind = TileKind::points;
+        tile.region = key.grid;
+        tile.grid = grids_[key.grid];
+    }
+    for (std::size_t i = 0; i < kept; ++i) {
+        const TileKey key{cells_[i].grid, cells_[i].row / limits_.largest_tile,
+                          cells_[i].column / limits_.largest_tile};
+        const auto found = std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
+        plan_->points.push_back(
+            {samples_[i], static_cast<std::uint32_t>(first_tile + static_cast<std::size_t>(found))});
+    }
+    trim_tiles_to_points();
+}
+
+void Planner::trim_tiles_to_points() {
+    const std::size_t first_point = plan_->points.size() - cells_.size();
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Tile& tile = plan_->tiles[plan_->points[first_point + i].tile];
+        const PointCell& cell = cells_[i];
+        const bool first = tile.width == 0;
+        const std::uint64_t column = first ? cell.column : std::min(tile.column, cell.column);
+        const std::uint64_t row = first ? cell.row : std::min(tile.row, cell.row);
+        const std::uint64_t right = first ? cell.column + 1 : std::max(tile.column + tile.width, cell.column + 1);
+        const std::uint64_t top = first ? cell.row + 1 : std::max(tile.row + tile.height, cell.row + 1);
+        tile.column = column;
+        tile.row = row;
+        tile.width = static_cast<std::uint32_t>(right - column);
+        tile.height = static_cast<std::uint32_t>(top - row);
+    }
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        Tile& tile = plan_->tiles[plan_->points[first_point + i].tile];
+        const std::uint32_t side = tile.block_side();
+        const std::uint64_t block = (cells_[i].row - tile.row) / side * blocks_along +
+                                    (cells_[i].column - tile.column) / side;
+        tile.needed_blocks[block / 64] |= std::uint64_t{1} << (block % 64);
+    }
+}
+
+void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    const PlacedPolygon a(*planned.a, query.a.pose);
+    const PlacedPolygon b(*planned.b, query.b.pose);
+    planned.budget = intersection_budget(query, limits_.subpixel);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    result.kind = query.kind;
+    const Box box_a = a.box();
+    const Box box_b = b.box();
+    result.status = check_resolution(
+        query.tolerance, std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
+    if (!result.status.ok()) {
+        return;
+    }
+
+    const auto start = Clock::now();
+    const double bound = planned.budget.bound;
+    chains_.clear();
+    Box within = box_a.intersection(box_b);
+    double grow = 0.0;
+    if (query.kind == IntersectionKind::volume_volume) {
+        // The boundary of the overlap is what lies of either boundary in the other volume.
+        localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
+        localize::chains_in_volume(b, a, {limits_.hierarchy_height, 0.0}, chains_);
+        if (!chains_.empty()) {
+            for (const localize::Chain& chain : chains_) {
+                chains_.front().box.extend(chain.box);
+            }
+            chains_.resize(1);
+        }
+    } else if (query.kind == IntersectionKind::boundary_volume) {
+        grow = bound;
+        localize::chains_in_volume(a, b, {limits_.hierarchy_height, grow}, chains_);
+    } else {
+        grow = bound;
+        localize::chains_near_boundary(a, b, {limits_.hierarchy_height, 2.0 * grow}, chains_);
+    }
+    if (grow > 0.0 && !chains_.empty()) {
+        within = box_b;
+        within.min().array() -= grow;
+        within.max().array() += grow;
+    }
+    join_chain_boxes(within, grow);
+    localize_milliseconds_ += milliseconds_since(start);
+
+    add_regions(planned.budget.cell, result);
+    double cells = 0.0;
+    for (const Grid& grid : grids_) {
+        cells += grid.cells();
+    }
+    require_memory(bytes_per_sample * cells, query.tolerance, 2.0);
+    for (std::uint32_t region = 0; region < grids_.size(); ++region) {
+        cut_into_tiles(region, TileKind::overlap);
+    }
+}
+
+void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    planned.budget = field_budget(query, limits_.subpixel);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    Box box;
+    if (query.rectangle) {
+        box = Box(geometry::to_vector(query.rectangle->min), geometry::to_vector(query.rectangle->max));
+    } else {
+        const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
+        box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
+        if (box.isEmpty()) {
+            result.status = {StatusCode::invalid_query,
+                             "the bounding boxes of A and B have nothing in common; give the "
+                             "rectangle the distance field is to cover"};
+            return;
+        }
+        box.min().array() -= query.tolerance;
+        box.max().array() += query.tolerance;
+    }
+    result.status = check_resolution(
+        query.tolerance,
+        std::max(largest_magnitude(box),
+                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose).box())));
+    if (!result.status.ok()) {
+        return;
+    }
+    boxes_.assign(1, box);
+    add_regions(planned.budget.cell, result);
+    const Grid& grid = grids_.front();
+    require_memory(bytes_per_field_cell * grid.cells(), query.tolerance, 2.0);
+    result.origin = geometry::to_public(grid.origin);
+    result.width = static_cast<std::uint32_t>(grid.width);
+    result.height = static_cast<std::uint32_t>(grid.height);
+    result.values.resize(grid.width * grid.height);
+    cut_into_tiles(0, TileKind::field);
+}
+
+void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
+    const Grid& grid = grids_[region];
+    const std::uint64_t side = limits_.largest_tile;
+    for (std::uint64_t row = 0; row < grid.height; row += side) {
+        for (std::uint64_t column = 0; column < grid.width; column += side) {
+            Tile& tile = plan_->tiles.emplace_back();
+            tile.query = query_;
+            tile.kind = kind;
+            tile.region = region;
+            tile.grid = grid;
+            tile.column = column;
+            tile.row = row;
+            tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column));
+            tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row));
+        }
+    }
+}
+
+void Planner::pack() {
+    sizes_.clear();
+    for (const Tile& tile : plan_->tiles) {
+        sizes_.push_back({tile.width, tile.height});
+    }
+    packer_.pack(sizes_, places_);
+    const double images = bytes_per_pixel * packer_.extent().width * packer_.extent().height;
+    const double limit = static_cast<double>(limits_.memory);
+    if (plan_->result_bytes + images > limit) {
+        throw Failure({StatusCode::too_large,
+                       "the batch needs images of " +
+                           number(std::ceil(images / 1048576.0)) +
+                           " MiB on the device, which together with its results is more than the "
+                           "limit of " +
+                           number(std::floor(limit / 1048576.0)) + " MiB"});
+    }
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        plan_->tiles[i].place = places_[i];
+    }
+    plan_->extent = packer_.extent();
+    plan_->rounds = packer_.rounds();
+}
+
+}  // namespace nearfield::plan

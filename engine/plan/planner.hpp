@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <engine/localize/overlap.hpp>
+#include <engine/plan/plan.hpp>
+#include <nearfield/result.hpp>
+
+namespace nearfield::plan {
+
+/// What the device and the caller allow.
+struct PlanLimits {
+    geometry::SubpixelGrid subpixel;
+    std::uint32_t largest_tile = 1024;  ///< cells along a side
+    std::uint32_t largest_atlas = 2048;
+    std::uint64_t memory = 0;           ///< bytes a batch may need
+    std::uint32_t hierarchy_height = 8;
+};
+
+/// Finds a shape's polygon, or null.
+using FindShape = std::function<const geometry::Polygon*(ShapeHandle)>;
+
+/// From queries to tiles: checks each query, localises it, cuts its regions into tiles, spreads
+/// points over them and packs all tiles of the batch. Keeps its scratch memory from batch to batch.
+class Planner {
+public:
+    explicit Planner(const PlanLimits& limits) : limits_(limits), packer_(limits.largest_atlas) {}
+
+    /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
+    /// regions. What is wrong with one query stands in its result and leaves it without tiles.
+    /// Throws Failure (too_large) where the batch needs more memory than the limit.
+    void plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
+              std::vector<AnyResult>& results);
+
+    /// Milliseconds of the last plan() spent in hierarchies.
+    [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }
+
+private:
+    void add(const PenetrationQuery& query, PenetrationResult& result);
+    void add(const IntersectionQuery& query, IntersectionResult& result);
+    void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
+
+    void join_chain_boxes(const geometry::Box& within, double grow);
+    void add_regions(double cell, ResultSummary& result);
+    void spread_points(const geometry::PlacedPolygon& a, const geometry::Box& within);
+    void trim_tiles_to_points();
+    void cut_into_tiles(std::uint32_t region, TileKind kind);
+    void require_memory(double bytes, double tolerance, double growth);
+    void pack();
+
+    PlanLimits limits_;
+    AtlasPacker packer_;
+    Plan* plan_ = nullptr;  // of the call in progress
+    std::uint32_t query_ = 0;
+    double localize_milliseconds_ = 0.0;
+
+    // Scratch.
+    std::vector<localize::Chain> chains_;
+    std::vector<geometry::Box> boxes_;
+    std::vector<Grid> grids_;
+    std::vector<BoundaryPoint> samples_;
+    struct PointCell {
+        std::uint32_t grid = 0;
+        std::uint64_t column = 0;
+        std::uint64_t row = 0;
+    };
+    std::vector<PointCell> cells_;  // by point of the query
+    struct TileKey {
+        std::uint32_t grid = 0;
+        std::uint64_t row = 0;
+        std::uint64_t column = 0;
+        auto operator<=>(const TileKey&) const = default;
+    };
+    std::vector<TileKey> keys_;
+    std::vector<TileSize> sizes_;
+    std::vector<AtlasPlace> places_;
+};
+
+}  // namespace nearfield::plan

@@ -1,0 +1,229 @@
+#include <engine/plan/round.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <engine/geometry/fill_mesh.hpp>
+#include <engine/geometry/offset_mesh.hpp>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Mesh;
+using geometry::PlacedPolygon;
+using geometry::Vector;
+
+// Edges longer than this, in cells, stand for themselves: their far ends may be cut off, so that
+// what is left has coordinates that a float can tell apart.
+constexpr double longest_run = 64.0;
+
+// Two distances closer than this part of d count as equal (PenetrationRecord::unique).
+constexpr double uniqueness_margin = 1e-3;
+
+DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
+    const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
+    const auto right = static_cast<float>(width);
+    const auto top = static_cast<float>(height);
+    const float corners[6][2] = {{0, 0}, {right, 0}, {right, top}, {0, 0}, {right, top}, {0, top}};
+    for (const auto& corner : corners) {
+        mesh.push_back({corner[0], corner[1], 1.0F, 0});
+    }
+    return range;
+}
+
+DrawRange since(std::size_t first, const Mesh& mesh) {
+    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(mesh.size() - first)};
+}
+
+}  // namespace
+
+void Round::clear() {
+    mesh.clear();
+    tiles.clear();
+    lists.clear();
+    points.clear();
+    point_index.clear();
+    distance_draws.clear();
+    overlap_draws.clear();
+    tile_index.clear();
+    field_values = 0;
+    overlap_cells = 0;
+}
+
+void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
+    round.clear();
+    tile_of_plan_.resize(plan.tiles.size());
+    for (std::uint32_t i = 0; i < plan.tiles.size(); ++i) {
+        const Tile& tile = plan.tiles[i];
+        if (tile.place.round != number) {
+            continue;
+        }
+        TileDraw draw;
+        draw.tile = static_cast<std::uint32_t>(round.tiles.size());
+        draw.x = tile.place.x;
+        draw.y = tile.place.y;
+        draw.width = tile.width;
+        draw.height = tile.height;
+        draw.rectangle = add_rectangle(tile.width, tile.height, round.mesh);
+        tile_of_plan_[i] = draw.tile;
+        round.tile_index.push_back(i);
+        TileData& data = round.tiles.emplace_back();
+        data.atlas_x = tile.place.x;
+        data.atlas_y = tile.place.y;
+        data.width = tile.width;
+        data.height = tile.height;
+        if (tile.kind == TileKind::overlap) {
+            add_overlap_tile(plan.queries[tile.query], tile, draw, round);
+        } else {
+            add_distance_tile(plan.queries[tile.query], tile, draw, round);
+        }
+    }
+    add_points(plan, number, round);
+}
+
+void RoundBuilder::find_needed_blocks(const Tile& tile) {
+    blocks_.clear();
+    const std::uint32_t side = tile.block_side();
+    for (std::uint32_t row = 0; row * side < tile.height; ++row) {
+        for (std::uint32_t column = 0; column * side < tile.width; ++column) {
+            const std::uint32_t block = row * blocks_along + column;
+            const bool needed = tile.kind == TileKind::field ||
+                                ((tile.needed_blocks[block / 64] >> (block % 64)) & 1U) != 0;
+            if (needed) {
+                const Vector low(column * side, row * side);
+                const Vector high(std::min((column + 1) * side, tile.width),
+                                  std::min((row + 1) * side, tile.height));
+                blocks_.push_back({0.5 * (low + high), 0.5 * (high - low).norm()});
+            }
+        }
+    }
+}
+
+DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
+                                 Mesh& mesh) const {
+    const std::size_t first = mesh.size();
+    const geometry::FillMesh fill(tile.width, tile.height, grid_);
+    for (const TileEdge& edge : edges) {
+        fill.append(edge.a, edge.b, mesh);
+    }
+    return since(first, mesh);
+}
+
+DrawRange RoundBuilder::add_distance_mesh(const geometry::DistanceMeshOptions& options,
+                                          Mesh& mesh) {
+    const std::size_t first = mesh.size();
+    list_position_.assign(boundary_.size(), no_simplified);
+    for (std::uint32_t i = 0; i < nearest_.edges.size(); ++i) {
+        list_position_[nearest_.edges[i].simplified] = i;
+    }
+    for (std::uint32_t i = 0; i < nearest_.edges.size(); ++i) {
+        const TileEdge& edge = nearest_.edges[i];
+        geometry::append_tent(edge.a, edge.b, nearest_.reach[i], i, options, mesh);
+        // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
+        // are in the list, and only as far as both can be nearest.
+        const std::uint32_t before = boundary_.previous[edge.simplified];
+        if (list_position_[before] != no_simplified) {
+            const double reach = std::min(nearest_.reach[i], nearest_.reach[list_position_[before]]);
+            geometry::append_cone_sector(boundary_.start(before), edge.a, edge.b, reach, i, options,
+                                         mesh);
+        }
+    }
+    return since(first, mesh);
+}
+
+void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                                     Round& round) {
+    const double cell = tile.grid.cell;
+    const ErrorBudget& budget = query.budget;
+    const ToCells to_cells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell);
+    boundary_.place(*query.b, shapes_.get(*query.b, budget.simplification, longest_run * cell),
+                    to_cells);
+    const double simplification = budget.simplification / cell;
+    const double mesh_error = budget.mesh / cell;
+
+    crossing_.clear();
+    crossing_edges(boundary_, tile.width, tile.height, simplification, crossing_);
+    draw.b = add_fill(crossing_, tile, round.mesh);
+
+    find_needed_blocks(tile);
+    finder_.find(boundary_, blocks_, simplification + mesh_error, nearest_);
+    draw.distance = add_distance_mesh({mesh_error, grid_}, round.mesh);
+    float farthest = 1.0F;
+    for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
+        farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
+    }
+    draw.depth_scale = 1.0F / (farthest * 1.0001F);
+
+    TileData& data = round.tiles[draw.tile];
+    round.lists.begin_tile(boundary_, to_cells);
+    const double side = std::max(tile.width, tile.height);
+    data.nearest = round.lists.write(nearest_.edges, side + 2.0 * nearest_.largest_reach + 4.0);
+    data.crossing = round.lists.write(crossing_, side + 4.0);
+    // The cell's centre is up to half a diagonal away, its distance and the fill are off by what
+    // simplification, the mesh and snapping change; the rest is for rounding.
+    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
+                                      2.0 * grid_.largest_move() + 0.01);
+    data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
+
+    if (tile.kind == TileKind::field) {
+        draw.field = true;
+        draw.first_value = round.field_values;
+        round.field_values += tile.width * tile.height;
+    }
+    round.distance_draws.push_back(draw);
+}
+
+DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, Mesh& mesh) const {
+    const std::size_t first = mesh.size();
+    for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
+        geometry::append_offset_polygon(boundary_.start(i), boundary_.end(i), offset, tile.width,
+                                        tile.height, grid_, (*boundary_.edges)[i].first, mesh);
+    }
+    return since(first, mesh);
+}
+
+void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                                    Round& round) {
+    const auto kind = std::get<IntersectionQuery>(*query.query).kind;
+    draw.part_a = kind == IntersectionKind::volume_volume ? Part::volume : Part::boundary;
+    draw.part_b = kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
+    const double cell = tile.grid.cell;
+    const double simplification = query.budget.simplification;
+    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part) {
+        const ToCells to_cells(PlacedPolygon(polygon, pose), tile.origin(), cell);
+        boundary_.place(polygon, shapes_.get(polygon, simplification, longest_run * cell),
+                        to_cells);
+        if (part == Part::boundary) {
+            return add_boundary(tile, query.budget.offset / cell, round.mesh);
+        }
+        crossing_.clear();
+        crossing_edges(boundary_, tile.width, tile.height, simplification / cell, crossing_);
+        return add_fill(crossing_, tile, round.mesh);
+    };
+    draw.b = add(*query.b, query.pose_b, draw.part_b);
+    draw.a = add(*query.a, query.pose_a, draw.part_a);
+    round.overlap_cells += std::uint64_t{tile.width} * tile.height;
+    round.overlap_draws.push_back(draw);
+}
+
+void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& round) {
+    for (const PlannedQuery& query : plan.queries) {
+        if (query.point_count == 0) {
+            continue;
+        }
+        const PlacedPolygon a(*query.a, query.pose_a);
+        for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+            const PlannedPoint& point = plan.points[i];
+            const Tile& tile = plan.tiles[point.tile];
+            if (tile.place.round == number) {
+                const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
+                round.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+                                        tile_of_plan_[point.tile], 0});
+                round.point_index.push_back(i);
+            }
+        }
+    }
+}
+
+}  // namespace nearfield::plan
