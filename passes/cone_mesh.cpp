@@ -1,0 +1,59 @@
+#include <passes/cone_mesh.hpp>
+
+#include <engine/gpu/pipeline.hpp>
+#include <passes/stencil_pipelines.hpp>
+#include <passes/tile_renderer.hpp>
+#include <shaders/constant_frag.hpp>
+#include <shaders/feature_frag.hpp>
+#include <shaders/mesh_vert.hpp>
+
+namespace nearfield::passes {
+
+ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+                   const Frame& frame)
+    : device_(&device), layout_(layout), frame_(&frame) {
+    gpu::GraphicsPipelineDescription description;
+    description.render_pass = render_pass;
+    description.layout = layout;
+    description.vertex_shader = shaders::mesh_vert;
+    description.depth_test = true;
+
+    description.name = "nearfield distance clear";
+    description.fragment_shader = shaders::constant_frag;
+    description.depth_compare = VK_COMPARE_OP_ALWAYS;
+    clear_ = gpu::make_graphics_pipeline(device, description);
+
+    description.name = "nearfield distance mesh";
+    description.fragment_shader = shaders::feature_frag;
+    description.depth_compare = VK_COMPARE_OP_LESS;
+    draw_ = gpu::make_graphics_pipeline(device, description);
+}
+
+graph::Handle ConeMesh::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    graph::Handle features = graph.create_image({"features", number_format, extent});
+    const graph::Handle depth = graph.create_image({"distance", distance_depth_format, extent});
+    graph.add_pass(
+        "cone mesh", graph::PassKind::graphics,
+        [&](graph::PassBuilder& pass) {
+            pass.read(mesh, graph::Access::vertex_buffer);
+            features = pass.write(features, graph::Access::color_attachment);
+            static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
+        },
+        [this](VkCommandBuffer commands) { record(commands); });
+    return features;
+}
+
+void ConeMesh::record(VkCommandBuffer commands) const {
+    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    renderer.stencil(0, 0, 0);
+    renderer.bind(clear_.get());
+    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        renderer.draw(tile, tile.rectangle, 1.0F, plan::no_feature);
+    }
+    renderer.bind(draw_.get());
+    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        renderer.draw(tile, tile.distance, tile.depth_scale, 0);
+    }
+}
+
+}  // namespace nearfield::passes

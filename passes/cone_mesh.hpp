@@ -1,0 +1,35 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/frame.hpp>
+
+namespace nearfield::passes {
+
+/// The distance mesh of B (section 2.2.2 of the paper): tents and cones with the depth test LESS.
+/// Reads the mesh; writes the feature image (which edge of the tile's list of nearest edges won) in
+/// every tile with a distance field. How far it is, the depth, is computed again from the feature
+/// by those who need it, so the depth image is forgotten.
+class ConeMesh {
+public:
+    ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+             const Frame& frame);
+
+    /// Adds the pass; returns the feature image.
+    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+
+private:
+    void record(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    const Frame* frame_;
+    gpu::Owned<VkPipeline> clear_;
+    gpu::Owned<VkPipeline> draw_;
+};
+
+/// The formats of the pass, for its render pass.
+inline constexpr VkFormat distance_depth_format = VK_FORMAT_D32_SFLOAT;
+
+}  // namespace nearfield::passes

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/frame.hpp>
+#include <passes/stencil_pipelines.hpp>
+
+namespace nearfield::passes {
+
+/// Polygon fill of B by stencil parity: the sign of the distance field (section 2.2.2 of the paper,
+/// first encoding). Reads the mesh; writes the sign image, 1 inside B and 0 outside, in every tile
+/// with a distance field.
+class Fill {
+public:
+    Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,
+         const Frame& frame)
+        : device_(&device), layout_(layout), pipelines_(&pipelines), frame_(&frame) {}
+
+    /// Adds the pass; returns the sign image.
+    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+
+private:
+    void record(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    const StencilPipelines* pipelines_;
+    const Frame* frame_;
+};
+
+}  // namespace nearfield::passes

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+
+#include <vulkan/vulkan_core.h>
+
+#include <engine/plan/round.hpp>
+
+namespace nearfield::passes {
+
+/// What all passes record from. One object lives as long as the passes; its contents change from
+/// round to round.
+struct Frame {
+    const plan::Round* round = nullptr;
+    VkBuffer mesh = VK_NULL_HANDLE;  ///< the round's mesh, at offset 0
+    VkDescriptorSet points = VK_NULL_HANDLE;
+    VkDescriptorSet field = VK_NULL_HANDLE;
+    VkDescriptorSet samples = VK_NULL_HANDLE;
+    std::uint32_t sample_capacity = 0;  ///< samples that the read-back has room for
+};
+
+}  // namespace nearfield::passes

@@ -1,0 +1,53 @@
+#include <passes/resolve_points.hpp>
+
+#include <algorithm>
+
+#include <engine/gpu/pipeline.hpp>
+#include <shaders/resolve_points_comp.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+constexpr std::uint32_t group_size = 64;
+// The smallest maxComputeWorkGroupCount a device may have.
+constexpr std::uint32_t most_groups = 65535;
+
+}  // namespace
+
+ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
+                             const Frame& frame)
+    : device_(&device),
+      layout_(layout.pipeline_layout()),
+      frame_(&frame),
+      pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_points_comp,
+                                           "nearfield resolve points")) {}
+
+void ResolvePoints::declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
+                            graph::Handle sign, graph::Handle results) const {
+    graph.add_pass(
+        "resolve points", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(input, graph::Access::storage_read_in_compute);
+            pass.read(features, graph::Access::sampled_in_compute);
+            pass.read(sign, graph::Access::sampled_in_compute);
+            static_cast<void>(pass.write(results, graph::Access::storage_write_in_compute));
+        },
+        [this](VkCommandBuffer commands) { record(commands); });
+}
+
+void ResolvePoints::record(VkCommandBuffer commands) const {
+    const gpu::Functions& functions = device_->functions();
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
+                                      &frame_->points, 0, nullptr);
+    const auto count = static_cast<std::uint32_t>(frame_->round->points.size());
+    for (std::uint32_t first = 0; first < count; first += most_groups * group_size) {
+        const std::uint32_t push[2] = {first, count};
+        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(push), push);
+        const std::uint32_t groups = (count - first + group_size - 1) / group_size;
+        functions.vkCmdDispatch(commands, std::min(groups, most_groups), 1, 1);
+    }
+}
+
+}  // namespace nearfield::passes

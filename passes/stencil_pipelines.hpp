@@ -1,0 +1,31 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+
+namespace nearfield::passes {
+
+/// The format of an image that passes write unsigned numbers into: signs, edges, features.
+inline constexpr VkFormat number_format = VK_FORMAT_R32_UINT;
+
+/// The steps that polygon fill and the stencil method of the paper's Table 1 are made of. Stencil
+/// bits: the low ones count, the two high ones hold the parity of a fill in progress.
+struct StencilPipelines {
+    StencilPipelines(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
+
+    gpu::Owned<VkPipeline> clear;   ///< stencil := reference, colour := constant
+    gpu::Owned<VkPipeline> parity;  ///< invert the written bits
+    gpu::Owned<VkPipeline> set;     ///< stencil := reference
+    gpu::Owned<VkPipeline> count;   ///< where the compared bits equal the reference: add 1
+    gpu::Owned<VkPipeline> mark;    ///< where they equal it: colour := constant
+    gpu::Owned<VkPipeline> hit;     ///< where they equal it: add 1 and colour := id of the feature
+};
+
+namespace stencil_bits {
+inline constexpr std::uint32_t all = 0xff;
+inline constexpr std::uint32_t counter = 0x0f;
+inline constexpr std::uint32_t parity_a = 0x40;
+inline constexpr std::uint32_t parity_b = 0x80;
+}  // namespace stencil_bits
+
+}  // namespace nearfield::passes
