@@ -1,0 +1,248 @@
+#include <nearfield/context.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <engine/failure.hpp>
+#include <engine/geometry/polygon.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/headless.hpp>
+#include <engine/plan/planner.hpp>
+#include <engine/plan/round.hpp>
+#include <engine/renderer.hpp>
+#include <engine/results.hpp>
+
+namespace nearfield {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Turns whatever an action throws into a status: no exception crosses the interface.
+template <class Action>
+Status guarded(Action&& action) {
+    try {
+        action();
+        return {};
+    } catch (const Failure& failure) {
+        return failure.status();
+    } catch (const std::bad_alloc&) {
+        return {StatusCode::out_of_memory, "the host has no memory left"};
+    } catch (const std::exception& error) {
+        return {StatusCode::device_error, error.what()};
+    }
+}
+
+geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
+    return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
+}
+
+plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings) {
+    plan::PlanLimits limits;
+    limits.subpixel = subpixel_grid(device);
+    limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
+    limits.largest_tile = std::min(limits.largest_tile, limits.largest_atlas);
+    limits.memory = settings.memory_limit;
+    limits.hierarchy_height = settings.hierarchy_height;
+    return limits;
+}
+
+}  // namespace
+
+class Context::Implementation {
+public:
+    Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
+                   const Settings& settings)
+        : own_device_(std::move(own)),
+          device_(host),
+          planner_(plan_limits(device_, settings)),
+          builder_(subpixel_grid(device_)),
+          renderer_(device_) {}
+
+    Expected<ShapeHandle> add_shape(std::span<const Ring> rings);
+    Status update_shape(ShapeHandle handle, std::span<const Ring> rings);
+    Status remove_shape(ShapeHandle handle);
+    Status run(const Batch& batch, Results& results);
+
+    [[nodiscard]] const gpu::Device& device() const { return device_; }
+    [[nodiscard]] const Renderer& renderer() const { return renderer_; }
+
+private:
+    struct Slot {
+        // Kept on removal, so that the next shape in this slot reuses its memory.
+        std::unique_ptr<geometry::Polygon> polygon = std::make_unique<geometry::Polygon>();
+        std::uint32_t generation = 0;
+        bool alive = false;
+    };
+
+    [[nodiscard]] geometry::Polygon* find(ShapeHandle handle);
+    void run_batch(const Batch& batch, Results& results);
+
+    std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
+    gpu::Device device_;
+    std::vector<Slot> slots_;
+    std::vector<std::uint32_t> free_slots_;
+    plan::Planner planner_;
+    plan::RoundBuilder builder_;
+    Renderer renderer_;
+    plan::Plan plan_;
+    plan::Round round_;
+    ResultDecoder decoder_;
+    bool lost_ = false;
+};
+
+geometry::Polygon* Context::Implementation::find(ShapeHandle handle) {
+    if (handle.index >= slots_.size()) {
+        return nullptr;
+    }
+    Slot& slot = slots_[handle.index];
+    return slot.alive && slot.generation == handle.generation ? slot.polygon.get() : nullptr;
+}
+
+Expected<ShapeHandle> Context::Implementation::add_shape(std::span<const Ring> rings) {
+    if (free_slots_.empty()) {
+        free_slots_.push_back(static_cast<std::uint32_t>(slots_.size()));
+        slots_.emplace_back();
+    }
+    const std::uint32_t index = free_slots_.back();
+    Slot& slot = slots_[index];
+    if (Status status = slot.polygon->assign(rings); !status.ok()) {
+        return status;
+    }
+    free_slots_.pop_back();
+    slot.alive = true;
+    return ShapeHandle{index, slot.generation};
+}
+
+Status Context::Implementation::update_shape(ShapeHandle handle, std::span<const Ring> rings) {
+    geometry::Polygon* polygon = find(handle);
+    if (polygon == nullptr) {
+        return {StatusCode::unknown_shape, "update_shape: no shape of this context has index " +
+                                               std::to_string(handle.index) +
+                                               " and that generation"};
+    }
+    return polygon->assign(rings);
+}
+
+Status Context::Implementation::remove_shape(ShapeHandle handle) {
+    if (find(handle) == nullptr) {
+        return {StatusCode::unknown_shape, "remove_shape: no shape of this context has index " +
+                                               std::to_string(handle.index) +
+                                               " and that generation"};
+    }
+    Slot& slot = slots_[handle.index];
+    slot.alive = false;
+    ++slot.generation;
+    free_slots_.push_back(handle.index);
+    return {};
+}
+
+Status Context::Implementation::run(const Batch& batch, Results& results) {
+    if (lost_) {
+        return {StatusCode::device_lost,
+                "the device was lost in an earlier batch; destroy this context and make another"};
+    }
+    const Status status = guarded([&] { run_batch(batch, results); });
+    lost_ = status.code() == StatusCode::device_lost;
+    return status;
+}
+
+void Context::Implementation::run_batch(const Batch& batch, Results& results) {
+    const auto start = Clock::now();
+    Timings& timings = results.timings;
+    timings.plan = timings.record = timings.device = timings.decode = 0.0;
+    timings.passes.clear();
+
+    planner_.plan(
+        batch.queries(), [this](ShapeHandle handle) { return find(handle); }, plan_,
+        results.results);
+    timings.localize = planner_.localize_milliseconds();
+    timings.plan = milliseconds_since(start) - timings.localize;
+
+    builder_.begin_batch();
+    decoder_.begin_batch(plan_);
+    for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
+        const auto build_start = Clock::now();
+        builder_.build(plan_, number, round_);
+        timings.plan += milliseconds_since(build_start);
+        renderer_.render(round_, plan_.extent, timings);
+
+        const auto decode_start = Clock::now();
+        decoder_.add_points(round_, renderer_.points());
+        decoder_.add_field_values(plan_, round_, renderer_.field_values(), results.results);
+        decoder_.add_samples(plan_, round_, renderer_.samples());
+        timings.decode += milliseconds_since(decode_start);
+    }
+    const auto decode_start = Clock::now();
+    decoder_.finish(plan_, results.results);
+    timings.decode += milliseconds_since(decode_start);
+    timings.total = milliseconds_since(start);
+}
+
+Context::Context(std::unique_ptr<Implementation> implementation) noexcept
+    : implementation_(std::move(implementation)) {}
+Context::~Context() = default;
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+
+Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
+    std::unique_ptr<Implementation> implementation;
+    Status status = guarded(
+        [&] { implementation = std::make_unique<Implementation>(nullptr, host, settings); });
+    if (!status.ok()) {
+        return status;
+    }
+    return Context(std::move(implementation));
+}
+
+Expected<Context> Context::create_headless(const HeadlessOptions& options,
+                                           const Settings& settings) {
+    std::unique_ptr<Implementation> implementation;
+    Status status = guarded([&] {
+        auto own = std::make_unique<gpu::HeadlessDevice>(options);
+        const HostDevice host = own->host();
+        implementation = std::make_unique<Implementation>(std::move(own), host, settings);
+    });
+    if (!status.ok()) {
+        return status;
+    }
+    return Context(std::move(implementation));
+}
+
+Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings) {
+    Expected<ShapeHandle> handle = ShapeHandle{};
+    Status status = guarded([&] { handle = implementation_->add_shape(rings); });
+    return status.ok() ? handle : Expected<ShapeHandle>(status);
+}
+
+Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings) {
+    Status result;
+    Status status = guarded([&] { result = implementation_->update_shape(shape, rings); });
+    return status.ok() ? result : status;
+}
+
+Status Context::remove_shape(ShapeHandle shape) {
+    return implementation_->remove_shape(shape);
+}
+
+Status Context::run(const Batch& batch, Results& results) {
+    return implementation_->run(batch, results);
+}
+
+const std::string& Context::device_name() const noexcept {
+    return implementation_->device().name();
+}
+
+std::string Context::describe_graph(GraphFormat format) const {
+    return implementation_->renderer().print(format);
+}
+
+}  // namespace nearfield

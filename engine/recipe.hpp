@@ -1,0 +1,89 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/execute.hpp>
+#include <engine/graph/graph.hpp>
+#include <nearfield/context.hpp>
+#include <passes/collect.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/cone_mesh.hpp>
+#include <passes/fill.hpp>
+#include <passes/frame.hpp>
+#include <passes/intersect.hpp>
+#include <passes/resolve_field.hpp>
+#include <passes/resolve_points.hpp>
+#include <passes/stencil_pipelines.hpp>
+
+namespace nearfield {
+
+/// What a round asks for.
+struct Needs {
+    bool points = false;
+    bool field = false;
+    bool overlap = false;
+
+    friend bool operator==(const Needs&, const Needs&) = default;
+};
+
+/// Every pass with its pipelines. Made once; recipes put them together.
+class Passes {
+public:
+    Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
+           const passes::Frame& frame);
+
+private:
+    // Render passes that pipelines are made for; those that graphs make are compatible with them.
+    gpu::Owned<VkRenderPass> stencil_render_pass_;
+    gpu::Owned<VkRenderPass> distance_render_pass_;
+    gpu::Owned<VkPipelineLayout> draw_layout_;
+    passes::StencilPipelines stencil_;
+
+public:
+    passes::Fill fill;
+    passes::ConeMesh cone_mesh;
+    passes::Intersect intersect;
+    passes::ResolvePoints resolve_points;
+    passes::ResolveField resolve_field;
+    passes::Collect collect;
+};
+
+/// The render graph that answers some needs on an atlas of some size, baked.
+class Recipe {
+public:
+    Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkExtent2D extent);
+
+    [[nodiscard]] Needs needs() const { return needs_; }
+    [[nodiscard]] VkExtent2D extent() const { return extent_; }
+
+    /// The buffers behind the graph's handles: the mesh, the compute passes' input, and what comes
+    /// back.
+    void set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer read_back);
+    /// Points the images of the frame's descriptor sets to this recipe's images.
+    void bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const;
+
+    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
+        executor_->execute(graph_, commands, timestamps);
+    }
+
+    [[nodiscard]] std::string print(GraphFormat format) const;
+
+private:
+    Needs needs_;
+    VkExtent2D extent_;
+    graph::Graph graph_;
+    graph::Handle mesh_;
+    graph::Handle input_;
+    graph::Handle results_;
+    graph::Handle values_;
+    graph::Handle samples_;
+    graph::Handle features_;
+    graph::Handle sign_;
+    graph::Handle hits_;
+    std::unique_ptr<graph::Executor> executor_;
+};
+
+}  // namespace nearfield

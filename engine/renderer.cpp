@@ -1,0 +1,210 @@
+#include <engine/renderer.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include <engine/failure.hpp>
+
+namespace nearfield {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t most_passes = 8;
+constexpr std::uint32_t smallest_atlas = 256;
+
+double milliseconds_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+template <class Element>
+std::uint64_t bytes_of(const std::vector<Element>& elements) {
+    return elements.size() * sizeof(Element);
+}
+
+template <class Element>
+void copy_to(std::byte* target, const std::vector<Element>& elements) {
+    if (!elements.empty()) {
+        std::memcpy(target, elements.data(), bytes_of(elements));
+    }
+}
+
+}  // namespace
+
+Renderer::Renderer(const gpu::Device& device)
+    : device_(&device),
+      layout_(device),
+      passes_(device, layout_, frame_),
+      submission_(device),
+      timestamps_(device, most_passes),
+      mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+             "nearfield input"),
+      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+                 "nearfield read-back") {
+    frame_.points = layout_.set(0);
+    frame_.field = layout_.set(1);
+    frame_.samples = layout_.set(2);
+}
+
+std::uint64_t Renderer::align(std::uint64_t offset) const {
+    const std::uint64_t step = device_->limits().minStorageBufferOffsetAlignment;
+    return (offset + step - 1) / step * step;
+}
+
+void Renderer::require_range(std::uint64_t bytes, const char* what) const {
+    const std::uint64_t most = device_->limits().maxStorageBufferRange;
+    if (bytes > most) {
+        throw Failure({StatusCode::too_large, std::string(what) + " take " + std::to_string(bytes) +
+                                                  " bytes; a storage buffer of this device holds " +
+                                                  std::to_string(most)});
+    }
+}
+
+Recipe& Renderer::recipe_for(Needs needs, plan::TileSize extent) {
+    VkExtent2D atlas{smallest_atlas, smallest_atlas};
+    for (const auto& recipe : recipes_) {
+        if (recipe->needs() == needs) {
+            if (recipe->extent().width >= extent.width && recipe->extent().height >= extent.height) {
+                return *recipe;
+            }
+            atlas = recipe->extent();
+        }
+    }
+    // Powers of two, so that an atlas that grows a little each frame is not made anew each frame.
+    while (atlas.width < extent.width) {
+        atlas.width *= 2;
+    }
+    while (atlas.height < extent.height) {
+        atlas.height *= 2;
+    }
+    last_recipe_ = nullptr;
+    std::erase_if(recipes_, [&](const auto& recipe) { return recipe->needs() == needs; });
+    recipes_.push_back(std::make_unique<Recipe>(*device_, passes_, needs, atlas));
+    return *recipes_.back();
+}
+
+Renderer::InputParts Renderer::upload(const plan::Round& round) {
+    const auto& geometry = round.lists.geometry();
+    InputParts parts;
+    parts.geometry = align(bytes_of(round.tiles));
+    parts.points = align(parts.geometry + bytes_of(geometry));
+    parts.end = parts.points + bytes_of(round.points);
+    require_range(bytes_of(geometry), "the edges of one round");
+    require_range(bytes_of(round.points), "the points of one round");
+    input_.reserve(parts.end);
+    copy_to(input_.data() + parts.tiles, round.tiles);
+    copy_to(input_.data() + parts.geometry, geometry);
+    copy_to(input_.data() + parts.points, round.points);
+    input_.flush();
+    mesh_.reserve(bytes_of(round.mesh));
+    copy_to(mesh_.data(), round.mesh);
+    mesh_.flush();
+    return parts;
+}
+
+void Renderer::lay_out_output(const plan::Round& round) {
+    const std::uint64_t point_bytes = round.points.size() * sizeof(std::uint32_t);
+    const std::uint64_t value_bytes = round.field_values * sizeof(float);
+    const std::uint64_t sample_bytes =
+        sizeof(std::uint32_t) + frame_.sample_capacity * sizeof(plan::SampleData);
+    output_.values = align(point_bytes);
+    output_.samples = align(output_.values + value_bytes);
+    output_.end = output_.samples + sample_bytes;
+    require_range(std::max({point_bytes, value_bytes, sample_bytes}), "the results of one round");
+    read_back_.reserve(output_.end);
+    std::memset(read_back_.data() + output_.samples, 0, sizeof(std::uint32_t));
+    read_back_.flush();
+}
+
+void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputParts& input) {
+    using Layout = passes::ComputeLayout;
+    // A range of no bytes is not allowed; a pass without work reads nothing.
+    const auto write = [&](VkDescriptorSet set, Layout::Binding binding,
+                           const gpu::MappedBuffer& buffer, std::uint64_t from, std::uint64_t to) {
+        layout_.write_buffer(set, binding, buffer.handle(), from, std::max<std::uint64_t>(to - from, 16));
+    };
+    const auto write_tiles = [&](VkDescriptorSet set) {
+        write(set, Layout::tiles, input_, 0, bytes_of(round.tiles));
+        write(set, Layout::geometry, input_, input.geometry,
+              input.geometry + bytes_of(round.lists.geometry()));
+    };
+    if (recipe.needs().points) {
+        write_tiles(frame_.points);
+        write(frame_.points, Layout::points, input_, input.points, input.end);
+        write(frame_.points, Layout::output, read_back_, output_.points, output_.values);
+    }
+    if (recipe.needs().field) {
+        write_tiles(frame_.field);
+        write(frame_.field, Layout::output, read_back_, output_.values, output_.samples);
+    }
+    if (recipe.needs().overlap) {
+        write_tiles(frame_.samples);
+        write(frame_.samples, Layout::output, read_back_, output_.samples, output_.end);
+    }
+    recipe.bind_images(layout_, frame_);
+}
+
+void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
+    const auto start = Clock::now();
+    const Needs needs{!round.points.empty(), round.field_values > 0, !round.overlap_draws.empty()};
+    Recipe& recipe = recipe_for(needs, extent);
+    last_recipe_ = &recipe;
+    const InputParts input = upload(round);
+    frame_.round = &round;
+    frame_.mesh = mesh_.handle();
+    frame_.sample_capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+        round.overlap_cells,
+        std::max<std::uint64_t>(frame_.sample_capacity, 4096 + round.overlap_cells / 8)));
+    timings.plan += milliseconds_since(start);
+
+    for (;;) {
+        lay_out_output(round);
+        recipe.set_buffers(mesh_.handle(), input_.handle(), read_back_.handle());
+        bind(recipe, round, input);
+        submit_and_wait(recipe, timings);
+        std::memcpy(&sample_count_, read_back_.data() + output_.samples, sizeof(sample_count_));
+        if (sample_count_ <= frame_.sample_capacity) {
+            return;
+        }
+        frame_.sample_capacity = sample_count_;
+    }
+}
+
+void Renderer::submit_and_wait(const Recipe& recipe, Timings& timings) {
+    const auto start = Clock::now();
+    const VkCommandBuffer commands = submission_.begin();
+    timestamps_.reset(commands);
+    recipe.execute(commands, timestamps_);
+    timings.record += milliseconds_since(start);
+
+    const auto submitted = Clock::now();
+    submission_.submit();
+    submission_.wait();
+    timings.device += milliseconds_since(submitted);
+    timestamps_.collect(timings.passes);
+    read_back_.invalidate();
+}
+
+std::span<const std::uint32_t> Renderer::points() const {
+    return {reinterpret_cast<const std::uint32_t*>(read_back_.data() + output_.points),
+            frame_.round->points.size()};
+}
+
+std::span<const float> Renderer::field_values() const {
+    return {reinterpret_cast<const float*>(read_back_.data() + output_.values),
+            frame_.round->field_values};
+}
+
+std::span<const plan::SampleData> Renderer::samples() const {
+    return {reinterpret_cast<const plan::SampleData*>(read_back_.data() + output_.samples +
+                                                      sizeof(std::uint32_t)),
+            sample_count_};
+}
+
+std::string Renderer::print(GraphFormat format) const {
+    return last_recipe_ == nullptr ? std::string() : last_recipe_->print(format);
+}
+
+}  // namespace nearfield

@@ -1,0 +1,160 @@
+#include <engine/results.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/overlap.hpp>
+
+namespace nearfield {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Vector;
+using plan::PlannedPoint;
+using plan::PlannedQuery;
+using plan::Tile;
+
+/// The device decides on which side of the boundary a point lies in single precision, in cells of a
+/// tile. A point nearer to the boundary than this could lie on either side: it touches.
+double touching_distance(const Tile& tile) {
+    const double side = std::max({tile.width, tile.height, 64U});
+    return tile.grid.cell * std::ldexp(side, -21);
+}
+
+/// The record of a point whose nearest edge of B is known, in double precision.
+PenetrationRecord make_record(const PlacedPolygon& b, const Vector& point, std::uint32_t edge,
+                              bool unique) {
+    const std::uint32_t next = b.polygon().next(edge);
+    const auto nearest = geometry::nearest_on_segment(point, b.vertex(edge), b.vertex(next));
+    PenetrationRecord record;
+    record.point = geometry::to_public(point);
+    record.depth = std::sqrt(nearest.squared_distance);
+    record.nearest = geometry::to_public(nearest.point);
+    record.direction = geometry::to_public((nearest.point - point) / record.depth);
+    record.unique = unique;
+    if (nearest.parameter <= 0.0) {
+        record.feature = {Feature::Kind::vertex, edge};
+    } else if (nearest.parameter >= 1.0) {
+        record.feature = {Feature::Kind::vertex, next};
+    } else {
+        record.feature = {Feature::Kind::edge, edge};
+    }
+    return record;
+}
+
+bool shapes_intersect(const PlannedQuery& query) {
+    return localize::intersects(PlacedPolygon(*query.a, query.pose_a),
+                                PlacedPolygon(*query.b, query.pose_b));
+}
+
+}  // namespace
+
+void ResultDecoder::begin_batch(const plan::Plan& plan) {
+    words_.resize(plan.points.size());
+    samples_.clear();
+}
+
+void ResultDecoder::add_points(const plan::Round& round, std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        words_[round.point_index[i]] = words[i];
+    }
+}
+
+void ResultDecoder::add_field_values(const plan::Plan& plan, const plan::Round& round,
+                                     std::span<const float> values,
+                                     std::vector<AnyResult>& results) const {
+    for (const plan::TileDraw& draw : round.distance_draws) {
+        if (!draw.field) {
+            continue;
+        }
+        const Tile& tile = plan.tiles[round.tile_index[draw.tile]];
+        auto& result = std::get<DistanceFieldResult>(results[tile.query]);
+        const auto cell = static_cast<float>(tile.grid.cell);
+        for (std::uint32_t row = 0; row < tile.height; ++row) {
+            const auto from = values.subspan(draw.first_value + row * tile.width, tile.width);
+            float* to = result.values.data() + (tile.row + row) * result.width + tile.column;
+            std::transform(from.begin(), from.end(), to,
+                           [cell](float value) { return value * cell; });
+        }
+    }
+}
+
+void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round,
+                                std::span<const plan::SampleData> samples) {
+    for (const plan::SampleData& sample : samples) {
+        const std::uint32_t index = round.tile_index[sample.tile];
+        const Tile& tile = plan.tiles[index];
+        samples_.push_back({tile.query, tile.region, tile.row + (sample.cell >> 16U),
+                            tile.column + (sample.cell & 0xffffU), sample.edge, index});
+    }
+}
+
+void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
+                                       PenetrationResult& result) const {
+    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count; ++i) {
+        const std::uint32_t word = words_[i];
+        if ((word & plan::point_inside) == 0) {
+            continue;
+        }
+        const PlannedPoint& point = plan.points[i];
+        const PenetrationRecord record =
+            make_record(b, position(a, point.point), word & plan::point_edge_mask,
+                        (word & plan::point_unique) != 0);
+        if (record.depth <= touching_distance(plan.tiles[point.tile])) {
+            continue;
+        }
+        if (result.count == 0 || record.depth > result.deepest.depth) {
+            result.deepest = record;
+        }
+        ++result.count;
+        if (keep) {
+            result.records.push_back(record);
+        }
+    }
+    result.intersects = result.count > 0 || shapes_intersect(planned);
+}
+
+void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results) {
+    // The device found them in no particular order; the result has one.
+    std::sort(samples_.begin(), samples_.end());
+    for (const FoundSample& sample : samples_) {
+        const auto& query = std::get<IntersectionQuery>(*plan.queries[sample.query].query);
+        auto& result = std::get<IntersectionResult>(results[sample.query]);
+        ++result.count;
+        if (query.records) {
+            const plan::Grid& grid = plan.tiles[sample.tile].grid;
+            const Vector centre(static_cast<double>(sample.column) + 0.5,
+                                static_cast<double>(sample.row) + 0.5);
+            const bool by_edge = query.kind != IntersectionKind::volume_volume;
+            result.samples.push_back({geometry::to_public(grid.origin + grid.cell * centre),
+                                      by_edge ? sample.edge : IntersectionSample::no_edge});
+        }
+    }
+}
+
+void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
+    finish_intersections(plan, results);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const PlannedQuery& planned = plan.queries[i];
+        if (auto* penetration = std::get_if<PenetrationResult>(&results[i])) {
+            if (penetration->status.ok()) {
+                finish_penetration(plan, planned, *penetration);
+            }
+        } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
+            if (intersection->status.ok()) {
+                intersection->area = static_cast<double>(intersection->count) *
+                                     intersection->cell * intersection->cell;
+                intersection->intersects = shapes_intersect(planned);
+            }
+        } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
+            field->intersects =
+                field->status.ok() && planned.a != nullptr && shapes_intersect(planned);
+        }
+    }
+}
+
+}  // namespace nearfield

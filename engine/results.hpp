@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <engine/plan/plan.hpp>
+#include <engine/plan/round.hpp>
+#include <nearfield/result.hpp>
+
+namespace nearfield {
+
+/// Decodes what came back from the device, round by round, and makes it exact in double precision.
+class ResultDecoder {
+public:
+    void begin_batch(const plan::Plan& plan);
+
+    /// Takes the read-back of one round.
+    void add_points(const plan::Round& round, std::span<const std::uint32_t> words);
+    void add_field_values(const plan::Plan& plan, const plan::Round& round,
+                          std::span<const float> values, std::vector<AnyResult>& results) const;
+    void add_samples(const plan::Plan& plan, const plan::Round& round,
+                     std::span<const plan::SampleData> samples);
+
+    /// After the last round: writes penetration and intersection results.
+    void finish(const plan::Plan& plan, std::vector<AnyResult>& results);
+
+private:
+    struct FoundSample {
+        std::uint32_t query = 0;
+        std::uint32_t region = 0;
+        std::uint64_t row = 0;
+        std::uint64_t column = 0;
+        std::uint32_t edge = 0;
+        std::uint32_t tile = 0;
+        auto operator<=>(const FoundSample&) const = default;
+    };
+
+    void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
+                            PenetrationResult& result) const;
+    void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
+
+    std::vector<std::uint32_t> words_;  // by point of the plan
+    std::vector<FoundSample> samples_;
+};
+
+}  // namespace nearfield
