@@ -1,0 +1,123 @@
+#include <engine/failure.hpp>
+#include <engine/gpu/buffer.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace nearfield::gpu {
+namespace {
+
+// A readback buffer is read by the processor, which is slow where the memory is not cached; an
+// upload buffer is read by the device once a frame, best from its own side.
+VkMemoryPropertyFlags preferred_memory(Direction direction) {
+    return VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+           (direction == Direction::readback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                                             : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+}
+
+}  // namespace
+
+MappedBuffer::MappedBuffer(const Device& device, VkBufferUsageFlags usage, Direction direction,
+                           std::string name)
+    : device_(&device), usage_(usage), direction_(direction), name_(std::move(name)) {}
+
+bool MappedBuffer::reserve(std::uint64_t bytes) {
+    bytes = std::max<std::uint64_t>(bytes, 1);
+    if (bytes <= capacity_) {
+        return false;
+    }
+    const std::uint64_t capacity = grown(bytes);
+    // The former buffer goes first, so that both never need memory at the same time.
+    capacity_ = 0;
+    data_ = nullptr;
+    buffer_.reset();
+    memory_.reset();
+    create_buffer(capacity);
+    allocate_memory();
+    capacity_ = capacity;
+    return true;
+}
+
+std::uint64_t MappedBuffer::grown(std::uint64_t bytes) const {
+    constexpr std::uint64_t step = 65536;
+    const std::uint64_t limit = (usage_ & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0
+                                    ? device_->limits().maxStorageBufferRange
+                                    : std::numeric_limits<std::uint64_t>::max() / 4;
+    if (bytes > limit) {
+        throw Failure(Status(StatusCode::too_large,
+                             "buffer '" + name_ + "' would need " + std::to_string(bytes) +
+                                 " bytes, but device '" + device_->name() + "' allows " +
+                                 std::to_string(limit) + " (maxStorageBufferRange)"));
+    }
+    const std::uint64_t wanted = std::max(bytes, capacity_ + capacity_ / 2);
+    return std::min((wanted + step - 1) / step * step, limit);
+}
+
+void MappedBuffer::create_buffer(std::uint64_t bytes) {
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+    info.size = bytes;
+    info.usage = usage_;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    check(device_->functions().vkCreateBuffer(device_->handle(), &info, nullptr, &buffer),
+          "vkCreateBuffer", "buffer '" + name_ + "'");
+    buffer_ = Owned<VkBuffer>(*device_, buffer);
+    device_->name_object(VK_OBJECT_TYPE_BUFFER, buffer, name_);
+}
+
+void MappedBuffer::allocate_memory() {
+    const Functions& functions = device_->functions();
+    const std::string what = "the memory of buffer '" + name_ + "'";
+    VkMemoryRequirements needs{};
+    functions.vkGetBufferMemoryRequirements(device_->handle(), buffer_.get(), &needs);
+
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = needs.size;
+    info.memoryTypeIndex = device_->memory_type(
+        needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, preferred_memory(direction_));
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkResult result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        // The part of device memory that the host can see is often small; plain host memory, which
+        // comes first in the specification's order of types, is slower and still right.
+        info.memoryTypeIndex =
+            device_->memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, 0);
+        result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
+    }
+    check(result, "vkAllocateMemory", what);
+    memory_ = Owned<VkDeviceMemory>(*device_, memory);
+    device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_);
+    coherent_ =
+        (device_->memory_flags(info.memoryTypeIndex) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+
+    check(functions.vkBindBufferMemory(device_->handle(), buffer_.get(), memory, 0),
+          "vkBindBufferMemory", what);
+    void* data = nullptr;
+    check(functions.vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &data),
+          "vkMapMemory", what);
+    data_ = static_cast<std::byte*>(data);
+}
+
+void MappedBuffer::flush() const {
+    if (!coherent_) {
+        // The whole range, so that nonCoherentAtomSize needs no rounding.
+        const VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr,
+                                        memory_.get(), 0, VK_WHOLE_SIZE};
+        check(device_->functions().vkFlushMappedMemoryRanges(device_->handle(), 1, &range),
+              "vkFlushMappedMemoryRanges", name_);
+    }
+}
+
+void MappedBuffer::invalidate() const {
+    if (!coherent_) {
+        const VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr,
+                                        memory_.get(), 0, VK_WHOLE_SIZE};
+        check(device_->functions().vkInvalidateMappedMemoryRanges(device_->handle(), 1, &range),
+              "vkInvalidateMappedMemoryRanges", name_);
+    }
+}
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,147 @@
+#include <engine/failure.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/requirements.hpp>
+
+#include <bit>
+
+namespace nearfield::gpu {
+namespace {
+
+std::vector<std::string> null_handles(const HostDevice& host) {
+    std::vector<std::string> missing;
+    const auto require = [&missing](bool present, const char* name) {
+        if (!present) {
+            missing.push_back(std::string("HostDevice::") + name + ": it is null");
+        }
+    };
+    require(host.instance != VK_NULL_HANDLE, "instance");
+    require(host.physical_device != VK_NULL_HANDLE, "physical_device");
+    require(host.device != VK_NULL_HANDLE, "device");
+    require(host.queue != VK_NULL_HANDLE, "queue");
+    require(host.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+    return missing;
+}
+
+void refuse_if_any(std::vector<std::string> missing, const std::string& device) {
+    if (!missing.empty()) {
+        throw Failure(Status(StatusCode::unsupported_device,
+                             device + " lacks what nearfield needs; each reason names one thing",
+                             std::move(missing)));
+    }
+}
+
+}  // namespace
+
+Device::Device(const HostDevice& host) : host_(host) {
+    refuse_if_any(null_handles(host), "the host's device");
+    std::vector<std::string> missing;
+    load_instance_functions(missing);
+    refuse_if_any(std::move(missing), "the host's instance");
+
+    functions_.vkGetPhysicalDeviceProperties(host.physical_device, &properties_);
+    functions_.vkGetPhysicalDeviceMemoryProperties(host.physical_device, &memory_);
+    name_ = properties_.deviceName;
+    missing = missing_requirements(host.get_instance_proc_addr, host.instance, host.physical_device,
+                                   host.queue_family);
+    load_device_functions(missing);
+    refuse_if_any(std::move(missing), "device '" + name_ + "'");
+
+    stencil_format_ =
+        find_stencil_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
+    std::uint32_t count = 0;
+    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count,
+                                                        families.data());
+    timestamp_bits_ = families[host.queue_family].timestampValidBits;
+}
+
+void Device::load_instance_functions(std::vector<std::string>& missing) {
+    const auto load = [&](auto& function, const char* name) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+            host_.get_instance_proc_addr(host_.instance, name));
+        if (function == nullptr) {
+            missing.push_back(std::string("entry point ") + name +
+                              ": vkGetInstanceProcAddr does not know it");
+        }
+    };
+#define NEARFIELD_LOAD(name) load(functions_.name, #name);
+    NEARFIELD_INSTANCE_FUNCTIONS(NEARFIELD_LOAD)
+    if (host_.debug_utils) {
+        NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_LOAD)
+    }
+#undef NEARFIELD_LOAD
+}
+
+void Device::load_device_functions(std::vector<std::string>& missing) {
+    const auto load = [&](auto& function, const char* name) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+            functions_.vkGetDeviceProcAddr(host_.device, name));
+        if (function == nullptr) {
+            missing.push_back(std::string("entry point ") + name +
+                              ": vkGetDeviceProcAddr does not know it");
+        }
+    };
+#define NEARFIELD_LOAD(name) load(functions_.name, #name);
+    NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_LOAD)
+#undef NEARFIELD_LOAD
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred) const {
+    // Any other property (protected, the coherent and uncached ones of AMD, ...) may only be
+    // allocated where a feature is enabled, and nothing is enabled.
+    constexpr VkMemoryPropertyFlags usable =
+        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+        VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
+        VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
+    std::uint32_t best = VK_MAX_MEMORY_TYPES;
+    int best_score = -1;
+    for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+        const VkMemoryPropertyFlags flags = memory_flags(type);
+        const bool candidate = ((allowed >> type) & 1U) != 0 && (flags & required) == required &&
+                               (flags & ~usable) == 0;
+        const int score = std::popcount(flags & preferred);
+        if (candidate && score > best_score) {
+            best = type;
+            best_score = score;
+        }
+    }
+    if (best == VK_MAX_MEMORY_TYPES) {
+        throw Failure(Status(StatusCode::device_error,
+                             "device '" + name_ + "' has no memory type with property flags " +
+                                 std::to_string(required) + " among the types " +
+                                 std::to_string(allowed) + " (bit mask)"));
+    }
+    return best;
+}
+
+VkMemoryPropertyFlags Device::memory_flags(std::uint32_t type) const {
+    return memory_.memoryTypes[type].propertyFlags;
+}
+
+void Device::set_name(VkObjectType type, std::uint64_t object, const std::string& name) const {
+    if (functions_.vkSetDebugUtilsObjectNameEXT == nullptr) {
+        return;
+    }
+    const VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             nullptr, type, object, name.c_str()};
+    check(functions_.vkSetDebugUtilsObjectNameEXT(host_.device, &info),
+          "vkSetDebugUtilsObjectNameEXT", name);
+}
+
+void Device::begin_label(VkCommandBuffer commands, const char* name) const {
+    if (functions_.vkCmdBeginDebugUtilsLabelEXT != nullptr) {
+        const VkDebugUtilsLabelEXT label{
+            VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name, {0.0F, 0.0F, 0.0F, 0.0F}};
+        functions_.vkCmdBeginDebugUtilsLabelEXT(commands, &label);
+    }
+}
+
+void Device::end_label(VkCommandBuffer commands) const {
+    if (functions_.vkCmdEndDebugUtilsLabelEXT != nullptr) {
+        functions_.vkCmdEndDebugUtilsLabelEXT(commands);
+    }
+}
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <engine/gpu/functions.hpp>
+#include <nearfield/host.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nearfield::gpu {
+
+/// A borrowed Vulkan device with its entry points and limits. Immutable after construction.
+class Device {
+public:
+    /// Looks up every entry point and checks every requirement. Throws Failure
+    /// (unsupported_device) with each missing entry point, queue capability, limit and format.
+    explicit Device(const HostDevice& host);
+
+    [[nodiscard]] const Functions& functions() const { return functions_; }
+    [[nodiscard]] VkDevice handle() const { return host_.device; }
+    [[nodiscard]] VkQueue queue() const { return host_.queue; }
+    [[nodiscard]] std::uint32_t queue_family() const { return host_.queue_family; }
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    /// A combined depth-stencil format that can be an attachment; only its stencil is used.
+    [[nodiscard]] VkFormat stencil_format() const { return stencil_format_; }
+    /// 0 where the queue family has no timestamps.
+    [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
+
+    /// The first memory type among `allowed` that has all of `required` and most of `preferred`.
+    /// Types that need a feature or a protected allocation are passed over. Throws Failure where
+    /// none has what is required.
+    [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                            VkMemoryPropertyFlags preferred) const;
+    [[nodiscard]] VkMemoryPropertyFlags memory_flags(std::uint32_t type) const;
+
+    /// Names an object for debuggers and validation; nothing where the host has no debug utils.
+    template <class Object>
+    void name_object(VkObjectType type, Object object, const std::string& name) const {
+        set_name(type, reinterpret_cast<std::uint64_t>(object), name);
+    }
+    void begin_label(VkCommandBuffer commands, const char* name) const;
+    void end_label(VkCommandBuffer commands) const;
+
+private:
+    void set_name(VkObjectType type, std::uint64_t object, const std::string& name) const;
+    /// Each fills functions_ and appends the name of every entry point that is not there.
+    void load_instance_functions(std::vector<std::string>& missing);
+    void load_device_functions(std::vector<std::string>& missing);
+
+    HostDevice host_;
+    Functions functions_;
+    VkPhysicalDeviceProperties properties_{};
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::string name_;
+    VkFormat stencil_format_ = VK_FORMAT_UNDEFINED;
+    std::uint32_t timestamp_bits_ = 0;
+};
+
+/// Throws Failure (device_lost, out_of_memory or device_error) unless the result is a success;
+/// `call` is the entry point, `what` the object it was for.
+void check(VkResult result, const char* call, std::string_view what);
+
+/// The name of a result as the specification spells it ("VK_ERROR_DEVICE_LOST").
+[[nodiscard]] const char* to_string(VkResult result) noexcept;
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <engine/gpu/instance.hpp>
+#include <nearfield/host.hpp>
+
+namespace nearfield::gpu {
+
+/// An instance and a device of nearfield's own, on no surface. The Vulkan loader is opened at run
+/// time, so a program that always adopts a host's device does not need one.
+class HeadlessDevice {
+public:
+    /// Throws Failure (no_device, or unsupported_device with the reasons for every device).
+    explicit HeadlessDevice(const HeadlessOptions& options);
+    ~HeadlessDevice();
+    HeadlessDevice(const HeadlessDevice&) = delete;
+    HeadlessDevice& operator=(const HeadlessDevice&) = delete;
+
+    [[nodiscard]] const HostDevice& host() const { return host_; }
+
+private:
+    Instance instance_;
+    HostDevice host_;
+};
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace nearfield::gpu {
+
+/// A physical device as found, with the queue family that would be used and what it lacks.
+struct Candidate {
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    VkPhysicalDeviceProperties properties{};
+    std::uint32_t queue_family = 0;
+    std::vector<std::string> missing;  ///< as missing_requirements() says it
+};
+
+/// The Vulkan loader, opened at run time, and an instance with no layer but those the environment
+/// asks for (VK_INSTANCE_LAYERS).
+class Instance {
+public:
+    /// Throws Failure (no_device) where there is no loader or no driver.
+    Instance();
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    [[nodiscard]] VkInstance handle() const { return handle_; }
+    [[nodiscard]] PFN_vkGetInstanceProcAddr get_instance_proc_addr() const { return get_; }
+    /// The instance has VK_EXT_debug_utils.
+    [[nodiscard]] bool debug_utils() const { return debug_utils_; }
+
+    /// The entry point of a core function; the loader has all of them.
+    template <class Function>
+    [[nodiscard]] Function function(const char* name) const {
+        return reinterpret_cast<Function>(get_(handle_, name));
+    }
+
+    /// Every device of every driver, in the loader's order.
+    [[nodiscard]] std::vector<Candidate> candidates() const;
+
+private:
+    struct CloseLibrary {
+        void operator()(void* library) const;
+    };
+
+    void create();
+
+    std::unique_ptr<void, CloseLibrary> library_;
+    PFN_vkGetInstanceProcAddr get_ = nullptr;
+    VkInstance handle_ = VK_NULL_HANDLE;
+    bool debug_utils_ = false;
+};
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,52 @@
+#include <engine/failure.hpp>
+#include <engine/gpu/instance.hpp>
+#include <nearfield/context.hpp>
+
+#include <exception>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+std::string dotted(std::uint32_t major, std::uint32_t minor, std::uint32_t patch) {
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
+std::string driver_text(const VkPhysicalDeviceProperties& properties) {
+    constexpr std::uint32_t nvidia = 0x10DE;
+    const std::uint32_t driver = properties.driverVersion;
+    const std::uint32_t api = properties.apiVersion;
+    // Drivers are free in what they put here; NVIDIA alone differs from Vulkan's own packing in a
+    // way that changes the number people know.
+    const std::string version =
+        properties.vendorID == nvidia
+            ? dotted(driver >> 22U, (driver >> 14U) & 0xFFU, (driver >> 6U) & 0xFFU)
+            : dotted(VK_API_VERSION_MAJOR(driver), VK_API_VERSION_MINOR(driver),
+                     VK_API_VERSION_PATCH(driver));
+    return "driver " + version + ", Vulkan " +
+           dotted(VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
+}
+
+}  // namespace
+
+Expected<std::vector<DeviceReport>> list_devices() {
+    try {
+        const gpu::Instance instance;
+        std::vector<DeviceReport> reports;
+        for (gpu::Candidate& candidate : instance.candidates()) {
+            DeviceReport& report = reports.emplace_back();
+            report.name = candidate.properties.deviceName;
+            report.driver = driver_text(candidate.properties);
+            report.usable = candidate.missing.empty();
+            report.missing = std::move(candidate.missing);
+        }
+        return reports;
+    } catch (const Failure& failure) {
+        return failure.status();
+    } catch (const std::exception& error) {
+        return Status(StatusCode::out_of_memory,
+                      std::string("devices could not be listed: ") + error.what());
+    }
+}
+
+}  // namespace nearfield

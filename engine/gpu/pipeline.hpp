@@ -1,0 +1,37 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace nearfield::gpu {
+
+/// SPIR-V words embedded at build time.
+using Spirv = std::span<const std::uint32_t>;
+
+[[nodiscard]] Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout,
+                                                      Spirv shader, const std::string& name);
+
+/// What differs between the graphics pipelines of this library; all draw triangle lists of
+/// geometry::MeshVertex, with viewport, scissor and stencil masks and reference as dynamic state.
+struct GraphicsPipelineDescription {
+    std::string name;
+    VkRenderPass render_pass = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    Spirv vertex_shader;
+    Spirv fragment_shader;  ///< empty: no fragment shader, nothing is written to colour
+    std::uint32_t color_attachments = 1;
+    bool depth_test = false;  ///< write depth too
+    VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
+    bool stencil_test = false;
+    VkCompareOp stencil_compare = VK_COMPARE_OP_ALWAYS;
+    VkStencilOp stencil_pass = VK_STENCIL_OP_KEEP;  ///< keeps where the stencil or depth test fails
+};
+
+[[nodiscard]] Owned<VkPipeline> make_graphics_pipeline(const Device& device,
+                                                       const GraphicsPipelineDescription& what);
+
+}  // namespace nearfield::gpu

@@ -1,0 +1,65 @@
+#include <engine/gpu/submission.hpp>
+
+#include <cstdint>
+
+namespace nearfield::gpu {
+
+Submission::Submission(const Device& device) : device_(&device) {
+    const Functions& functions = device.functions();
+    VkCommandPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool_info.queueFamilyIndex = device.queue_family();
+    VkCommandPool pool = VK_NULL_HANDLE;
+    check(functions.vkCreateCommandPool(device.handle(), &pool_info, nullptr, &pool),
+          "vkCreateCommandPool", "a submission");
+    pool_ = Owned<VkCommandPool>(device, pool);
+
+    VkCommandBufferAllocateInfo commands_info{};
+    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands_info.commandPool = pool;
+    commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    commands_info.commandBufferCount = 1;
+    check(functions.vkAllocateCommandBuffers(device.handle(), &commands_info, &commands_),
+          "vkAllocateCommandBuffers", "a submission");
+
+    // Signalled, so that waiting before the first submission returns at once.
+    VkFenceCreateInfo fence_info{};
+    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VkFence fence = VK_NULL_HANDLE;
+    check(functions.vkCreateFence(device.handle(), &fence_info, nullptr, &fence), "vkCreateFence",
+          "a submission");
+    fence_ = Owned<VkFence>(device, fence);
+}
+
+VkCommandBuffer Submission::begin() {
+    const Functions& functions = device_->functions();
+    check(functions.vkResetCommandPool(device_->handle(), pool_.get(), 0), "vkResetCommandPool",
+          "a submission");
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(functions.vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer", "a submission");
+    return commands_;
+}
+
+void Submission::submit() {
+    const Functions& functions = device_->functions();
+    check(functions.vkEndCommandBuffer(commands_), "vkEndCommandBuffer", "a submission");
+    const VkFence fence = fence_.get();
+    check(functions.vkResetFences(device_->handle(), 1, &fence), "vkResetFences", "a submission");
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    check(functions.vkQueueSubmit(device_->queue(), 1, &info, fence), "vkQueueSubmit",
+          "a submission");
+}
+
+void Submission::wait() {
+    const VkFence fence = fence_.get();
+    check(device_->functions().vkWaitForFences(device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX),
+          "vkWaitForFences", "a submission");
+}
+
+}  // namespace nearfield::gpu

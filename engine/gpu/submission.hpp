@@ -1,0 +1,27 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+
+namespace nearfield::gpu {
+
+/// A command buffer and the fence of its submission, used over and over.
+class Submission {
+public:
+    explicit Submission(const Device& device);
+
+    /// Starts recording anew. The former submission must have been waited for.
+    VkCommandBuffer begin();
+    /// Ends recording and submits.
+    void submit();
+    /// Waits until the device has done the work.
+    void wait();
+
+private:
+    const Device* device_;
+    Owned<VkCommandPool> pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
+    Owned<VkFence> fence_;
+};
+
+}  // namespace nearfield::gpu

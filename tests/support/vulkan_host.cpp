@@ -1,0 +1,210 @@
+#include <dlfcn.h>
+#include <tests/support/vulkan_host.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+namespace nearfield::test_support {
+namespace {
+
+constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+
+[[noreturn]] void fail(const std::string& message) {
+    throw std::runtime_error("Vulkan test host: " + message);
+}
+
+void require(VkResult result, const char* call) {
+    if (result != VK_SUCCESS) {
+        fail(std::string(call) + " failed with VkResult " + std::to_string(result));
+    }
+}
+
+}  // namespace
+
+void VulkanHost::CloseLibrary::operator()(void* library) const {
+    dlclose(library);
+}
+
+template <class Function>
+Function VulkanHost::function(const char* name) const {
+    const auto found =
+        reinterpret_cast<Function>(device_.get_instance_proc_addr(device_.instance, name));
+    if (found == nullptr) {
+        fail(std::string("there is no ") + name);
+    }
+    return found;
+}
+
+VulkanHost::VulkanHost() {
+    try {
+        open_loader();
+        require_layer();
+        create_instance();
+        choose_physical_device();
+        create_device();
+    } catch (...) {
+        destroy();
+        throw;
+    }
+}
+
+VulkanHost::~VulkanHost() {
+    destroy();
+}
+
+std::vector<std::string> VulkanHost::messages() const {
+    const std::lock_guard lock(mutex_);
+    return messages_;
+}
+
+void VulkanHost::clear_messages() {
+    const std::lock_guard lock(mutex_);
+    messages_.clear();
+}
+
+std::vector<std::string> VulkanHost::close() {
+    destroy();
+    return messages();
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL VulkanHost::collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                   VkDebugUtilsMessageTypeFlagsEXT,
+                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                   void* host) {
+    VulkanHost& self = *static_cast<VulkanHost*>(host);
+    const std::lock_guard lock(self.mutex_);
+    self.messages_.emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+void VulkanHost::open_loader() {
+    library_.reset(dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL));
+    if (library_ == nullptr) {
+        fail(std::string("the Vulkan loader could not be opened: ") + dlerror());
+    }
+    device_.get_instance_proc_addr =
+        reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_.get(), "vkGetInstanceProcAddr"));
+    if (device_.get_instance_proc_addr == nullptr) {
+        fail("the Vulkan loader has no vkGetInstanceProcAddr");
+    }
+}
+
+void VulkanHost::require_layer() const {
+    const auto enumerate =
+        function<PFN_vkEnumerateInstanceLayerProperties>("vkEnumerateInstanceLayerProperties");
+    std::uint32_t count = 0;
+    require(enumerate(&count, nullptr), "vkEnumerateInstanceLayerProperties");
+    std::vector<VkLayerProperties> layers(count);
+    require(enumerate(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
+    if (std::none_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
+            return std::strcmp(layer.layerName, validation_layer) == 0;
+        })) {
+        fail(std::string(validation_layer) + " is not installed (package vulkan-validationlayers)");
+    }
+}
+
+void VulkanHost::create_instance() {
+    // General messages are the loader's own, about drivers that this machine cannot use.
+    VkDebugUtilsMessengerCreateInfoEXT messenger{};
+    messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.pfnUserCallback = &VulkanHost::collect;
+    messenger.pUserData = this;
+
+    constexpr VkValidationFeatureEnableEXT synchronization =
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    VkValidationFeaturesEXT features{};
+    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+    features.pNext = &messenger;  // so that creating and destroying the instance is watched too
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &synchronization;
+
+    VkApplicationInfo application{};
+    application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+    application.pApplicationName = "nearfield tests";
+    application.apiVersion = VK_API_VERSION_1_1;
+    const std::array<const char*, 2> extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
+                                                VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+    VkInstanceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+    info.pNext = &features;
+    info.pApplicationInfo = &application;
+    info.enabledLayerCount = 1;
+    info.ppEnabledLayerNames = &validation_layer;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    require(function<PFN_vkCreateInstance>("vkCreateInstance")(&info, nullptr, &device_.instance),
+            "vkCreateInstance");
+    require(function<PFN_vkCreateDebugUtilsMessengerEXT>("vkCreateDebugUtilsMessengerEXT")(
+                device_.instance, &messenger, nullptr, &messenger_),
+            "vkCreateDebugUtilsMessengerEXT");
+    device_.debug_utils = true;
+}
+
+void VulkanHost::choose_physical_device() {
+    const auto enumerate = function<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices");
+    const auto get_families = function<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+        "vkGetPhysicalDeviceQueueFamilyProperties");
+    std::uint32_t count = 0;
+    require(enumerate(device_.instance, &count, nullptr), "vkEnumeratePhysicalDevices");
+    std::vector<VkPhysicalDevice> devices(count);
+    require(enumerate(device_.instance, &count, devices.data()), "vkEnumeratePhysicalDevices");
+    const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (VkPhysicalDevice candidate : devices) {
+        std::uint32_t family_count = 0;
+        get_families(candidate, &family_count, nullptr);
+        std::vector<VkQueueFamilyProperties> families(family_count);
+        get_families(candidate, &family_count, families.data());
+        for (std::uint32_t family = 0; family < family_count; ++family) {
+            if ((families[family].queueFlags & needed) == needed) {
+                device_.physical_device = candidate;
+                device_.queue_family = family;
+                return;
+            }
+        }
+    }
+    fail("none of " + std::to_string(count) +
+         " Vulkan devices has a queue family with graphics and compute (package "
+         "mesa-vulkan-drivers has one that needs no graphics card)");
+}
+
+void VulkanHost::create_device() {
+    const float priority = 1.0F;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = device_.queue_family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    require(function<PFN_vkCreateDevice>("vkCreateDevice")(device_.physical_device, &info, nullptr,
+                                                           &device_.device),
+            "vkCreateDevice");
+    function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device_.device, device_.queue_family, 0,
+                                                       &device_.queue);
+}
+
+void VulkanHost::destroy() {
+    if (device_.device != VK_NULL_HANDLE) {
+        function<PFN_vkDestroyDevice>("vkDestroyDevice")(device_.device, nullptr);
+    }
+    if (messenger_ != VK_NULL_HANDLE) {
+        function<PFN_vkDestroyDebugUtilsMessengerEXT>("vkDestroyDebugUtilsMessengerEXT")(
+            device_.instance, messenger_, nullptr);
+    }
+    if (device_.instance != VK_NULL_HANDLE) {
+        function<PFN_vkDestroyInstance>("vkDestroyInstance")(device_.instance, nullptr);
+    }
+    device_ = HostDevice{};
+    messenger_ = VK_NULL_HANDLE;
+    library_.reset();
+}
+
+}  // namespace nearfield::test_support

@@ -1,0 +1,242 @@
+#include <engine/failure.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/requirements.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/unit/gpu_fixture.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace nearfield {
+namespace {
+
+using test_support::FakeLoader;
+using test_support::Lies;
+
+class GpuRequirements : public test_support::GpuTest {};
+
+Status status_of(const HostDevice& host) {
+    try {
+        const gpu::Device device(host);
+        return {};
+    } catch (const Failure& failure) {
+        return failure.status();
+    }
+}
+
+Status status_with(const HostDevice& host, Lies lies) {
+    const FakeLoader fake(host, std::move(lies));
+    return status_of(fake.host());
+}
+
+void expect_one_reason(const Status& status, const std::vector<std::string>& words) {
+    ASSERT_EQ(status.code(), StatusCode::unsupported_device) << status.text();
+    ASSERT_EQ(status.reasons().size(), 1U) << status.text();
+    for (const std::string& word : words) {
+        EXPECT_NE(status.reasons()[0].find(word), std::string::npos)
+            << "'" << word << "' in: " << status.reasons()[0];
+    }
+}
+
+Lies without(VkFormat format, VkFormatFeatureFlags features) {
+    Lies lies;
+    lies.format = [=](VkFormat asked, VkFormatProperties& properties) {
+        if (asked == format) {
+            properties.optimalTilingFeatures &= ~features;
+        }
+    };
+    return lies;
+}
+
+TEST_F(GpuRequirements, BareDeviceSuffices) {
+    const HostDevice& host = host_.device();
+    EXPECT_EQ(gpu::missing_requirements(host.get_instance_proc_addr, host.instance,
+                                        host.physical_device, host.queue_family),
+              std::vector<std::string>{});
+    const gpu::Device device(host);
+    EXPECT_FALSE(device.name().empty());
+    EXPECT_NE(device.stencil_format(), VK_FORMAT_UNDEFINED);
+    EXPECT_EQ(device.queue(), host.queue);
+}
+
+TEST_F(GpuRequirements, TruthThroughTheFakeLoaderSuffices) {
+    EXPECT_TRUE(status_with(host_.device(), {}).ok());
+}
+
+TEST_F(GpuRequirements, EachMissingFormatFeatureIsNamed) {
+    struct Case {
+        VkFormat format;
+        VkFormatFeatureFlags feature;
+        const char* format_name;
+        const char* feature_name;
+    };
+    const std::vector<Case> cases{
+        {VK_FORMAT_R8_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "VK_FORMAT_R8_UINT",
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT"},
+        {VK_FORMAT_R8_UINT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "VK_FORMAT_R8_UINT",
+         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT"},
+        {VK_FORMAT_R32_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "VK_FORMAT_R32_UINT",
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT"},
+        {VK_FORMAT_R32_UINT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "VK_FORMAT_R32_UINT",
+         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT"},
+        {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+         "VK_FORMAT_D32_SFLOAT", "VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT"},
+    };
+    for (const Case& missing : cases) {
+        SCOPED_TRACE(std::string(missing.format_name) + " " + missing.feature_name);
+        expect_one_reason(status_with(host_.device(), without(missing.format, missing.feature)),
+                          {std::string(missing.format_name) + ":", missing.feature_name});
+    }
+}
+
+TEST_F(GpuRequirements, StencilFallsBackToTheOtherCombinedFormat) {
+    for (const bool has_d32 : {false, true}) {
+        for (const bool has_d24 : {false, true}) {
+            SCOPED_TRACE(std::to_string(has_d32) + std::to_string(has_d24));
+            Lies lies;
+            lies.format = [=](VkFormat format, VkFormatProperties& properties) {
+                const VkFormatFeatureFlags attachment =
+                    VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT;
+                if (format == VK_FORMAT_D32_SFLOAT_S8_UINT) {
+                    properties.optimalTilingFeatures = has_d32 ? attachment : 0;
+                } else if (format == VK_FORMAT_D24_UNORM_S8_UINT) {
+                    properties.optimalTilingFeatures = has_d24 ? attachment : 0;
+                }
+            };
+            const FakeLoader fake(host_.device(), lies);
+            if (has_d32 || has_d24) {
+                EXPECT_EQ(gpu::Device(fake.host()).stencil_format(),
+                          has_d32 ? VK_FORMAT_D32_SFLOAT_S8_UINT : VK_FORMAT_D24_UNORM_S8_UINT);
+            } else {
+                expect_one_reason(status_of(fake.host()),
+                                  {"VK_FORMAT_D32_SFLOAT_S8_UINT", "VK_FORMAT_D24_UNORM_S8_UINT"});
+            }
+        }
+    }
+}
+
+TEST_F(GpuRequirements, EachMissingLimitIsNamedAndTheLeastIsEnough) {
+    struct Case {
+        const char* name;
+        std::uint32_t VkPhysicalDeviceLimits::*limit;
+        std::uint32_t needed;
+    };
+    const std::vector<Case> cases{
+        {"subPixelPrecisionBits", &VkPhysicalDeviceLimits::subPixelPrecisionBits, 4},
+        {"maxPerStageDescriptorStorageBuffers",
+         &VkPhysicalDeviceLimits::maxPerStageDescriptorStorageBuffers, 4},
+        {"maxComputeWorkGroupInvocations", &VkPhysicalDeviceLimits::maxComputeWorkGroupInvocations,
+         64},
+    };
+    for (const Case& limit : cases) {
+        SCOPED_TRACE(limit.name);
+        for (const std::uint32_t offered : {limit.needed - 1, limit.needed}) {
+            Lies lies;
+            lies.properties = [&](VkPhysicalDeviceProperties& properties) {
+                properties.limits.*limit.limit = offered;
+            };
+            const Status status = status_with(host_.device(), lies);
+            if (offered < limit.needed) {
+                expect_one_reason(status, {limit.name, std::to_string(offered)});
+            } else {
+                EXPECT_TRUE(status.ok()) << status.text();
+            }
+        }
+    }
+}
+
+TEST_F(GpuRequirements, OldVulkanIsRefused) {
+    Lies lies;
+    lies.properties = [](VkPhysicalDeviceProperties& properties) {
+        properties.apiVersion = VK_MAKE_API_VERSION(0, 1, 0, 999);
+    };
+    expect_one_reason(status_with(host_.device(), lies), {"Vulkan 1.1", "1.0"});
+}
+
+TEST_F(GpuRequirements, QueueFamilyMustDrawAndCompute) {
+    for (const auto& [flag, name] : {std::pair{VK_QUEUE_GRAPHICS_BIT, "VK_QUEUE_GRAPHICS_BIT"},
+                                     std::pair{VK_QUEUE_COMPUTE_BIT, "VK_QUEUE_COMPUTE_BIT"}}) {
+        SCOPED_TRACE(name);
+        Lies lies;
+        lies.queue_families = [flag = flag](std::vector<VkQueueFamilyProperties>& families) {
+            for (VkQueueFamilyProperties& family : families) {
+                family.queueFlags &= ~static_cast<VkQueueFlags>(flag);
+            }
+        };
+        expect_one_reason(status_with(host_.device(), lies), {name, "queue family"});
+    }
+    HostDevice host = host_.device();
+    host.queue_family = 99;
+    expect_one_reason(status_of(host), {"queue family 99"});
+}
+
+TEST_F(GpuRequirements, EveryMissingEntryPointIsNamed) {
+    const std::vector<const char*> names{
+#define NEARFIELD_NAME(name) #name,
+        NEARFIELD_INSTANCE_FUNCTIONS(NEARFIELD_NAME) NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_NAME)
+            NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_NAME)
+#undef NEARFIELD_NAME
+    };
+    for (const char* name : names) {
+        SCOPED_TRACE(name);
+        Lies lies;
+        lies.entry_points[name] = nullptr;
+        expect_one_reason(status_with(host_.device(), lies),
+                          {std::string("entry point ") + name + ":"});
+    }
+}
+
+TEST_F(GpuRequirements, MissingRequirementsNamesMissingEntryPoints) {
+    Lies lies;
+    lies.entry_points["vkGetPhysicalDeviceFormatProperties"] = nullptr;
+    const FakeLoader fake(host_.device(), lies);
+    const HostDevice& host = fake.host();
+    const std::vector<std::string> missing = gpu::missing_requirements(
+        host.get_instance_proc_addr, host.instance, host.physical_device, host.queue_family);
+    ASSERT_EQ(missing.size(), 1U);
+    EXPECT_NE(missing[0].find("vkGetPhysicalDeviceFormatProperties"), std::string::npos);
+}
+
+TEST_F(GpuRequirements, DebugFunctionsAreNotAskedForWithoutDebugUtils) {
+    Lies lies;
+    lies.entry_points["vkSetDebugUtilsObjectNameEXT"] = nullptr;
+    const FakeLoader fake(host_.device(), lies);
+    HostDevice host = fake.host();
+    host.debug_utils = false;
+    EXPECT_TRUE(status_of(host).ok());
+}
+
+TEST_F(GpuRequirements, EveryLackIsReportedAtOnce) {
+    Lies lies = without(VK_FORMAT_R8_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT |
+                                               VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT);
+    lies.properties = [](VkPhysicalDeviceProperties& properties) {
+        properties.limits.subPixelPrecisionBits = 0;
+    };
+    lies.entry_points["vkCmdDraw"] = nullptr;
+    const Status status = status_with(host_.device(), lies);
+    EXPECT_EQ(status.code(), StatusCode::unsupported_device);
+    EXPECT_EQ(status.reasons().size(), 4U) << status.text();
+}
+
+TEST_F(GpuRequirements, NullHandlesAreNamed) {
+    const std::vector<std::pair<const char*, std::function<void(HostDevice&)>>> cases{
+        {"instance", [](HostDevice& host) { host.instance = VK_NULL_HANDLE; }},
+        {"physical_device", [](HostDevice& host) { host.physical_device = VK_NULL_HANDLE; }},
+        {"::device", [](HostDevice& host) { host.device = VK_NULL_HANDLE; }},
+        {"queue", [](HostDevice& host) { host.queue = VK_NULL_HANDLE; }},
+        {"get_instance_proc_addr", [](HostDevice& host) { host.get_instance_proc_addr = nullptr; }},
+    };
+    for (const auto& [name, clear] : cases) {
+        SCOPED_TRACE(name);
+        HostDevice host = host_.device();
+        clear(host);
+        expect_one_reason(status_of(host), {name});
+    }
+    EXPECT_EQ(status_of(HostDevice{}).reasons().size(), cases.size());
+}
+
+}  // namespace
+}  // namespace nearfield
