@@ -1,0 +1,62 @@
+#include <engine/graph/access.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace nearfield::graph {
+
+namespace {
+
+// Attachments read as well as they write: loading, blending, logic operations and tests look at
+// what was there. All reads of images share one layout and all reads of one kind of resource differ
+// in their stages, which lets a read after a read do without a second look at the layout.
+constexpr std::array<AccessTraits, 6> table = {{
+    {.name = "color_attachment",
+     .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+     .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
+     .write_access = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+     .layout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+     .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+     .writes = true,
+     .of_image = true,
+     .pass_kind = PassKind::graphics},
+    {.name = "depth_stencil_attachment",
+     .stages =
+         VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT,
+     .read_access = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+     .write_access = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+     .layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+     .writes = true,
+     .of_image = true,
+     .pass_kind = PassKind::graphics},
+    {.name = "sampled_in_compute",
+     .stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
+     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+     .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+     .of_image = true,
+     .pass_kind = PassKind::compute},
+    {.name = "storage_read_in_compute",
+     .stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
+     .pass_kind = PassKind::compute},
+    {.name = "storage_write_in_compute",
+     .stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
+     .write_access = VK_ACCESS_SHADER_WRITE_BIT,
+     .writes = true,
+     .pass_kind = PassKind::compute},
+    {.name = "vertex_buffer",
+     .stages = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
+     .read_access = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT,
+     .pass_kind = PassKind::graphics},
+}};
+
+}  // namespace
+
+const AccessTraits& traits(Access access) noexcept {
+    return table[static_cast<std::size_t>(access)];
+}
+
+}  // namespace nearfield::graph

@@ -1,0 +1,289 @@
+#include <engine/failure.hpp>
+#include <engine/graph/access.hpp>
+#include <engine/graph/bake_steps.hpp>
+#include <engine/graph/execute.hpp>
+#include <engine/graph/format.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nearfield::graph {
+
+namespace {
+
+VkImageAspectFlags all_aspects(const Resource& resource) {
+    return find_format(resource.image.format)->aspects;
+}
+
+/// A view for sampling may have one aspect only.
+VkImageAspectFlags sampled_aspect(const Resource& resource) {
+    constexpr VkImageAspectFlags depth = VK_IMAGE_ASPECT_DEPTH_BIT;
+    const VkImageAspectFlags aspects = all_aspects(resource);
+    return (aspects & depth) != 0 ? depth : aspects;
+}
+
+gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription& description,
+                               VkImageUsageFlags usage) {
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = description.format;
+    info.extent = {description.extent.width, description.extent.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    const std::string name = "nearfield image " + description.name;
+    VkImage image = VK_NULL_HANDLE;
+    gpu::check(device.functions().vkCreateImage(device.handle(), &info, nullptr, &image),
+               "vkCreateImage", name);
+    gpu::Owned<VkImage> owned(device, image);
+    device.name_object(VK_OBJECT_TYPE_IMAGE, image, name);
+    return owned;
+}
+
+gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
+                                  const ImageDescription& description, VkImageAspectFlags aspects,
+                                  const char* purpose) {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = description.format;
+    info.subresourceRange = {aspects, 0, 1, 0, 1};
+    const std::string name = "nearfield image " + description.name + " as " + purpose;
+    VkImageView view = VK_NULL_HANDLE;
+    gpu::check(device.functions().vkCreateImageView(device.handle(), &info, nullptr, &view),
+               "vkCreateImageView", name);
+    gpu::Owned<VkImageView> owned(device, view);
+    device.name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
+    return owned;
+}
+
+gpu::Owned<VkDeviceMemory> allocate(const gpu::Device& device,
+                                    const VkMemoryRequirements& requirements,
+                                    const std::string& name) {
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = requirements.size;
+    info.memoryTypeIndex =
+        device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    gpu::check(device.functions().vkAllocateMemory(device.handle(), &info, nullptr, &memory),
+               "vkAllocateMemory", name);
+    gpu::Owned<VkDeviceMemory> owned(device, memory);
+    device.name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
+    return owned;
+}
+
+gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPass render_pass,
+                                           const std::vector<VkImageView>& views, VkExtent2D extent,
+                                           const std::string& pass_name) {
+    VkFramebufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    info.renderPass = render_pass;
+    info.attachmentCount = static_cast<std::uint32_t>(views.size());
+    info.pAttachments = views.data();
+    info.width = extent.width;
+    info.height = extent.height;
+    info.layers = 1;
+    const std::string name = "nearfield framebuffer " + pass_name;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    gpu::check(
+        device.functions().vkCreateFramebuffer(device.handle(), &info, nullptr, &framebuffer),
+        "vkCreateFramebuffer", name);
+    gpu::Owned<VkFramebuffer> owned(device, framebuffer);
+    device.name_object(VK_OBJECT_TYPE_FRAMEBUFFER, framebuffer, name);
+    return owned;
+}
+
+}  // namespace
+
+Executor::Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked)
+    : device_(&device), baked_(std::move(baked)) {
+    create_images(graph);
+    allocate_memory(graph);
+    create_views(graph);
+    create_graphics(graph);
+    for (const BakedPass& pass : baked_.passes) {
+        calls_.push_back(make_call(graph, pass.barriers));
+    }
+    calls_.push_back(make_call(graph, baked_.to_host));
+}
+
+void Executor::create_images(const Graph& graph) {
+    images_.resize(graph.resources().size());
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (baked_.lifetimes[i].memory_slot != no_memory_slot) {
+            images_[i].image =
+                make_image(*device_, graph.resources()[i].image, baked_.lifetimes[i].usage);
+        }
+    }
+}
+
+/// One allocation a slot, as large as the largest of its images; each starts at its beginning.
+void Executor::allocate_memory(const Graph& graph) {
+    std::vector<VkMemoryRequirements> slots(baked_.memory_slots, {0, 0, ~0U});
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (images_[i].image) {
+            VkMemoryRequirements wanted{};
+            device_->functions().vkGetImageMemoryRequirements(device_->handle(),
+                                                              images_[i].image.get(), &wanted);
+            VkMemoryRequirements& slot = slots[baked_.lifetimes[i].memory_slot];
+            slot.size = std::max(slot.size, wanted.size);
+            slot.memoryTypeBits &= wanted.memoryTypeBits;
+        }
+    }
+    for (const VkMemoryRequirements& slot : slots) {
+        memory_.push_back(
+            allocate(*device_, slot, "nearfield image memory " + std::to_string(memory_.size())));
+        image_bytes_ += slot.size;
+    }
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (images_[i].image) {
+            gpu::check(device_->functions().vkBindImageMemory(
+                           device_->handle(), images_[i].image.get(),
+                           memory_[baked_.lifetimes[i].memory_slot].get(), 0),
+                       "vkBindImageMemory", "nearfield image " + graph.resources()[i].name());
+        }
+    }
+}
+
+void Executor::create_views(const Graph& graph) {
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        const Resource& resource = graph.resources()[i];
+        const VkImageUsageFlags usage = baked_.lifetimes[i].usage;
+        Image& image = images_[i];
+        if ((usage & ~static_cast<VkImageUsageFlags>(VK_IMAGE_USAGE_SAMPLED_BIT)) != 0) {
+            image.attachment_view = make_view(*device_, image.image.get(), resource.image,
+                                              all_aspects(resource), "attachment");
+        }
+        if ((usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0) {
+            image.sampled_view = make_view(*device_, image.image.get(), resource.image,
+                                           sampled_aspect(resource), "sampled");
+        }
+    }
+}
+
+void Executor::create_graphics(const Graph& graph) {
+    graphics_.resize(baked_.passes.size());
+    for (std::size_t position = 0; position < graphics_.size(); ++position) {
+        const BakedPass& pass = baked_.passes[position];
+        if (pass.attachments.empty()) {
+            continue;
+        }
+        std::vector<VkImageView> views;
+        for (const Attachment& attachment : pass.attachments) {
+            views.push_back(images_[attachment.resource].attachment_view.get());
+        }
+        GraphicsPass& graphics = graphics_[position];
+        graphics.render_pass = make_render_pass(*device_, graph, pass);
+        graphics.framebuffer = make_framebuffer(*device_, graphics.render_pass.get(), views,
+                                                pass.extent, graph.passes()[pass.pass].name);
+    }
+}
+
+Executor::BarrierCall Executor::make_call(const Graph& graph,
+                                          const std::vector<Barrier>& barriers) const {
+    BarrierCall call;
+    for (const Barrier& barrier : barriers) {
+        call.source_stages |= barrier.source_stages;
+        call.destination_stages |= barrier.destination_stages;
+        const Resource& resource = graph.resources()[barrier.resource];
+        // An image barrier makes only writes through its own image available.
+        if (barrier.takes_over_memory) {
+            call.memory.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                                   .pNext = nullptr,
+                                   .srcAccessMask = barrier.source_access,
+                                   .dstAccessMask = barrier.destination_access});
+        }
+        if (resource.is_image) {
+            call.images.push_back({.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+                                   .pNext = nullptr,
+                                   .srcAccessMask = barrier.source_access,
+                                   .dstAccessMask = barrier.destination_access,
+                                   .oldLayout = barrier.old_layout,
+                                   .newLayout = barrier.new_layout,
+                                   .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                   .image = images_[barrier.resource].image.get(),
+                                   .subresourceRange = {all_aspects(resource), 0, 1, 0, 1}});
+        } else {
+            call.buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                    .pNext = nullptr,
+                                    .srcAccessMask = barrier.source_access,
+                                    .dstAccessMask = barrier.destination_access,
+                                    .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                    .buffer = VK_NULL_HANDLE,
+                                    .offset = 0,
+                                    .size = VK_WHOLE_SIZE});
+            call.buffer_resources.push_back(barrier.resource);
+        }
+    }
+    return call;
+}
+
+void Executor::set_buffer(Handle handle, VkBuffer buffer) {
+    for (BarrierCall& call : calls_) {
+        for (std::size_t i = 0; i < call.buffers.size(); ++i) {
+            if (call.buffer_resources[i] == handle.resource) {
+                call.buffers[i].buffer = buffer;
+            }
+        }
+    }
+}
+
+VkImageView Executor::sampled_view(Handle handle) const {
+    return images_[handle.resource].sampled_view.get();
+}
+
+void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
+                               const BarrierCall& call) const {
+    for (std::size_t i = 0; i < call.buffers.size(); ++i) {
+        if (call.buffers[i].buffer == VK_NULL_HANDLE) {
+            throw Failure(graph_error("buffer '" +
+                                      graph.resources()[call.buffer_resources[i]].name() +
+                                      "' was not set before the graph was executed"));
+        }
+    }
+    if (call.source_stages == 0) {
+        return;
+    }
+    device_->functions().vkCmdPipelineBarrier(
+        commands, call.source_stages, call.destination_stages, 0,
+        static_cast<std::uint32_t>(call.memory.size()), call.memory.data(),
+        static_cast<std::uint32_t>(call.buffers.size()), call.buffers.data(),
+        static_cast<std::uint32_t>(call.images.size()), call.images.data());
+}
+
+void Executor::execute(const Graph& graph, VkCommandBuffer commands,
+                       gpu::Timestamps& timestamps) const {
+    for (std::size_t position = 0; position < baked_.passes.size(); ++position) {
+        const BakedPass& baked = baked_.passes[position];
+        const Pass& pass = graph.passes()[baked.pass];
+        device_->begin_label(commands, pass.name.c_str());
+        timestamps.begin(commands, pass.name.c_str());
+        record_barriers(graph, commands, calls_[position]);
+        if (pass.kind == PassKind::graphics) {
+            VkRenderPassBeginInfo info{};
+            info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+            info.renderPass = graphics_[position].render_pass.get();
+            info.framebuffer = graphics_[position].framebuffer.get();
+            info.renderArea.extent = baked.extent;
+            device_->functions().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+            pass.record(commands);
+            device_->functions().vkCmdEndRenderPass(commands);
+        } else {
+            pass.record(commands);
+        }
+        timestamps.end(commands);
+        device_->end_label(commands);
+    }
+    record_barriers(graph, commands, calls_.back());
+}
+
+}  // namespace nearfield::graph

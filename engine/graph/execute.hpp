@@ -1,0 +1,81 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/bake.hpp>
+#include <engine/graph/graph.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::graph {
+
+/// The render pass of a baked graphics pass. Pipelines are made for it; it depends on formats,
+/// load and store only, so it is compatible across extents.
+[[nodiscard]] gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device,
+                                                        const Graph& graph, const BakedPass& pass);
+
+/// The Vulkan objects of a baked graph: transient images in shared memory, views, render passes,
+/// framebuffers; and its execution into a command buffer. Made once per plan shape, used every
+/// frame; executing creates nothing and allocates nothing. The device must outlive it.
+class Executor {
+public:
+    Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked);
+
+    /// The buffers behind the imported handles may change from frame to frame (they grow). All have
+    /// to be set before the first execution.
+    void set_buffer(Handle handle, VkBuffer buffer);
+
+    /// What a compute shader samples: the colour, or the depth aspect.
+    [[nodiscard]] VkImageView sampled_view(Handle handle) const;
+
+    /// Bytes of device memory behind the transient images.
+    [[nodiscard]] std::uint64_t image_bytes() const { return image_bytes_; }
+
+    /// Records all passes, each labelled with its name and timed. Executions that share these
+    /// images may be under way at the same time on one queue; their buffers must not be the same.
+    void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
+
+    [[nodiscard]] const BakedGraph& baked() const { return baked_; }
+
+private:
+    struct Image {
+        gpu::Owned<VkImage> image;
+        gpu::Owned<VkImageView> attachment_view;
+        gpu::Owned<VkImageView> sampled_view;
+    };
+    struct GraphicsPass {
+        gpu::Owned<VkRenderPass> render_pass;
+        gpu::Owned<VkFramebuffer> framebuffer;
+    };
+
+    /// One vkCmdPipelineBarrier, filled in ahead so that executing only hands it over.
+    struct BarrierCall {
+        VkPipelineStageFlags source_stages = 0;
+        VkPipelineStageFlags destination_stages = 0;
+        std::vector<VkMemoryBarrier> memory;
+        std::vector<VkImageMemoryBarrier> images;
+        std::vector<VkBufferMemoryBarrier> buffers;
+        std::vector<std::uint32_t> buffer_resources;  // by position in `buffers`
+    };
+
+    void create_images(const Graph& graph);
+    void allocate_memory(const Graph& graph);
+    void create_views(const Graph& graph);
+    void create_graphics(const Graph& graph);
+    [[nodiscard]] BarrierCall make_call(const Graph& graph,
+                                        const std::vector<Barrier>& barriers) const;
+    void record_barriers(const Graph& graph, VkCommandBuffer commands,
+                         const BarrierCall& call) const;
+
+    const gpu::Device* device_;
+    BakedGraph baked_;
+    std::vector<gpu::Owned<VkDeviceMemory>> memory_;  // by memory slot
+    std::vector<Image> images_;                       // by resource
+    std::vector<GraphicsPass> graphics_;              // by position in baked_.passes
+    std::vector<BarrierCall> calls_;  // by position in baked_.passes; last, the one to the host
+    std::uint64_t image_bytes_ = 0;
+};
+
+}  // namespace nearfield::graph

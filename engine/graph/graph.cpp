@@ -1,0 +1,29 @@
+#include <engine/graph/graph.hpp>
+
+#include <utility>
+
+namespace nearfield::graph {
+
+void PassBuilder::read(Handle handle, Access access) {
+    pass_.uses.push_back({.handle = handle, .access = access, .write = false});
+}
+
+Handle PassBuilder::write(Handle handle, Access access) {
+    pass_.uses.push_back({.handle = handle, .access = access, .write = true});
+    return {.resource = handle.resource, .version = handle.version + 1};
+}
+
+Handle Graph::create_image(ImageDescription description) {
+    Resource& resource = resources_.emplace_back();
+    resource.is_image = true;
+    resource.image = std::move(description);
+    return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
+}
+
+Handle Graph::import_buffer(BufferDescription description) {
+    Resource& resource = resources_.emplace_back();
+    resource.buffer = std::move(description);
+    return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
+}
+
+}  // namespace nearfield::graph

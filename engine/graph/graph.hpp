@@ -1,0 +1,115 @@
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace nearfield::graph {
+
+/// How a pass touches a resource. Stages, access masks, image layouts and image usages follow from
+/// this alone (see access.hpp).
+enum class Access : std::uint8_t {
+    color_attachment,          ///< written (and tested against what was there) as colour
+    depth_stencil_attachment,  ///< written and tested as depth, stencil or both
+    sampled_in_compute,        ///< image, read by texel fetch in a compute shader
+    storage_read_in_compute,   ///< buffer, read in a compute shader
+    storage_write_in_compute,  ///< buffer, written (or read and written) in a compute shader
+    vertex_buffer,             ///< buffer, read as vertex input
+};
+
+/// A resource at one version. Writing gives a new version and makes the old one invalid: who reads
+/// says whose output it reads, so the order of passes follows from the handles, not from the order
+/// of declaration.
+struct Handle {
+    std::uint32_t resource = UINT32_MAX;
+    std::uint32_t version = 0;
+
+    friend bool operator==(const Handle&, const Handle&) = default;
+};
+
+/// An image that lives only inside the graph. Version 0 has no content.
+struct ImageDescription {
+    std::string name;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkExtent2D extent{};
+};
+
+/// A buffer of the caller's. Version 0 holds what the host wrote before the graph runs, if
+/// anything.
+struct BufferDescription {
+    std::string name;
+    bool written_by_host = false;  ///< version 0 may be read
+    bool read_by_host = false;     ///< its last version is made visible to the host at the end
+};
+
+enum class PassKind : std::uint8_t { graphics, compute };
+
+/// One use of a resource by a pass.
+struct Use {
+    Handle handle;  ///< the version the pass sees; a write produces version + 1
+    Access access{};
+    bool write = false;
+};
+
+/// Records a pass's commands. Around it the graph has already put the barriers, the render pass
+/// (for a graphics pass), the label and the timestamps.
+using Record = std::function<void(VkCommandBuffer)>;
+
+struct Pass {
+    std::string name;
+    PassKind kind{};
+    std::vector<Use> uses;
+    Record record;
+};
+
+/// Declares, inside add_pass, what a pass reads and writes.
+class PassBuilder {
+public:
+    explicit PassBuilder(Pass& pass) : pass_(pass) {}
+
+    void read(Handle handle, Access access);
+    /// Returns the handle of the new version. The former content is kept where the version is
+    /// above 0 (or the host wrote it); a version 0 is undefined to the pass, which has to fill
+    /// what it uses.
+    [[nodiscard]] Handle write(Handle handle, Access access);
+
+private:
+    Pass& pass_;
+};
+
+struct Resource {
+    bool is_image = false;
+    ImageDescription image;    // where is_image
+    BufferDescription buffer;  // otherwise
+    [[nodiscard]] const std::string& name() const { return is_image ? image.name : buffer.name; }
+};
+
+/// Passes and the resources they use, as declared. Knows nothing of a device.
+class Graph {
+public:
+    Handle create_image(ImageDescription description);
+    Handle import_buffer(BufferDescription description);
+
+    /// `setup` is called at once with a PassBuilder; `record` whenever the graph is executed.
+    template <class Setup>
+    void add_pass(std::string name, PassKind kind, Setup&& setup, Record record) {
+        Pass& pass = passes_.emplace_back();
+        pass.name = std::move(name);
+        pass.kind = kind;
+        pass.record = std::move(record);
+        PassBuilder builder(pass);
+        setup(builder);
+    }
+
+    [[nodiscard]] const std::vector<Resource>& resources() const { return resources_; }
+    [[nodiscard]] const std::vector<Pass>& passes() const { return passes_; }
+
+private:
+    std::vector<Resource> resources_;
+    std::vector<Pass> passes_;
+};
+
+}  // namespace nearfield::graph

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <string>
+
+/// Vulkan's words as the graph prints them: short, bits joined by a plus, "none" where there are
+/// none, and a number for what the graph itself never sets.
+namespace nearfield::graph {
+
+[[nodiscard]] std::string stage_names(VkPipelineStageFlags stages);
+[[nodiscard]] std::string access_names(VkAccessFlags access);
+[[nodiscard]] std::string usage_names(VkImageUsageFlags usage);
+[[nodiscard]] std::string layout_name(VkImageLayout layout);
+[[nodiscard]] std::string format_name(VkFormat format);
+
+}  // namespace nearfield::graph

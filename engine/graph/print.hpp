@@ -1,0 +1,16 @@
+#pragma once
+
+#include <engine/graph/bake.hpp>
+#include <engine/graph/graph.hpp>
+
+#include <string>
+
+namespace nearfield::graph {
+
+/// Passes in order with their barriers and attachments, then resources with lifetimes and memory.
+[[nodiscard]] std::string print_text(const Graph& graph, const BakedGraph& baked);
+
+/// The same as a Graphviz digraph: boxes for passes, ellipses for versions of resources.
+[[nodiscard]] std::string print_graphviz(const Graph& graph, const BakedGraph& baked);
+
+}  // namespace nearfield::graph
