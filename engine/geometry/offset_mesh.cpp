@@ -1,0 +1,57 @@
+#include <engine/geometry/clip.hpp>
+#include <engine/geometry/offset_mesh.hpp>
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+
+namespace nearfield::geometry {
+
+namespace {
+
+constexpr double cosine = 0.92387953251128674;  // of 22.5 degrees
+constexpr double sine = 0.38268343236508977;
+
+// Corners of the octagon around the unit circle, times cos(22.5 degrees), counter-clockwise from
+// the tangent. One side is square to the tangent, one parallel to it on either hand: those two are
+// the long sides of the stretched octagon.
+constexpr double corners[8][2] = {{cosine, sine},  {sine, cosine},   {-sine, cosine},
+                                  {-cosine, sine}, {-cosine, -sine}, {-sine, -cosine},
+                                  {sine, -cosine}, {cosine, -sine}};
+
+}  // namespace
+
+void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
+                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh) {
+    // Snapping pulls the border in by no more than the largest move. Half of it on top keeps a
+    // sample at exactly `offset` inside, not on the border, where the fill rule might drop it.
+    const double circumradius = (offset + 1.5 * grid.largest_move()) * offset_overreach;
+    const double margin = circumradius + grid.largest_move();
+    Vector from = a;
+    Vector to = b;
+    if (!clip_to_slab(from, to, 0, -margin, width + margin) ||
+        !clip_to_slab(from, to, 1, -margin, height + margin)) {
+        return;
+    }
+
+    // The tangent is the whole edge's: the part may be short, or a point.
+    Vector tangent = (b - a).stableNormalized();
+    if (tangent.isZero(0.0)) {
+        tangent = Vector::UnitX();
+    }
+    const Vector normal(-tangent.y(), tangent.x());
+    std::array<MeshVertex, std::size(corners)> polygon;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const auto [along, across] = corners[i];
+        const Vector& end = along > 0.0 ? to : from;
+        const Vector corner = end + circumradius * (along * tangent + across * normal);
+        polygon[i] = {.x = static_cast<float>(grid.snap(corner.x())),
+                      .y = static_cast<float>(grid.snap(corner.y())),
+                      .id = id};
+    }
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        mesh.insert(mesh.end(), {polygon[0], polygon[i - 1], polygon[i]});
+    }
+}
+
+}  // namespace nearfield::geometry

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <engine/geometry/mesh.hpp>
+#include <engine/geometry/vector.hpp>
+
+namespace nearfield::geometry {
+
+/// How far outside the offset itself the offset polygon may reach, as a factor: its ends are half
+/// octagons around half circles, 1 / cos(22.5 degrees).
+inline constexpr double offset_overreach = 1.0823922002923940;
+
+/// Appends the offset polygon of edge ab (section 2.2.1 of the paper): six triangles of an octagon,
+/// stretched along the edge, with snapped vertices. It covers every sample of the tile within
+/// `offset` of the edge and no point farther from it than
+/// `offset * offset_overreach + 3 * grid.largest_move()`. An edge of no length gives an octagon.
+///
+/// Only the part of the edge that can reach the tile of width x height cells is used, and nothing
+/// is appended where there is none: no vertex is farther from the tile (along an axis) than twice
+/// the bound above, so no rasteriser has to clip.
+void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
+                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh);
+
+}  // namespace nearfield::geometry

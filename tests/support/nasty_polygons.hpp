@@ -1,0 +1,29 @@
+#pragma once
+
+#include <tests/support/scanline.hpp>
+
+#include <string>
+#include <vector>
+
+namespace nearfield::support {
+
+struct NastyPolygon {
+    std::string name;  ///< kind, tile and seed: enough to make it again
+    Rings rings;
+};
+
+/// Polygons meant to break things, in cells of a tile of width x height: one of each kind for a
+/// seed (self-crossing, stars, combs, slivers, spikes, duplicate vertices, collinear runs, vertices
+/// on pixel centres, holes, tiny, around the tile, beside it).
+[[nodiscard]] std::vector<NastyPolygon> nasty_polygons(std::uint32_t width, std::uint32_t height,
+                                                       std::uint32_t seed);
+
+/// As above, with vertices up to 10^6 cells away.
+[[nodiscard]] std::vector<NastyPolygon> huge_polygons(std::uint32_t width, std::uint32_t height,
+                                                      std::uint32_t seed);
+
+/// The distance from p to the segment ab.
+[[nodiscard]] double distance_to_segment(const geometry::Vector& p, const geometry::Vector& a,
+                                         const geometry::Vector& b);
+
+}  // namespace nearfield::support
