@@ -1,3 +1,11 @@
+#include <engine/failure.hpp>
+#include <engine/geometry/polygon.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/headless.hpp>
+#include <engine/plan/planner.hpp>
+#include <engine/plan/round.hpp>
+#include <engine/renderer.hpp>
+#include <engine/results.hpp>
 #include <nearfield/context.hpp>
 
 #include <algorithm>
@@ -7,15 +15,6 @@
 #include <new>
 #include <utility>
 #include <vector>
-
-#include <engine/failure.hpp>
-#include <engine/geometry/polygon.hpp>
-#include <engine/gpu/device.hpp>
-#include <engine/gpu/headless.hpp>
-#include <engine/plan/planner.hpp>
-#include <engine/plan/round.hpp>
-#include <engine/renderer.hpp>
-#include <engine/results.hpp>
 
 namespace nearfield {
 namespace {

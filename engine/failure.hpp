@@ -1,9 +1,9 @@
 #pragma once
 
+#include <nearfield/status.hpp>
+
 #include <exception>
 #include <utility>
-
-#include <nearfield/status.hpp>
 
 namespace nearfield {
 

@@ -1,10 +1,9 @@
-#include <engine/recipe.hpp>
-
-#include <utility>
-
 #include <engine/failure.hpp>
 #include <engine/graph/print.hpp>
+#include <engine/recipe.hpp>
 #include <passes/tile_renderer.hpp>
+
+#include <utility>
 
 namespace nearfield {
 namespace {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <string>
-
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/execute.hpp>
@@ -17,6 +14,9 @@
 #include <passes/resolve_field.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/stencil_pipelines.hpp>
+
+#include <memory>
+#include <string>
 
 namespace nearfield {
 

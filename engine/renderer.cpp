@@ -1,10 +1,9 @@
+#include <engine/failure.hpp>
 #include <engine/renderer.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-
-#include <engine/failure.hpp>
 
 namespace nearfield {
 namespace {
@@ -39,8 +38,7 @@ Renderer::Renderer(const gpu::Device& device)
       submission_(device),
       timestamps_(device, most_passes),
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
-      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-             "nearfield input"),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                  "nearfield read-back") {
     frame_.points = layout_.set(0);
@@ -66,7 +64,8 @@ Recipe& Renderer::recipe_for(Needs needs, plan::TileSize extent) {
     VkExtent2D atlas{smallest_atlas, smallest_atlas};
     for (const auto& recipe : recipes_) {
         if (recipe->needs() == needs) {
-            if (recipe->extent().width >= extent.width && recipe->extent().height >= extent.height) {
+            if (recipe->extent().width >= extent.width &&
+                recipe->extent().height >= extent.height) {
                 return *recipe;
             }
             atlas = recipe->extent();
@@ -123,7 +122,8 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     // A range of no bytes is not allowed; a pass without work reads nothing.
     const auto write = [&](VkDescriptorSet set, Layout::Binding binding,
                            const gpu::MappedBuffer& buffer, std::uint64_t from, std::uint64_t to) {
-        layout_.write_buffer(set, binding, buffer.handle(), from, std::max<std::uint64_t>(to - from, 16));
+        layout_.write_buffer(set, binding, buffer.handle(), from,
+                             std::max<std::uint64_t>(to - from, 16));
     };
     const auto write_tiles = [&](VkDescriptorSet set) {
         write(set, Layout::tiles, input_, 0, bytes_of(round.tiles));

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
@@ -13,6 +7,12 @@
 #include <engine/plan/round.hpp>
 #include <engine/recipe.hpp>
 #include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace nearfield {
 

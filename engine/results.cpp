@@ -1,10 +1,9 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/overlap.hpp>
 #include <engine/results.hpp>
 
 #include <algorithm>
 #include <cmath>
-
-#include <engine/geometry/segment.hpp>
-#include <engine/localize/overlap.hpp>
 
 namespace nearfield {
 namespace {
@@ -95,7 +94,8 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     const PlacedPolygon a(*planned.a, planned.pose_a);
     const PlacedPolygon b(*planned.b, planned.pose_b);
-    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count; ++i) {
+    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
+         ++i) {
         const std::uint32_t word = words_[i];
         if ((word & plan::point_inside) == 0) {
             continue;
@@ -146,8 +146,8 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
             }
         } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
             if (intersection->status.ok()) {
-                intersection->area = static_cast<double>(intersection->count) *
-                                     intersection->cell * intersection->cell;
+                intersection->area = static_cast<double>(intersection->count) * intersection->cell *
+                                     intersection->cell;
                 intersection->intersects = shapes_intersect(planned);
             }
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {

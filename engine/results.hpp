@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
 #include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace nearfield {
 

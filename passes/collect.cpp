@@ -1,6 +1,6 @@
+#include <engine/gpu/pipeline.hpp>
 #include <passes/collect.hpp>
 
-#include <engine/gpu/pipeline.hpp>
 #include <shaders/collect_comp.hpp>
 
 namespace nearfield::passes {

@@ -118,7 +118,8 @@ void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer 
 }
 
 void ComputeLayout::write_image(VkDescriptorSet set, Binding binding, VkImageView view) const {
-    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view,
+                                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
+
+#include <cstdint>
 
 namespace nearfield::passes {
 

@@ -1,8 +1,8 @@
-#include <passes/cone_mesh.hpp>
-
 #include <engine/gpu/pipeline.hpp>
+#include <passes/cone_mesh.hpp>
 #include <passes/stencil_pipelines.hpp>
 #include <passes/tile_renderer.hpp>
+
 #include <shaders/constant_frag.hpp>
 #include <shaders/feature_frag.hpp>
 #include <shaders/mesh_vert.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include <engine/plan/round.hpp>
 
 #include <vulkan/vulkan_core.h>
 
-#include <engine/plan/round.hpp>
+#include <cstdint>
 
 namespace nearfield::passes {
 

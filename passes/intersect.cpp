@@ -1,5 +1,4 @@
 #include <passes/intersect.hpp>
-
 #include <passes/tile_renderer.hpp>
 
 namespace nearfield::passes {

@@ -1,6 +1,6 @@
+#include <engine/gpu/pipeline.hpp>
 #include <passes/resolve_field.hpp>
 
-#include <engine/gpu/pipeline.hpp>
 #include <shaders/resolve_field_comp.hpp>
 
 namespace nearfield::passes {

@@ -1,9 +1,9 @@
+#include <engine/gpu/pipeline.hpp>
 #include <passes/resolve_points.hpp>
 
-#include <algorithm>
-
-#include <engine/gpu/pipeline.hpp>
 #include <shaders/resolve_points_comp.hpp>
+
+#include <algorithm>
 
 namespace nearfield::passes {
 namespace {

@@ -16,7 +16,8 @@ class ResolvePoints {
 public:
     ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
-    /// Adds the pass. Which buffers and images the frame's descriptor set holds is the caller's affair.
+    /// Adds the pass. Which buffers and images the frame's descriptor set holds is the caller's
+    /// affair.
     void declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
                  graph::Handle sign, graph::Handle results) const;
 

@@ -1,11 +1,11 @@
+#include <engine/gpu/pipeline.hpp>
 #include <passes/stencil_pipelines.hpp>
 
-#include <string>
-
-#include <engine/gpu/pipeline.hpp>
 #include <shaders/constant_frag.hpp>
 #include <shaders/feature_frag.hpp>
 #include <shaders/mesh_vert.hpp>
+
+#include <string>
 
 namespace nearfield::passes {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
-
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/plan/round.hpp>
 #include <passes/frame.hpp>
+
+#include <cstdint>
 
 namespace nearfield::passes {
 

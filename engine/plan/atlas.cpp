@@ -21,7 +21,8 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
         cells += static_cast<double>(tile.width) * tile.height;
         widest = std::max(widest, tile.width);
     }
-    const double side = std::min(std::ceil(std::sqrt(cells) * 1.1), static_cast<double>(largest_side_));
+    const double side =
+        std::min(std::ceil(std::sqrt(cells) * 1.1), static_cast<double>(largest_side_));
     const std::uint32_t shelf_width = std::max(widest, static_cast<std::uint32_t>(side));
 
     rounds_ = tiles.empty() ? 0 : 1;

@@ -56,8 +56,9 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
 void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
                         std::vector<BoundaryPoint>& points) {
     for (const localize::Chain& chain : chains) {
-        for_each_edge(polygon, chain,
-                      [&](std::uint32_t edge, double) { points.push_back({edge, 0.0}); });
+        for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
+            points.push_back({edge, 0.0});
+        });
         // The chain's last vertex starts an edge that may be in no chain.
         const Polygon& shape = polygon.polygon();
         const std::uint32_t size = shape.ring_end(chain.ring) - shape.ring_begin(chain.ring);

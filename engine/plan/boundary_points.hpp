@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/localize/overlap.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace nearfield::plan {
 

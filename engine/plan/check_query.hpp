@@ -1,9 +1,9 @@
 #pragma once
 
-#include <string>
-
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
+
+#include <string>
 
 namespace nearfield::plan {
 

@@ -86,8 +86,8 @@ void EdgeListWriter::push(const EdgeData& edge) {
 EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double extent) {
     list_.clear();
     for (const TileEdge& edge : edges) {
-        const bool exact = edge.simplified == no_simplified ||
-                           (*boundary_->edges)[edge.simplified].count == 1;
+        const bool exact =
+            edge.simplified == no_simplified || (*boundary_->edges)[edge.simplified].count == 1;
         list_.push_back(describe(exact ? cut(edge, extent) : edge));
     }
 

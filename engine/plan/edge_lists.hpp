@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/tile_edges.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace nearfield::plan {
 

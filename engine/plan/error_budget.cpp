@@ -1,8 +1,7 @@
+#include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/error_budget.hpp>
 
 #include <numbers>
-
-#include <engine/geometry/offset_mesh.hpp>
 
 namespace nearfield::plan {
 namespace {
@@ -11,9 +10,10 @@ namespace {
 // room for the few operations of a distance.
 constexpr double float_rounding = 1.0 / 1024.0;
 
-// Errors of the distance mesh and of simplification only cost work in resolve, not accuracy, where
-// resolve walks the original edges; these balance the two on the outlines measured.
-constexpr double mesh_share = 0.125;
+// Error of the distance mesh, in cells. Where resolve walks the original edges, errors of the mesh
+// and of simplification cost it work but no accuracy, so both are coarse there.
+constexpr double points_mesh_error = 0.25;
+constexpr double field_mesh_error = 0.125;
 
 }  // namespace
 
@@ -21,8 +21,8 @@ ErrorBudget penetration_budget(const PenetrationQuery& query) {
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
-    budget.simplification = d / 4.0;
-    budget.mesh = mesh_share * budget.cell;
+    budget.simplification = d / 2.0;
+    budget.mesh = points_mesh_error * budget.cell;
     // Depth changes by no more than the way along the boundary, and samples are at most a cell
     // apart on it; vertices are all looked at.
     const double sampling = query.points == PenetrationPoints::boundary ? budget.cell / 2.0 : 0.0;
@@ -40,9 +40,10 @@ ErrorBudget intersection_budget(const IntersectionQuery& query, geometry::Subpix
     if (query.kind == IntersectionKind::volume_volume) {
         half_diagonal = (d - budget.simplification) / (1.0 + snapping);
     } else {
-        // overreach * (half_diagonal + simplification) + 2 snapping + simplification = d
+        // overreach * (half_diagonal + simplification) + 3 snapping + simplification = d
         const double overreach = geometry::offset_overreach;
-        half_diagonal = (d - (1.0 + overreach) * budget.simplification) / (overreach + 2.0 * snapping);
+        half_diagonal =
+            (d - (1.0 + overreach) * budget.simplification) / (overreach + 3.0 * snapping);
     }
     budget.cell = half_diagonal * std::numbers::sqrt2;
     budget.offset = half_diagonal + budget.simplification;
@@ -55,13 +56,12 @@ ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
     budget.simplification = d / 4.0;
-    budget.mesh = mesh_share * budget.cell;
+    budget.mesh = field_mesh_error * budget.cell;
     // The sample itself is a cell's centre, so there is no sampling error: what is left is the
     // simplified boundary, a feature that won although another is nearer by up to the error of the
     // mesh, the raster's snapping of that mesh and of the fill, and rounding.
     const double snapping = 2.0 * grid.largest_move() * budget.cell;
-    budget.bound =
-        budget.simplification + budget.mesh + snapping + float_rounding * budget.cell;
+    budget.bound = budget.simplification + budget.mesh + snapping + float_rounding * budget.cell;
     return budget;
 }
 

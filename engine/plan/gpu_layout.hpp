@@ -34,10 +34,10 @@ static_assert(sizeof(TileData) == 48);
 /// A straight edge, exact or standing for a run of B's edges.
 struct EdgeData {
     float ax = 0.0F, ay = 0.0F, bx = 0.0F, by = 0.0F;
-    std::uint32_t run = 0;        ///< where the run's count + 1 vertices start in the geometry array
-    std::uint32_t run_count = 1;  ///< edges in the run; 1: the edge itself
-    float deviation = 0.0F;       ///< the run stays within this of the edge
-    std::uint32_t first_edge = 0; ///< index of the run's first edge in B
+    std::uint32_t run = 0;  ///< where the run's count + 1 vertices start in the geometry array
+    std::uint32_t run_count = 1;   ///< edges in the run; 1: the edge itself
+    float deviation = 0.0F;        ///< the run stays within this of the edge
+    std::uint32_t first_edge = 0;  ///< index of the run's first edge in B
 };
 static_assert(sizeof(EdgeData) == 32);
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/geometry/vector.hpp>
+
+#include <cstdint>
 
 namespace nearfield::plan {
 

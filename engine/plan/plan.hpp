@@ -1,23 +1,19 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/plan/atlas.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/grid.hpp>
+#include <engine/plan/needed_blocks.hpp>
 #include <nearfield/query.hpp>
 
-namespace nearfield::plan {
+#include <cstdint>
+#include <span>
+#include <vector>
 
-/// The smallest power of two of cells a block has along a side; a tile has at most 16 x 16 blocks.
-inline constexpr std::uint32_t smallest_block = 16;
-inline constexpr std::uint32_t blocks_along = 16;
+namespace nearfield::plan {
 
 enum class TileKind : std::uint8_t {
     points,   ///< depth of boundary points
@@ -36,14 +32,13 @@ struct Tile {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     AtlasPlace place;
-    /// Points tiles: which blocks hold points, bit by bit.
-    std::array<std::uint64_t, blocks_along * blocks_along / 64> needed_blocks{};
+    /// Which blocks of the tile hold points, or all of them for a field. Not for overlap.
+    NeededBlocks needed;
 
     [[nodiscard]] geometry::Vector origin() const {
-        return grid.origin + grid.cell * geometry::Vector(static_cast<double>(column),
-                                                          static_cast<double>(row));
+        return grid.origin +
+               grid.cell * geometry::Vector(static_cast<double>(column), static_cast<double>(row));
     }
-    [[nodiscard]] std::uint32_t block_side() const;
 };
 
 /// A boundary point and the tile its cell belongs to.
@@ -68,8 +63,8 @@ struct PlannedQuery {
 struct Plan {
     std::vector<PlannedQuery> queries;  ///< by position in the batch
     std::vector<Tile> tiles;
-    std::vector<PlannedPoint> points;   ///< in order of queries, then along A's rings
-    TileSize extent;                    ///< of the atlas
+    std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
+    TileSize extent;                   ///< of the atlas
     std::uint32_t rounds = 0;
     /// Bytes all results may need on the host.
     double result_bytes = 0.0;

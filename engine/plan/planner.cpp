@@ -1,11 +1,10 @@
+#include <engine/failure.hpp>
+#include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include <engine/failure.hpp>
-#include <engine/plan/check_query.hpp>
 
 namespace nearfield::plan {
 namespace {
@@ -114,14 +113,15 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
     }
     // Memory grows with (1/d)^growth: what this query alone would take at a coarser tolerance.
     const double smallest = tolerance * std::pow(bytes / limit, 1.0 / growth);
-    std::string hint = bytes > limit ? "; the smallest tolerance that fits is about " +
-                                           number(static_cast<float>(smallest * 1.05))
-                                     : "; together with the queries before it the batch is too large";
+    std::string hint = bytes > limit
+                           ? "; the smallest tolerance that fits is about " +
+                                 number(static_cast<float>(smallest * 1.05))
+                           : "; together with the queries before it the batch is too large";
     throw Failure({StatusCode::too_large,
                    "query " + std::to_string(query_) + " with tolerance " + number(tolerance) +
                        " needs up to " + number(std::ceil(plan_->result_bytes / 1048576.0)) +
-                       " MiB, more than the limit of " +
-                       number(std::floor(limit / 1048576.0)) + " MiB" + hint});
+                       " MiB, more than the limit of " + number(std::floor(limit / 1048576.0)) +
+                       " MiB" + hint});
 }
 
 void Planner::join_chain_boxes(const Box& within, double grow) {
@@ -145,8 +145,9 @@ void Planner::add_regions(double cell, ResultSummary& result) {
     grids_.clear();
     for (const Box& box : boxes_) {
         const Grid& grid = grids_.emplace_back(Grid::covering(box, cell));
-        const geometry::Vector max = grid.origin + cell * geometry::Vector(static_cast<double>(grid.width),
-                                                                          static_cast<double>(grid.height));
+        const geometry::Vector max =
+            grid.origin + cell * geometry::Vector(static_cast<double>(grid.width),
+                                                  static_cast<double>(grid.height));
         constexpr std::uint64_t most = UINT32_MAX;
         result.regions.push_back({geometry::to_public(grid.origin), geometry::to_public(max),
                                   static_cast<std::uint32_t>(std::min(grid.width, most)),
@@ -181,7 +182,8 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     samples_.clear();
     if (query.points == PenetrationPoints::vertices) {
         vertices_of_chains(a, chains_, samples_);
-        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance, 1.0);
+        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
+                       1.0);
     } else {
         require_memory(bytes_per_point * most_samples(a, chains_, planned.budget.cell),
                        query.tolerance, 1.0);
@@ -189,8 +191,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     }
     add_regions(planned.budget.cell, result);
     spread_points(a, box_b);
-    planned.point_count =
-        static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
+    planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
 void Planner::spread_points(const PlacedPolygon& a, const Box& within) {
@@ -223,7 +224,8 @@ void Planner::spread_points(const PlacedPolygon& a, const Box& within) {
         };
         const PointCell cell{grid, index(local.x(), region.width), index(local.y(), region.height)};
         cells_.push_back(cell);
-        keys_.push_back({grid, cell.row / limits_.largest_tile, cell.column / limits_.largest_tile});
+        keys_.push_back(
+            {grid, cell.row / limits_.largest_tile, cell.column / limits_.largest_tile});
         samples_[kept++] = sample;
     }
     samples_.resize(kept);
@@ -242,8 +244,8 @@ void Planner::spread_points(const PlacedPolygon& a, const Box& within) {
         const TileKey key{cells_[i].grid, cells_[i].row / limits_.largest_tile,
                           cells_[i].column / limits_.largest_tile};
         const auto found = std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
-        plan_->points.push_back(
-            {samples_[i], static_cast<std::uint32_t>(first_tile + static_cast<std::size_t>(found))});
+        plan_->points.push_back({samples_[i], static_cast<std::uint32_t>(
+                                                  first_tile + static_cast<std::size_t>(found))});
     }
     trim_tiles_to_points();
 }
@@ -256,8 +258,10 @@ void Planner::trim_tiles_to_points() {
         const bool first = tile.width == 0;
         const std::uint64_t column = first ? cell.column : std::min(tile.column, cell.column);
         const std::uint64_t row = first ? cell.row : std::min(tile.row, cell.row);
-        const std::uint64_t right = first ? cell.column + 1 : std::max(tile.column + tile.width, cell.column + 1);
-        const std::uint64_t top = first ? cell.row + 1 : std::max(tile.row + tile.height, cell.row + 1);
+        const std::uint64_t right =
+            first ? cell.column + 1 : std::max(tile.column + tile.width, cell.column + 1);
+        const std::uint64_t top =
+            first ? cell.row + 1 : std::max(tile.row + tile.height, cell.row + 1);
         tile.column = column;
         tile.row = row;
         tile.width = static_cast<std::uint32_t>(right - column);
@@ -265,10 +269,11 @@ void Planner::trim_tiles_to_points() {
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
         Tile& tile = plan_->tiles[plan_->points[first_point + i].tile];
-        const std::uint32_t side = tile.block_side();
-        const std::uint64_t block = (cells_[i].row - tile.row) / side * blocks_along +
-                                    (cells_[i].column - tile.column) / side;
-        tile.needed_blocks[block / 64] |= std::uint64_t{1} << (block % 64);
+        if (tile.needed.empty()) {
+            tile.needed = NeededBlocks(tile.width, tile.height);
+        }
+        tile.needed.add(static_cast<std::uint32_t>(cells_[i].column - tile.column),
+                        static_cast<std::uint32_t>(cells_[i].row - tile.row));
     }
 }
 
@@ -282,8 +287,8 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     result.kind = query.kind;
     const Box box_a = a.box();
     const Box box_b = b.box();
-    result.status = check_resolution(
-        query.tolerance, std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
+    result.status = check_resolution(query.tolerance,
+                                     std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
     if (!result.status.ok()) {
         return;
     }
@@ -336,7 +341,8 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.cell = planned.budget.cell;
     Box box;
     if (query.rectangle) {
-        box = Box(geometry::to_vector(query.rectangle->min), geometry::to_vector(query.rectangle->max));
+        box = Box(geometry::to_vector(query.rectangle->min),
+                  geometry::to_vector(query.rectangle->max));
     } else {
         const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
         box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
@@ -381,6 +387,10 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
             tile.row = row;
             tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column));
             tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row));
+            if (kind == TileKind::field) {
+                tile.needed = NeededBlocks(tile.width, tile.height);
+                tile.needed.add_all();
+            }
         }
     }
 }
@@ -395,8 +405,7 @@ void Planner::pack() {
     const double limit = static_cast<double>(limits_.memory);
     if (plan_->result_bytes + images > limit) {
         throw Failure({StatusCode::too_large,
-                       "the batch needs images of " +
-                           number(std::ceil(images / 1048576.0)) +
+                       "the batch needs images of " + number(std::ceil(images / 1048576.0)) +
                            " MiB on the device, which together with its results is more than the "
                            "limit of " +
                            number(std::floor(limit / 1048576.0)) + " MiB"});

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/plan.hpp>
 #include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace nearfield::plan {
 
@@ -15,7 +15,7 @@ struct PlanLimits {
     geometry::SubpixelGrid subpixel;
     std::uint32_t largest_tile = 1024;  ///< cells along a side
     std::uint32_t largest_atlas = 2048;
-    std::uint64_t memory = 0;           ///< bytes a batch may need
+    std::uint64_t memory = 0;  ///< bytes a batch may need
     std::uint32_t hierarchy_height = 8;
 };
 

@@ -1,11 +1,11 @@
+#include <engine/geometry/clip.hpp>
+#include <engine/geometry/fill_mesh.hpp>
+#include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/round.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include <engine/geometry/fill_mesh.hpp>
-#include <engine/geometry/offset_mesh.hpp>
 
 namespace nearfield::plan {
 namespace {
@@ -30,6 +30,17 @@ DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
         mesh.push_back({corner[0], corner[1], 1.0F, 0});
     }
     return range;
+}
+
+/// The part of an edge within `border` cells of a tile, since far ends would only make the raster's
+/// numbers worse.
+TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
+    TileEdge part = edge;
+    if (geometry::clip_to_slab(part.a, part.b, 0, -border, tile.width + border) &&
+        geometry::clip_to_slab(part.a, part.b, 1, -border, tile.height + border)) {
+        return part;
+    }
+    return edge;
 }
 
 DrawRange since(std::size_t first, const Mesh& mesh) {
@@ -82,24 +93,6 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
     add_points(plan, number, round);
 }
 
-void RoundBuilder::find_needed_blocks(const Tile& tile) {
-    blocks_.clear();
-    const std::uint32_t side = tile.block_side();
-    for (std::uint32_t row = 0; row * side < tile.height; ++row) {
-        for (std::uint32_t column = 0; column * side < tile.width; ++column) {
-            const std::uint32_t block = row * blocks_along + column;
-            const bool needed = tile.kind == TileKind::field ||
-                                ((tile.needed_blocks[block / 64] >> (block % 64)) & 1U) != 0;
-            if (needed) {
-                const Vector low(column * side, row * side);
-                const Vector high(std::min((column + 1) * side, tile.width),
-                                  std::min((row + 1) * side, tile.height));
-                blocks_.push_back({0.5 * (low + high), 0.5 * (high - low).norm()});
-            }
-        }
-    }
-}
-
 DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                  Mesh& mesh) const {
     const std::size_t first = mesh.size();
@@ -110,22 +103,26 @@ DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile&
     return since(first, mesh);
 }
 
-DrawRange RoundBuilder::add_distance_mesh(const geometry::DistanceMeshOptions& options,
+DrawRange RoundBuilder::add_distance_mesh(const Tile& tile,
+                                          const geometry::DistanceMeshOptions& options,
                                           Mesh& mesh) {
     const std::size_t first = mesh.size();
     list_position_.assign(boundary_.size(), no_simplified);
-    for (std::uint32_t i = 0; i < nearest_.edges.size(); ++i) {
-        list_position_[nearest_.edges[i].simplified] = i;
+    for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
+        list_position_[nearest_[i].edge.simplified] = i;
     }
-    for (std::uint32_t i = 0; i < nearest_.edges.size(); ++i) {
-        const TileEdge& edge = nearest_.edges[i];
-        geometry::append_tent(edge.a, edge.b, nearest_.reach[i], i, options, mesh);
+    for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
+        const NearestEdge& nearest = nearest_[i];
+        const TileEdge& edge = nearest.edge;
+        const TileEdge part = part_near(edge, tile, nearest.reach() + 1.0);
+        geometry::append_tent(part.a, part.b, {nearest.reach_left, nearest.reach_right}, i, options,
+                              mesh);
         // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
         // are in the list, and only as far as both can be nearest.
-        const std::uint32_t before = boundary_.previous[edge.simplified];
-        if (list_position_[before] != no_simplified) {
-            const double reach = std::min(nearest_.reach[i], nearest_.reach[list_position_[before]]);
-            geometry::append_cone_sector(boundary_.start(before), edge.a, edge.b, reach, i, options,
+        const std::uint32_t before = list_position_[boundary_.previous[edge.simplified]];
+        if (before != no_simplified) {
+            const double reach = std::min(nearest.reach(), nearest_[before].reach());
+            geometry::append_cone_sector(nearest_[before].edge.a, edge.a, edge.b, reach, i, options,
                                          mesh);
         }
     }
@@ -146,9 +143,14 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     crossing_edges(boundary_, tile.width, tile.height, simplification, crossing_);
     draw.b = add_fill(crossing_, tile, round.mesh);
 
-    find_needed_blocks(tile);
-    finder_.find(boundary_, blocks_, simplification + mesh_error, nearest_);
-    draw.distance = add_distance_mesh({mesh_error, grid_}, round.mesh);
+    finder_.find(boundary_, tile.needed, simplification + mesh_error, nearest_);
+    nearest_list_.clear();
+    double largest_reach = 0.0;
+    for (const NearestEdge& nearest : nearest_) {
+        nearest_list_.push_back(nearest.edge);
+        largest_reach = std::max(largest_reach, nearest.reach());
+    }
+    draw.distance = add_distance_mesh(tile, {mesh_error, grid_}, round.mesh);
     float farthest = 1.0F;
     for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
         farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
@@ -158,7 +160,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     TileData& data = round.tiles[draw.tile];
     round.lists.begin_tile(boundary_, to_cells);
     const double side = std::max(tile.width, tile.height);
-    data.nearest = round.lists.write(nearest_.edges, side + 2.0 * nearest_.largest_reach + 4.0);
+    data.nearest = round.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
     data.crossing = round.lists.write(crossing_, side + 4.0);
     // The cell's centre is up to half a diagonal away, its distance and the fill are off by what
     // simplification, the mesh and snapping change; the rest is for rounding.
@@ -218,8 +220,9 @@ void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& rou
             const Tile& tile = plan.tiles[point.tile];
             if (tile.place.round == number) {
                 const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
-                round.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
-                                        tile_of_plan_[point.tile], 0});
+                round.points.push_back({static_cast<float>(local.x()),
+                                        static_cast<float>(local.y()), tile_of_plan_[point.tile],
+                                        0});
                 round.point_index.push_back(i);
             }
         }

@@ -1,15 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <engine/geometry/distance_mesh.hpp>
 #include <engine/geometry/mesh.hpp>
 #include <engine/plan/edge_lists.hpp>
 #include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/nearest_edges.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace nearfield::plan {
 
@@ -36,8 +37,8 @@ struct TileDraw {
     float depth_scale = 1.0F;  ///< from cells to depth below 1, for the distance mesh
     Part part_a = Part::volume;
     Part part_b = Part::volume;
-    bool field = false;              ///< a value is asked for at every cell
-    std::uint32_t first_value = 0;   ///< field tiles: where its values start in the read-back
+    bool field = false;             ///< a value is asked for at every cell
+    std::uint32_t first_value = 0;  ///< field tiles: where its values start in the read-back
 };
 
 /// One filling of the atlas, in the form the device takes.
@@ -49,9 +50,9 @@ struct Round {
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
     std::vector<TileDraw> distance_draws;
     std::vector<TileDraw> overlap_draws;
-    std::vector<std::uint32_t> tile_index;   ///< by tile: its position in Plan::tiles
-    std::uint32_t field_values = 0;          ///< values of all field tiles together
-    std::uint64_t overlap_cells = 0;         ///< cells of all overlap tiles together
+    std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
+    std::uint32_t field_values = 0;         ///< values of all field tiles together
+    std::uint64_t overlap_cells = 0;        ///< cells of all overlap tiles together
 
     void clear();
 };
@@ -68,23 +69,22 @@ public:
 private:
     void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                            Round& round);
-    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                          Round& round);
+    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw, Round& round);
     void add_points(const Plan& plan, std::uint32_t number, Round& round);
     [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                      geometry::Mesh& mesh) const;
     [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset,
                                          geometry::Mesh& mesh) const;
-    [[nodiscard]] DrawRange add_distance_mesh(const geometry::DistanceMeshOptions& options,
+    [[nodiscard]] DrawRange add_distance_mesh(const Tile& tile,
+                                              const geometry::DistanceMeshOptions& options,
                                               geometry::Mesh& mesh);
-    void find_needed_blocks(const Tile& tile);
 
     geometry::SubpixelGrid grid_;
     SimplifiedShapes shapes_;
     TileBoundary boundary_;
     std::vector<TileEdge> crossing_;
-    std::vector<NeededBlock> blocks_;
-    NearestEdges nearest_;
+    std::vector<NearestEdge> nearest_;
+    std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
     std::vector<std::uint32_t> list_position_;  // by simplified edge: its place in nearest_
     std::vector<std::uint32_t> tile_of_plan_;   // by tile of the plan: its place in the round

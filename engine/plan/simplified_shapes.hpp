@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <engine/geometry/simplify.hpp>
+
+#include <vector>
 
 namespace nearfield::plan {
 

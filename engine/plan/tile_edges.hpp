@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <engine/geometry/simplify.hpp>
 #include <engine/geometry/vector.hpp>
 #include <engine/plan/grid.hpp>
+
+#include <cstdint>
+#include <vector>
 
 namespace nearfield::plan {
 
@@ -35,8 +35,8 @@ struct TileBoundary {
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(starts.size()); }
 
     /// Transforms all end points.
-    void place(const geometry::Polygon& shape, const std::vector<geometry::SimplifiedEdge>& simplified,
-               const ToCells& to_cells);
+    void place(const geometry::Polygon& shape,
+               const std::vector<geometry::SimplifiedEdge>& simplified, const ToCells& to_cells);
 };
 
 /// Appends every edge that a ray towards +x from a point of the tile can cross: edges in the tile's
@@ -45,38 +45,5 @@ struct TileBoundary {
 /// may be from its simplified edges.
 void crossing_edges(const TileBoundary& boundary, std::uint32_t width, std::uint32_t height,
                     double slack, std::vector<TileEdge>& edges);
-
-/// A square part of a tile that holds samples whose nearest feature is asked for.
-struct NeededBlock {
-    geometry::Vector centre;  ///< in cells of the tile
-    double half_diagonal = 0.0;
-};
-
-/// The edges that can be nearest to a needed sample, with the distance out to which each can.
-struct NearestEdges {
-    std::vector<TileEdge> edges;  ///< in ring order
-    std::vector<double> reach;    ///< by edge: farther than this from it, another edge is nearer
-    double largest_reach = 0.0;
-
-    void clear();
-};
-
-/// Finds them by upper bounds: a block's samples are no farther from the boundary than its centre
-/// is, plus half its diagonal. `slack` as above: the true boundary's nearest edge is among those
-/// found, and so is the simplified one's.
-class NearestEdgeFinder {
-public:
-    void find(const TileBoundary& boundary, const std::vector<NeededBlock>& blocks, double slack,
-              NearestEdges& result);
-
-private:
-    void keep_candidates(const TileBoundary& boundary, const std::vector<NeededBlock>& blocks,
-                         double slack);
-
-    std::vector<std::uint32_t> candidates_;  // simplified edges that can be nearest to any block
-    std::vector<float> squared_;             // by candidate: squared distance to a point
-    std::vector<double> reach_;              // by candidate
-    std::vector<float> ax_, ay_, dx_, dy_, inverse_length_;  // by candidate, for the inner loop
-};
 
 }  // namespace nearfield::plan

@@ -1,0 +1,68 @@
+#include <engine/geometry/placed_polygon.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace nearfield::geometry {
+
+PlacedPolygon::PlacedPolygon(const Polygon& polygon, const Pose& pose) : polygon_(&polygon) {
+    const double cosine = std::cos(pose.angle);
+    const double sine = std::sin(pose.angle);
+    rotation_ << cosine, -sine, sine, cosine;
+    translation_ = rotation_ * polygon.centre() + to_vector(pose.translation);
+}
+
+Box PlacedPolygon::box_of(std::span<const Vector> vertices) const {
+    // Two boxes by turns: extending one waits for the extension before.
+    Box even;
+    Box odd;
+    std::size_t i = 0;
+    for (; i + 1 < vertices.size(); i += 2) {
+        even.extend(to_world(vertices[i]));
+        odd.extend(to_world(vertices[i + 1]));
+    }
+    if (i < vertices.size()) {
+        even.extend(to_world(vertices[i]));
+    }
+    return even.merged(odd);
+}
+
+Box PlacedPolygon::chain_box(std::uint32_t ring, std::uint32_t first, std::uint32_t count) const {
+    const std::span<const Vector> vertices = polygon_->vertices();
+    const std::uint32_t begin = polygon_->ring_begin(ring);
+    const std::uint32_t before_wrap = std::min(count + 1, polygon_->ring_end(ring) - first);
+    const Box box = box_of(vertices.subspan(first, before_wrap));
+    return box.merged(box_of(vertices.subspan(begin, count + 1 - before_wrap)));
+}
+
+Box PlacedPolygon::box() const {
+    return box_of(polygon_->vertices());
+}
+
+bool contains(const PlacedPolygon& placed, const Vector& point) {
+    // One point is taken to the polygon rather than every vertex to the world.
+    const Vector p = placed.to_local(point);
+    const Polygon& polygon = placed.polygon();
+    const std::span<const Vector> vertices = polygon.vertices();
+    bool inside = false;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t begin = polygon.ring_begin(ring);
+        const std::uint32_t end = polygon.ring_end(ring);
+        Vector a = vertices[end - 1];
+        for (const Vector& b : vertices.subspan(begin, end - begin)) {
+            // Half open: a vertex at the height of the ray belongs to the edge that goes up from
+            // it alone, so a ray through a vertex counts right.
+            if ((a.y() > p.y()) != (b.y() > p.y())) {
+                const bool left = cross(b - a, p - a) > 0.0;
+                const bool upward = b.y() > a.y();
+                inside = inside != (left == upward);
+            }
+            a = b;
+        }
+    }
+    return inside;
+}
+
+}  // namespace nearfield::geometry

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <engine/geometry/polygon.hpp>
+#include <engine/geometry/vector.hpp>
+#include <nearfield/shape.hpp>
+
+namespace nearfield::geometry {
+
+/// A polygon at a pose: vertices in world coordinates, computed when asked for. Cheap to copy;
+/// the polygon must outlive it.
+class PlacedPolygon {
+public:
+    PlacedPolygon(const Polygon& polygon, const Pose& pose);
+
+    [[nodiscard]] const Polygon& polygon() const { return *polygon_; }
+
+    [[nodiscard]] const Eigen::Matrix2d& rotation() const { return rotation_; }
+    /// Where the polygon's centre is in the world.
+    [[nodiscard]] const Vector& translation() const { return translation_; }
+
+    /// Vertex i in world coordinates.
+    [[nodiscard]] Vector vertex(std::uint32_t i) const {
+        return to_world(polygon_->vertices()[i]);
+    }
+    /// From coordinates relative to the polygon's centre to world coordinates.
+    [[nodiscard]] Vector to_world(const Vector& v) const {
+        return rotation_.col(0) * v.x() + rotation_.col(1) * v.y() + translation_;
+    }
+    /// From world coordinates to coordinates relative to the polygon's centre.
+    [[nodiscard]] Vector to_local(const Vector& v) const {
+        return rotation_.transpose() * (v - translation_);
+    }
+
+    /// The bounding box of the vertices first, first + 1, ..., first + count (count + 1 of them;
+    /// the one after the ring's last is its first): the box of `count` edges of `ring`.
+    [[nodiscard]] Box chain_box(std::uint32_t ring, std::uint32_t first, std::uint32_t count) const;
+    /// The bounding box of the whole polygon.
+    [[nodiscard]] Box box() const;
+
+private:
+    [[nodiscard]] Box box_of(std::span<const Vector> vertices) const;
+
+    const Polygon* polygon_;
+    Eigen::Matrix2d rotation_;
+    Vector translation_;
+};
+
+/// True where the point lies inside by the odd-even rule. For a point on the boundary either
+/// answer may come. Linear in the number of vertices.
+[[nodiscard]] bool contains(const PlacedPolygon& polygon, const Vector& point);
+
+}  // namespace nearfield::geometry

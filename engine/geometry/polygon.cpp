@@ -1,0 +1,179 @@
+#include <engine/geometry/polygon.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace nearfield::geometry {
+namespace {
+
+Status invalid(const std::string& message) {
+    return {StatusCode::invalid_shape, message};
+}
+
+std::string ring_name(std::size_t ring) {
+    return "ring " + std::to_string(ring);
+}
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.17g", value);
+    return text.data();
+}
+
+/// The vertices of a ring without a last one that repeats the first.
+std::span<const Vector2> open_ring(const Ring& ring) {
+    const std::span<const Vector2> vertices(ring);
+    const bool closed_twice = vertices.size() > 1 && vertices.front() == vertices.back();
+    return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
+}
+
+/// Why a coordinate cannot be used; empty where it can.
+std::string coordinate_error(double value) {
+    if (std::isnan(value)) {
+        return "is not a number";
+    }
+    if (std::isinf(value)) {
+        return "is infinite";
+    }
+    if (std::abs(value) > largest_coordinate) {
+        return "is " + number(value) + ", more than " + number(largest_coordinate) +
+               " from the origin";
+    }
+    return {};
+}
+
+bool usable(const Vector2& v) {
+    // False for NaN too.
+    return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
+}
+
+Status check_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
+    const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
+    if (bad == vertices.end()) {
+        return {};
+    }
+    const std::string error_of_x = coordinate_error(bad->x);
+    const std::string what =
+        error_of_x.empty() ? "y " + coordinate_error(bad->y) : "x " + error_of_x;
+    return invalid(ring_name(ring) + ", vertex " + std::to_string(bad - vertices.begin()) + ": " +
+                   what);
+}
+
+bool has_three_different(std::span<const Vector2> vertices) {
+    if (vertices.empty()) {
+        return false;
+    }
+    const Vector2 first = vertices.front();
+    const auto second = std::find_if(vertices.begin(), vertices.end(),
+                                     [&](const Vector2& v) { return v != first; });
+    return std::any_of(second, vertices.end(),
+                       [&](const Vector2& v) { return v != first && v != *second; });
+}
+
+double largest_of(const Vector2& v) {
+    return std::max(std::abs(v.x), std::abs(v.y));
+}
+
+/// True where no vertex is farther from one line than the rounding of its coordinates explains.
+/// The line goes through the first vertex and the one farthest from it, so its two points are at
+/// least half the ring's extent apart and their own rounding does not swing it by more. Area would
+/// be no test: a bow tie has none. Precondition: at least two different vertices.
+bool on_one_line(std::span<const Vector2> vertices) {
+    const Vector2 origin = vertices.front();
+    const auto from_origin = [&](const Vector2& v) {
+        return Vector2{v.x - origin.x, v.y - origin.y};
+    };
+    Vector2 along;
+    double extent = 0.0;
+    double magnitude = 0.0;
+    for (const Vector2& v : vertices) {
+        const Vector2 d = from_origin(v);
+        if (largest_of(d) > extent) {
+            extent = largest_of(d);
+            along = d;
+        }
+        magnitude = std::max(magnitude, largest_of(v));
+    }
+    // Divided by the extent first: the products of a tiny ring must not underflow.
+    along = {along.x / extent, along.y / extent};
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * (magnitude / extent);
+    return std::none_of(vertices.begin(), vertices.end(), [&](const Vector2& v) {
+        const Vector2 d = from_origin(v);
+        return std::abs(along.x * (d.y / extent) - along.y * (d.x / extent)) > rounding;
+    });
+}
+
+Status check(std::span<const Ring> rings) {
+    if (rings.empty()) {
+        return invalid("the shape has no ring");
+    }
+    std::size_t total = 0;
+    for (const Ring& ring : rings) {
+        total += open_ring(ring).size();
+    }
+    if (total > most_vertices) {
+        return invalid("the shape has " + std::to_string(total) + " vertices; the most are " +
+                       std::to_string(most_vertices));
+    }
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        const std::span<const Vector2> vertices = open_ring(rings[r]);
+        if (Status status = check_coordinates(r, vertices); !status.ok()) {
+            return status;
+        }
+        if (!has_three_different(vertices)) {
+            return invalid(ring_name(r) + " has fewer than three different vertices");
+        }
+        if (on_one_line(vertices)) {
+            return invalid(ring_name(r) + " lies on one line");
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Status Polygon::assign(std::span<const Ring> rings) {
+    if (Status status = check(rings); !status.ok()) {
+        return status;
+    }
+    std::size_t total = 0;
+    Box box;
+    for (const Ring& ring : rings) {
+        const std::span<const Vector2> vertices = open_ring(ring);
+        total += vertices.size();
+        for (const Vector2& v : vertices) {
+            box.extend(to_vector(v));
+        }
+    }
+    // Memory first: should there be none, the polygon is still what it was.
+    vertices_.reserve(total);
+    ring_ends_.reserve(rings.size());
+
+    centre_ = 0.5 * (box.min() + box.max());
+    vertices_.clear();
+    ring_ends_.clear();
+    for (const Ring& ring : rings) {
+        for (const Vector2& v : open_ring(ring)) {
+            vertices_.push_back(to_vector(v) - centre_);
+        }
+        ring_ends_.push_back(size());
+    }
+    return {};
+}
+
+std::uint32_t Polygon::ring_of(std::uint32_t i) const {
+    return static_cast<std::uint32_t>(std::upper_bound(ring_ends_.begin(), ring_ends_.end(), i) -
+                                      ring_ends_.begin());
+}
+
+std::uint32_t Polygon::next(std::uint32_t i) const {
+    const std::uint32_t ring = ring_of(i);
+    return i + 1 == ring_end(ring) ? ring_begin(ring) : i + 1;
+}
+
+}  // namespace nearfield::geometry

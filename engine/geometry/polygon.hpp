@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <engine/geometry/vector.hpp>
+#include <nearfield/shape.hpp>
+#include <nearfield/status.hpp>
+
+namespace nearfield::geometry {
+
+/// The rings of a shape in one array of vertices. Coordinates are kept relative to the centre of
+/// the shape's bounding box, in double precision, so that rotating a shape that lies far from the
+/// origin of its own coordinates loses nothing.
+///
+/// Edge i goes from vertex i to vertex next(i); vertices and edges count through all rings.
+class Polygon {
+public:
+    /// Replaces all rings, or refuses them and leaves the polygon as it was. Reuses memory.
+    Status assign(std::span<const Ring> rings);
+
+    /// The centre of the bounding box, in the shape's own coordinates.
+    [[nodiscard]] const Vector& centre() const { return centre_; }
+    /// Vertices relative to centre().
+    [[nodiscard]] std::span<const Vector> vertices() const { return vertices_; }
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(vertices_.size()); }
+
+    [[nodiscard]] std::uint32_t ring_count() const {
+        return static_cast<std::uint32_t>(ring_ends_.size());
+    }
+    [[nodiscard]] std::uint32_t ring_begin(std::uint32_t ring) const {
+        return ring == 0 ? 0 : ring_ends_[ring - 1];
+    }
+    [[nodiscard]] std::uint32_t ring_end(std::uint32_t ring) const { return ring_ends_[ring]; }
+
+    /// The ring that vertex (or edge) i belongs to.
+    [[nodiscard]] std::uint32_t ring_of(std::uint32_t i) const;
+    /// The vertex after vertex i on its ring.
+    [[nodiscard]] std::uint32_t next(std::uint32_t i) const;
+
+private:
+    Vector centre_ = Vector::Zero();
+    std::vector<Vector> vertices_;
+    std::vector<std::uint32_t> ring_ends_;
+};
+
+}  // namespace nearfield::geometry

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <engine/geometry/vector.hpp>
+
+namespace nearfield::geometry {
+
+/// The point of a segment nearest to some point.
+struct NearestOnSegment {
+    Vector point;
+    double parameter = 0.0;  ///< 0 at a, 1 at b
+    double squared_distance = 0.0;
+};
+
+/// The point of segment ab nearest to p. A segment of no length is its point a.
+[[nodiscard]] NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a, const Vector& b);
+
+/// True where the closed segments ab and cd share a point; touching and overlapping count.
+/// Exact up to the rounding of the orientation determinants.
+[[nodiscard]] bool segments_intersect(const Vector& a, const Vector& b, const Vector& c,
+                                      const Vector& d);
+
+}  // namespace nearfield::geometry

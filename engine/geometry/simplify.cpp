@@ -1,0 +1,183 @@
+#include <engine/geometry/simplify.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace nearfield::geometry {
+namespace {
+
+// Why the distance of the vertices is enough. Let S be the straight segment from the first to the
+// last vertex of a run, and every vertex of the run within e of S.
+// - Distance to a convex set is a convex function, so along each edge of the run it is at most what
+//   it is at one of the edge's ends: no point of the run is farther than e from S.
+// - The run is a connected line from one end of S to the other. Its projection onto the line
+//   through S is continuous and starts and ends at the ends of S, so it takes every value between:
+//   over each point s of S there is a point r of the run that projects onto s, and |rs| is the
+//   distance of r to the line, at most its distance to S, at most e. This holds however the run
+//   folds back.
+
+/// The vertices of one ring from vertex `position` on; position `size` is the first vertex again.
+struct RingView {
+    std::span<const Vector> vertices;
+
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(vertices.size()); }
+    [[nodiscard]] const Vector& at(std::uint32_t position) const {
+        return vertices[position == size() ? 0 : position];
+    }
+};
+
+/// The directions in which a ray from the anchor passes within `reach` of every vertex seen.
+class Sector {
+public:
+    /// True where the ray towards v (relative to the anchor) lies in the sector.
+    [[nodiscard]] bool holds(const Vector& v) const {
+        return open_ || (cross(low_, v) >= 0.0 && cross(v, high_) >= 0.0 && faces(v));
+    }
+
+    /// Narrows the sector by a vertex farther than `reach`. False where nothing is left.
+    bool narrow(const Vector& v, double squared_distance, double reach) {
+        if (reach < 0.0 || (!open_ && !faces(v))) {
+            return false;
+        }
+        // The unit vectors at the angles +- asin(reach / distance) from v.
+        const double scale = 1.0 / squared_distance;
+        const Vector ahead = v * (scale * std::sqrt(squared_distance - reach * reach));
+        const Vector across = Vector(-v.y(), v.x()) * (scale * reach);
+        const Vector low = ahead - across;
+        const Vector high = ahead + across;
+        // v is less than a right angle from the bisector and no sector is wider than two, so the
+        // borders compared here are less than half a turn apart and the cross product orders them.
+        const bool raise_low = open_ || cross(low_, low) > 0.0;
+        const bool lower_high = open_ || cross(high_, high) < 0.0;
+        low_ = raise_low ? low : low_;
+        high_ = lower_high ? high : high_;
+        open_ = false;
+        return cross(low_, high_) >= 0.0;
+    }
+
+private:
+    [[nodiscard]] bool faces(const Vector& v) const { return v.dot(low_ + high_) > 0.0; }
+
+    bool open_ = true;  // every direction is left
+    Vector low_ = Vector::Zero();
+    Vector high_ = Vector::Zero();
+};
+
+/// How far any vertex of the run of `count` edges from `start` is from its straight segment.
+double run_deviation(const RingView& ring, std::uint32_t start, std::uint32_t count) {
+    const Vector a = ring.at(start);
+    const Vector b = ring.at(start + count);
+    const Vector along = b - a;
+    const double squared_length = along.squaredNorm();
+    double beyond_ends = 0.0;  // squared distance
+    double beside = 0.0;       // distance times length
+    for (const Vector& v : ring.vertices.subspan(start + 1, count - 1)) {
+        const Vector from_a = v - a;
+        const double along_of_v = along.dot(from_a);
+        if (along_of_v <= 0.0) {
+            beyond_ends = std::max(beyond_ends, from_a.squaredNorm());
+        } else if (along_of_v >= squared_length) {
+            beyond_ends = std::max(beyond_ends, (v - b).squaredNorm());
+        } else {
+            beside = std::max(beside, std::abs(cross(along, from_a)));
+        }
+    }
+    const double distance_beside = beside > 0.0 ? beside / std::sqrt(squared_length) : 0.0;
+    return std::max(std::sqrt(beyond_ends), distance_beside);
+}
+
+class RingSimplifier {
+public:
+    RingSimplifier(const RingView& ring, double deviation, double longest_run)
+        : ring_(ring),
+          deviation_(deviation),
+          squared_deviation_(deviation * deviation),
+          squared_longest_run_(longest_run * longest_run) {
+        double magnitude = 0.0;
+        for (const Vector& v : ring.vertices) {
+            magnitude = std::max(magnitude, v.lpNorm<Eigen::Infinity>());
+        }
+        // The sector is a little narrower than asked for, lest rounding lets a run through that
+        // the exact measure then refuses.
+        reach_ = deviation - 16.0 * std::numeric_limits<double>::epsilon() * magnitude;
+    }
+
+    /// The run that starts at position `start`, as number of edges, at most `most`.
+    [[nodiscard]] std::uint32_t longest_from(std::uint32_t start, std::uint32_t most) const {
+        // So far may be looked ahead for a better end than the last one found, without losing
+        // linear time where none comes.
+        constexpr std::uint32_t least_look_ahead = 8;
+        const Vector anchor = ring_.at(start);
+        Sector sector;
+        // All distances are squared ones from the anchor.
+        double farthest = 0.0;  // among the vertices that are not near the anchor itself
+        std::uint32_t best = 1;
+        Vector before = anchor;
+        for (std::uint32_t count = 1; count <= most; ++count) {
+            const Vector vertex = ring_.at(start + count);
+            const Vector v = vertex - anchor;
+            const double distance = v.squaredNorm();
+            if (distance > squared_longest_run_ ||
+                (vertex - before).squaredNorm() > squared_longest_run_) {
+                break;
+            }
+            before = vertex;
+            // As an end, v must be in the sector of the vertices before it, and no nearer than
+            // any of them: then all of them project onto the segment, not beyond it.
+            if (distance >= farthest && sector.holds(v)) {
+                best = count;
+            } else if (count - best > best + least_look_ahead) {
+                break;
+            }
+            if (distance > squared_deviation_) {  // a nearer one is near any segment from there
+                farthest = std::max(farthest, distance);
+                if (!sector.narrow(v, distance, reach_)) {
+                    break;
+                }
+            }
+        }
+        return best;
+    }
+
+    /// Shortens the run until it measures up, and gives the deviation it has.
+    [[nodiscard]] double measure(std::uint32_t start, std::uint32_t& count) const {
+        double deviation = run_deviation(ring_, start, count);
+        while (deviation > deviation_ && count > 1) {
+            count /= 2;
+            deviation = run_deviation(ring_, start, count);
+        }
+        return deviation;
+    }
+
+private:
+    RingView ring_;
+    double deviation_;
+    double squared_deviation_;
+    double squared_longest_run_;
+    double reach_;
+};
+
+}  // namespace
+
+void simplify(const Polygon& polygon, double deviation, double longest_run,
+              std::vector<SimplifiedEdge>& edges) {
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t begin = polygon.ring_begin(ring);
+        const RingView view{polygon.vertices().subspan(begin, polygon.ring_end(ring) - begin)};
+        const RingSimplifier simplifier(view, deviation, longest_run);
+        for (std::uint32_t start = 0; start < view.size();) {
+            // The first run must leave an edge over: a ring keeps two.
+            const std::uint32_t most = start == 0 ? view.size() - 1 : view.size() - start;
+            std::uint32_t count = simplifier.longest_from(start, most);
+            const double measured = simplifier.measure(start, count);
+            const std::uint32_t end = start + count;
+            edges.push_back(
+                {begin + start, end == view.size() ? begin : begin + end, count, measured});
+            start = end;
+        }
+    }
+}
+
+}  // namespace nearfield::geometry

@@ -1,0 +1,62 @@
+#include <engine/localize/hierarchy.hpp>
+
+#include <limits>
+
+namespace nearfield::localize {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+
+Node Hierarchy::root() {
+    return rings_node(0, polygon_->polygon().ring_count());
+}
+
+bool Hierarchy::splits(const Node& node) const {
+    return node.rings > 1 || (node.count > 1 && node.height < height_);
+}
+
+std::array<Node, 2> Hierarchy::halves(const Node& node) {
+    if (node.rings > 1) {
+        const std::uint32_t half = node.rings / 2;
+        return {rings_node(node.ring, half), rings_node(node.ring + half, node.rings - half)};
+    }
+    const std::uint32_t half = node.count / 2;
+    return {edges_node(node, node.first, half),
+            edges_node(node, node.first + half, node.count - half)};
+}
+
+Node Hierarchy::rings_node(std::uint32_t ring, std::uint32_t rings) {
+    const Polygon& polygon = polygon_->polygon();
+    const std::uint32_t begin = polygon.ring_begin(ring);
+    Node node{ring, rings, begin, polygon.ring_end(ring + rings - 1) - begin, 0, {}};
+    for (std::uint32_t r = ring; r < ring + rings; ++r) {
+        const std::uint32_t first = polygon.ring_begin(r);
+        // All of a ring's vertices are the ends of all its edges but one.
+        node.box.extend(polygon_->chain_box(r, first, polygon.ring_end(r) - first - 1));
+    }
+    ++nodes_evaluated_;
+    return node;
+}
+
+Node Hierarchy::edges_node(const Node& parent, std::uint32_t first, std::uint32_t count) {
+    ++nodes_evaluated_;
+    return {parent.ring,
+            1,
+            first,
+            count,
+            parent.height + 1,
+            polygon_->chain_box(parent.ring, first, count)};
+}
+
+double placement_rounding(const PlacedPolygon& polygon, const Box& box) {
+    // Every step of the placement (centring, rotating the centre and the vertex, adding) rounds
+    // by at most half an epsilon of the coordinates it works on, and none of these exceed the
+    // centre's and the result's by much.
+    const double magnitude = box.min().lpNorm<Eigen::Infinity>() +
+                             box.max().lpNorm<Eigen::Infinity>() +
+                             polygon.polygon().centre().lpNorm<Eigen::Infinity>();
+    return 4.0 * std::numeric_limits<double>::epsilon() * magnitude;
+}
+
+}  // namespace nearfield::localize

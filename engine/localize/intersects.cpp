@@ -1,0 +1,129 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/localize/overlap.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace nearfield::localize {
+namespace {
+
+using geometry::Box;
+using geometry::nearest_on_segment;
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::segments_intersect;
+using geometry::Vector;
+
+/// Pairs of so few edges are tested one by one: computing smaller boxes would cost as much.
+constexpr std::uint32_t leaf_edges = 6;
+
+/// The vertices of a leaf's edges in the world.
+struct Leaf {
+    std::array<Vector, leaf_edges + 1> vertices;
+    std::uint32_t edges = 0;
+
+    Leaf(const PlacedPolygon& placed, const Node& node) : edges(node.count) {
+        const Polygon& polygon = placed.polygon();
+        const std::uint32_t last = node.first + node.count;
+        for (std::uint32_t i = node.first; i < last; ++i) {
+            vertices[i - node.first] = placed.vertex(i);
+        }
+        const bool wraps = last == polygon.ring_end(node.ring);
+        vertices[edges] = placed.vertex(wraps ? polygon.ring_begin(node.ring) : last);
+    }
+
+    [[nodiscard]] Box box(std::uint32_t edge) const {
+        return {vertices[edge].cwiseMin(vertices[edge + 1]),
+                vertices[edge].cwiseMax(vertices[edge + 1])};
+    }
+};
+
+class BoundaryContact {
+public:
+    BoundaryContact(Hierarchy& a, Hierarchy& b, double margin) : a_(a), b_(b), margin_(margin) {}
+
+    /// True where edges of the two nodes meet.
+    [[nodiscard]] bool meet(const Node& a, const Node& b) {
+        if (!boxes_meet(a.box, b.box, margin_)) {
+            return false;
+        }
+        const bool leaf_a = is_leaf(a);
+        const bool leaf_b = is_leaf(b);
+        if (leaf_a && leaf_b) {
+            return leaves_meet(Leaf(a_.polygon(), a), Leaf(b_.polygon(), b));
+        }
+        // The larger one first: both get small together, and few boxes are computed twice.
+        if (leaf_b || (!leaf_a && a.count >= b.count)) {
+            const std::array<Node, 2> halves = a_.halves(a);
+            return meet(halves[0], b) || meet(halves[1], b);
+        }
+        const std::array<Node, 2> halves = b_.halves(b);
+        return meet(a, halves[0]) || meet(a, halves[1]);
+    }
+
+private:
+    static bool is_leaf(const Node& node) { return node.rings == 1 && node.count <= leaf_edges; }
+
+    [[nodiscard]] bool leaves_meet(const Leaf& a, const Leaf& b) const {
+        for (std::uint32_t i = 0; i < a.edges; ++i) {
+            const Box box = a.box(i);
+            for (std::uint32_t j = 0; j < b.edges; ++j) {
+                if (boxes_meet(box, b.box(j), margin_) &&
+                    edges_meet(a.vertices[i], a.vertices[i + 1], b.vertices[j],
+                               b.vertices[j + 1])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    [[nodiscard]] bool edges_meet(const Vector& a, const Vector& b, const Vector& c,
+                                  const Vector& d) const {
+        // Segments that do not cross are nearest at an end of one of them.
+        const auto near = [&](const Vector& p, const Vector& from, const Vector& to) {
+            return nearest_on_segment(p, from, to).squared_distance <= margin_ * margin_;
+        };
+        return segments_intersect(a, b, c, d) || near(a, c, d) || near(b, c, d) || near(c, a, b) ||
+               near(d, a, b);
+    }
+
+    Hierarchy& a_;
+    Hierarchy& b_;
+    double margin_;
+};
+
+/// True where a ring of `inner` lies in `outer`, told by one vertex of each: their boundaries do
+/// not meet.
+bool any_ring_inside(const PlacedPolygon& inner, const PlacedPolygon& outer, const Box& outer_box) {
+    const Polygon& polygon = inner.polygon();
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const Vector vertex = inner.vertex(polygon.ring_begin(ring));
+        if (outer_box.contains(vertex) && contains(outer, vertex)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+bool intersects(const PlacedPolygon& a, const PlacedPolygon& b) {
+    constexpr std::uint32_t no_limit = std::numeric_limits<std::uint32_t>::max();
+    Hierarchy tree_a(a, no_limit);
+    Hierarchy tree_b(b, no_limit);
+    const Node root_a = tree_a.root();
+    const Node root_b = tree_b.root();
+    const double margin = placement_rounding(a, root_a.box) + placement_rounding(b, root_b.box);
+    if (!boxes_meet(root_a.box, root_b.box, margin)) {
+        return false;
+    }
+    // Without contact of the boundaries: were a point in both shapes, so would be a boundary point
+    // of what they have in common, hence a whole ring of one of them in the other.
+    return BoundaryContact(tree_a, tree_b, margin).meet(root_a, root_b) ||
+           any_ring_inside(a, b, root_b.box) || any_ring_inside(b, a, root_a.box);
+}
+
+}  // namespace nearfield::localize

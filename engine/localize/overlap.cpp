@@ -1,0 +1,296 @@
+#include <engine/localize/hierarchy.hpp>
+#include <engine/localize/overlap.hpp>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace nearfield::localize {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+
+/// Refining ends early where so many pairs of boxes still meet: boundaries so entangled are not
+/// told apart by smaller boxes, and neither time nor memory may grow with the square of the edges.
+/// The chains are coarser then, which the law allows.
+constexpr std::size_t most_pairs = std::size_t{1} << 18U;
+
+/// A node of A and where the list of those nodes of B stands that it meets. Where it meets none it
+/// is settled and stays as it is.
+struct Candidate {
+    Node node;
+    std::size_t list_begin = 0;
+    std::size_t list_end = 0;
+
+    [[nodiscard]] bool settled() const { return list_begin == list_end; }
+};
+
+/// One level of both trees.
+struct Level {
+    std::vector<Candidate> candidates;  ///< of A, in order along its rings, settled ones too
+    std::vector<Node> nodes;            ///< of B
+    std::vector<std::uint32_t> lists;   ///< indices into `nodes`
+
+    void clear() {
+        candidates.clear();
+        nodes.clear();
+        lists.clear();
+    }
+};
+
+/// What a descent works with. Kept per thread, so that a frame like the one before it allocates
+/// nothing; most_pairs bounds what is kept.
+struct Scratch {
+    Level level;
+    Level next;
+    /// Where the halves of a node of B begin among the nodes of the next level, and how many.
+    struct Halves {
+        std::uint32_t begin = 0;
+        std::uint32_t count = 0;
+    };
+    std::vector<Halves> halves;
+};
+
+Scratch& thread_scratch() {
+    thread_local Scratch scratch;
+    return scratch;
+}
+
+/// Descends both trees together, level by level, so that no box is computed twice.
+class Descent {
+public:
+    Descent(const PlacedPolygon& a, const PlacedPolygon& b, const OverlapOptions& options)
+        : tree_a_(a, options.height),
+          tree_b_(b, options.height),
+          root_b_(tree_b_.root()),
+          level_(thread_scratch().level),
+          next_(thread_scratch().next),
+          halves_(thread_scratch().halves) {
+        const Node root_a = tree_a_.root();
+        // A settled chain then lies clear of B's boundary by more than rounding, so that one
+        // vertex of it decides for all of it.
+        margin_ =
+            options.grow + placement_rounding(a, root_a.box) + placement_rounding(b, root_b_.box);
+        level_.clear();
+        level_.nodes.push_back(root_b_);
+        if (boxes_meet(root_a.box, root_b_.box, margin_)) {
+            level_.lists.push_back(0);
+        } else {
+            ++pairs_rejected_;
+        }
+        level_.candidates.push_back({root_a, 0, level_.lists.size()});
+    }
+
+    /// Refines as long as there is something to split and it is worth it.
+    void run() {
+        while (level_.lists.size() <= most_pairs && split_nodes()) {
+            split_candidates();
+            std::swap(level_, next_);
+        }
+    }
+
+    /// The result: A's boundary, in order.
+    [[nodiscard]] const std::vector<Candidate>& candidates() const { return level_.candidates; }
+    [[nodiscard]] const PlacedPolygon& a() const { return tree_a_.polygon(); }
+    [[nodiscard]] const PlacedPolygon& b() const { return tree_b_.polygon(); }
+    /// True where the box and B's box meet.
+    [[nodiscard]] bool near_b(const Box& box) const {
+        return boxes_meet(box, root_b_.box, margin_);
+    }
+    [[nodiscard]] Effort effort() const {
+        return {tree_a_.nodes_evaluated() + tree_b_.nodes_evaluated(), pairs_rejected_};
+    }
+
+private:
+    /// Makes the next level's nodes of B from those that still meet something. False where nothing
+    /// on either side splits any more.
+    bool split_nodes() {
+        next_.clear();
+        bool any = false;
+        halves_.assign(level_.nodes.size(), {});
+        for (const Candidate& candidate : level_.candidates) {
+            any = any || (!candidate.settled() && tree_a_.splits(candidate.node));
+        }
+        for (const std::uint32_t index : level_.lists) {
+            Scratch::Halves& halves = halves_[index];
+            if (halves.count != 0) {
+                continue;
+            }
+            halves.begin = static_cast<std::uint32_t>(next_.nodes.size());
+            const Node& node = level_.nodes[index];
+            if (tree_b_.splits(node)) {
+                const std::array<Node, 2> both = tree_b_.halves(node);
+                next_.nodes.insert(next_.nodes.end(), both.begin(), both.end());
+                halves.count = 2;
+                any = true;
+            } else {
+                next_.nodes.push_back(node);
+                halves.count = 1;
+            }
+        }
+        return any;
+    }
+
+    void split_candidates() {
+        for (const Candidate& candidate : level_.candidates) {
+            if (candidate.settled()) {
+                next_.candidates.push_back({candidate.node, 0, 0});
+            } else if (tree_a_.splits(candidate.node)) {
+                for (const Node& half : tree_a_.halves(candidate.node)) {
+                    pass_on(candidate, half);
+                }
+            } else {
+                pass_on(candidate, candidate.node);
+            }
+        }
+    }
+
+    /// Makes a candidate of the next level, with those halves of its parent's nodes that it meets.
+    void pass_on(const Candidate& parent, const Node& node) {
+        const std::size_t list_begin = next_.lists.size();
+        for (std::size_t i = parent.list_begin; i < parent.list_end; ++i) {
+            const Scratch::Halves halves = halves_[level_.lists[i]];
+            for (std::uint32_t n = halves.begin; n < halves.begin + halves.count; ++n) {
+                if (boxes_meet(node.box, next_.nodes[n].box, margin_)) {
+                    next_.lists.push_back(n);
+                } else {
+                    ++pairs_rejected_;
+                }
+            }
+        }
+        next_.candidates.push_back({node, list_begin, next_.lists.size()});
+    }
+
+    Hierarchy tree_a_;
+    Hierarchy tree_b_;
+    Node root_b_;
+    Level& level_;
+    Level& next_;
+    std::vector<Scratch::Halves>& halves_;
+    double margin_ = 0.0;
+    std::uint64_t pairs_rejected_ = 0;
+};
+
+/// Collects chains in order, joining neighbours.
+class ChainWriter {
+public:
+    ChainWriter(const Polygon& polygon, std::vector<Chain>& chains)
+        : polygon_(polygon), chains_(chains), ring_begin_(chains.size()) {}
+
+    void append(std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
+        if (chains_.size() > ring_begin_ && chains_.back().ring != ring) {
+            finish_ring();
+        }
+        if (chains_.size() > ring_begin_ && chains_.back().first + chains_.back().count == first) {
+            chains_.back().count += count;
+            chains_.back().box.extend(box);
+        } else {
+            chains_.push_back({ring, first, count, box});
+        }
+    }
+
+    /// Joins the ring's last chain with its first where they meet at the ring's first vertex.
+    void finish_ring() {
+        if (chains_.size() > ring_begin_ + 1) {
+            Chain& front = chains_[ring_begin_];
+            const Chain& back = chains_.back();
+            if (front.first == polygon_.ring_begin(front.ring) &&
+                back.first + back.count == polygon_.ring_end(back.ring)) {
+                front = {back.ring, back.first, back.count + front.count,
+                         front.box.merged(back.box)};
+                chains_.pop_back();
+            }
+        }
+        ring_begin_ = chains_.size();
+    }
+
+private:
+    const Polygon& polygon_;
+    std::vector<Chain>& chains_;
+    std::size_t ring_begin_;  // where the chains of the current ring begin
+};
+
+/// Tells of settled chains whether they lie in B. Asked in order along A's boundary: the answer
+/// can change only where the boundaries may cross, so it is kept from one chain to the next.
+class SettledChains {
+public:
+    explicit SettledChains(const Descent& descent) : descent_(descent) {}
+
+    /// A chain that may cross B's boundary lies before the next settled one.
+    void forget() { known_ = false; }
+
+    bool inside(std::uint32_t ring, std::uint32_t first, const Box& box) {
+        if (!known_ || ring != ring_) {
+            inside_ = descent_.near_b(box) && contains(descent_.b(), descent_.a().vertex(first));
+            ring_ = ring;
+            known_ = true;
+        }
+        return inside_;
+    }
+
+private:
+    const Descent& descent_;
+    std::uint32_t ring_ = 0;
+    bool known_ = false;
+    bool inside_ = false;
+};
+
+/// Calls `use(ring, first, count, box)` for each ring's part of a node. A node of several rings is
+/// left where the rings are clear of B together, or where refining ended early.
+template <class Use>
+void for_each_part(const Node& node, const PlacedPolygon& a, const Use& use) {
+    if (node.rings == 1) {
+        use(node.ring, node.first, node.count, node.box);
+        return;
+    }
+    const Polygon& polygon = a.polygon();
+    for (std::uint32_t ring = node.ring; ring < node.ring + node.rings; ++ring) {
+        const std::uint32_t first = polygon.ring_begin(ring);
+        const std::uint32_t count = polygon.ring_end(ring) - first;
+        use(ring, first, count, a.chain_box(ring, first, count));
+    }
+}
+
+}  // namespace
+
+Effort chains_near_boundary(const PlacedPolygon& a, const PlacedPolygon& b,
+                            const OverlapOptions& options, std::vector<Chain>& chains) {
+    Descent descent(a, b, options);
+    descent.run();
+    ChainWriter writer(a.polygon(), chains);
+    for (const Candidate& candidate : descent.candidates()) {
+        if (!candidate.settled()) {
+            for_each_part(candidate.node, a, [&](auto... part) { writer.append(part...); });
+        }
+    }
+    writer.finish_ring();
+    return descent.effort();
+}
+
+Effort chains_in_volume(const PlacedPolygon& a, const PlacedPolygon& b,
+                        const OverlapOptions& options, std::vector<Chain>& chains) {
+    Descent descent(a, b, options);
+    descent.run();
+    ChainWriter writer(a.polygon(), chains);
+    SettledChains settled(descent);
+    for (const Candidate& candidate : descent.candidates()) {
+        if (!candidate.settled()) {
+            settled.forget();
+            for_each_part(candidate.node, a, [&](auto... part) { writer.append(part...); });
+        } else if (candidate.node.rings == 1 || descent.near_b(candidate.node.box)) {
+            for_each_part(
+                candidate.node, a,
+                [&](std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
+                    if (settled.inside(ring, first, box)) {
+                        writer.append(ring, first, count, box);
+                    }
+                });
+        }
+    }
+    writer.finish_ring();
+    return descent.effort();
+}
+
+}  // namespace nearfield::localize

@@ -1,0 +1,123 @@
+#include <engine/plan/nearest_edges.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace nearfield::plan {
+
+using geometry::Vector;
+
+void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& needed, double slack,
+                             std::vector<NearestEdge>& result) {
+    result.clear();
+    const std::uint32_t count = boundary.size();
+    const Vector centre(0.5 * needed.width(), 0.5 * needed.height());
+    edges_.resize(count);
+    double extent = 0.0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vector a = boundary.start(i) - centre;
+        const Vector d = boundary.end(i) - boundary.start(i);
+        extent = std::max(extent, a.cwiseAbs().maxCoeff());
+        const double squared = d.squaredNorm();
+        const bool is_point = squared < 1e-30;
+        edges_[i] = {static_cast<float>(a.x()),
+                     static_cast<float>(a.y()),
+                     static_cast<float>(d.x()),
+                     static_cast<float>(d.y()),
+                     is_point ? 0.0F : static_cast<float>(1.0 / squared),
+                     is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared))};
+    }
+    // What rounding to floats may change about a distance is granted on top of the slack.
+    slack_ = slack + 0.01 + 1e-6 * extent;
+    needed_ = &needed;
+    left_.assign(count, 0.0);
+    right_.assign(count, 0.0);
+    candidates_.resize(count);
+    std::iota(candidates_.begin(), candidates_.end(), 0U);
+    visit(0, 0, NeededBlocks::most_along, 0, count);
+
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (left_[i] > 0.0 || right_[i] > 0.0) {
+            result.push_back({{boundary.start(i), boundary.end(i), i}, left_[i], right_[i]});
+        }
+    }
+}
+
+void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint32_t count,
+                              std::size_t first, std::size_t end) {
+    if (!needed_->any(column, row, count)) {
+        return;
+    }
+    // The part of the tile that these blocks cover.
+    const std::uint32_t side = needed_->side();
+    const Vector low(column * side, row * side);
+    const Vector high(std::min((column + count) * side, needed_->width()),
+                      std::min((row + count) * side, needed_->height()));
+    const Vector tile_centre(0.5 * needed_->width(), 0.5 * needed_->height());
+    const Vector centre = 0.5 * (low + high) - tile_centre;
+    const double half_diagonal = 0.5 * (high - low).norm();
+    const auto x = static_cast<float>(centre.x());
+    const auto y = static_cast<float>(centre.y());
+
+    squared_.resize(std::max(squared_.size(), end));
+    float nearest = std::numeric_limits<float>::max();
+    for (std::size_t i = first; i < end; ++i) {
+        const Candidate& edge = edges_[candidates_[i]];
+        const float px = x - edge.ax;
+        const float py = y - edge.ay;
+        const float t = (px * edge.dx + py * edge.dy) * edge.inverse_squared_length;
+        const float clamped = std::min(std::max(t, 0.0F), 1.0F);
+        const float ex = px - clamped * edge.dx;
+        const float ey = py - clamped * edge.dy;
+        squared_[i] = ex * ex + ey * ey;
+        nearest = std::min(nearest, squared_[i]);
+    }
+    const double distance = std::sqrt(static_cast<double>(nearest));
+    const double limit = distance + 2.0 * (half_diagonal + slack_);
+    // Far from the boundary a finer look changes little.
+    if (count == 1 || half_diagonal < distance / 8.0) {
+        reach_out(first, end, x, y, limit, half_diagonal, distance + half_diagonal + slack_);
+        return;
+    }
+    const auto squared_limit = static_cast<float>(limit * limit);
+    for (std::size_t i = first; i < end; ++i) {
+        if (squared_[i] <= squared_limit) {
+            candidates_.push_back(candidates_[i]);
+        }
+    }
+    const std::size_t kept_end = candidates_.size();
+    const std::uint32_t half = count / 2;
+    for (const std::uint32_t dy : {0U, half}) {
+        for (const std::uint32_t dx : {0U, half}) {
+            visit(column + dx, row + dy, half, end, kept_end);
+            candidates_.resize(kept_end);
+        }
+    }
+    candidates_.resize(end);
+}
+
+void NearestEdgeFinder::reach_out(std::size_t first, std::size_t end, float x, float y,
+                                  double limit, double half_diagonal, double reach) {
+    const auto squared_limit = static_cast<float>(limit * limit);
+    const auto wide = static_cast<float>(half_diagonal + slack_);
+    for (std::size_t i = first; i < end; ++i) {
+        if (squared_[i] > squared_limit) {
+            continue;
+        }
+        const std::uint32_t index = candidates_[i];
+        const Candidate& edge = edges_[index];
+        // How far left of the edge's line the centre lies; an edge of no length has no side.
+        const float left =
+            (edge.dx * (y - edge.ay) - edge.dy * (x - edge.ax)) * edge.inverse_length;
+        if (left > -wide) {
+            left_[index] = std::max(left_[index], reach);
+        }
+        if (left < wide) {
+            right_[index] = std::max(right_[index], reach);
+        }
+    }
+}
+
+}  // namespace nearfield::plan

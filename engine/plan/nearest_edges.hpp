@@ -1,0 +1,54 @@
+#pragma once
+
+#include <engine/plan/needed_blocks.hpp>
+#include <engine/plan/tile_edges.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// An edge that can be nearest to a needed sample, and how far from it, in cells. A side that holds
+/// no such sample has reach 0.
+struct NearestEdge {
+    TileEdge edge;
+    double reach_left = 0.0;  ///< left of the way from a to b
+    double reach_right = 0.0;
+    [[nodiscard]] double reach() const { return std::max(reach_left, reach_right); }
+};
+
+/// Finds the edges that can be nearest to a needed sample of a tile: a quadtree over the tile's
+/// blocks, on the way down which candidates drop out. The samples of a part of the tile are no
+/// farther from the boundary than its centre is, plus half its diagonal; an edge that is farther
+/// than that from all of them is out.
+class NearestEdgeFinder {
+public:
+    /// Replaces `result`, in ring order. `slack`: how far, in cells, the true boundary and a drawn
+    /// distance may be off; within it, the true boundary's nearest edge is found as well as the
+    /// simplified one's.
+    void find(const TileBoundary& boundary, const NeededBlocks& needed, double slack,
+              std::vector<NearestEdge>& result);
+
+private:
+    /// An edge in floats relative to the tile's centre.
+    struct Candidate {
+        float ax, ay, dx, dy;
+        float inverse_squared_length;
+        float inverse_length;
+    };
+
+    void visit(std::uint32_t column, std::uint32_t row, std::uint32_t count, std::size_t first,
+               std::size_t end);
+    void reach_out(std::size_t first, std::size_t end, float x, float y, double limit,
+                   double half_diagonal, double reach);
+
+    const NeededBlocks* needed_ = nullptr;
+    double slack_ = 0.0;
+    std::vector<Candidate> edges_;           // by simplified edge
+    std::vector<std::uint32_t> candidates_;  // a stack: one list a level, all edges first
+    std::vector<float> squared_;        // by place on the stack: squared distance to the centre
+    std::vector<double> left_, right_;  // by simplified edge
+};
+
+}  // namespace nearfield::plan
