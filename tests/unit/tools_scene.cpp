@@ -1,0 +1,128 @@
+#include "tools_support.hpp"
+
+#include <gtest/gtest.h>
+#include <tools/input/input_error.hpp>
+#include <tools/input/scene.hpp>
+#include <tools/input/values.hpp>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+std::string scene_text(const std::string& query) {
+    return R"({"shapes": {"tri": {"rings": [[[0, 0], [4, 0], [0, 3]]]}, "disk": {"file": "b.wkt"}},
+ "instances": {"one": {"shape": "tri", "pose": [1, -2, 90]}, "two": {"shape": "disk"}},
+ "queries": [)" +
+           query + "]}";
+}
+
+TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
+    const TemporaryFolder folder;
+    folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
+    const Scene scene = read_scene(folder.write(
+        "s.json", scene_text(R"({"query": "penetration", "a": "one", "b": "two", "tolerance": 0.5,
+                       "points": "vertices", "records": false},
+                      {"query": "intersection", "a": "two", "b": "one", "tolerance": 1,
+                       "kind": "boundary-volume", "technique": "raster"},
+                      {"query": "distance-field", "a": "two", "b": "two", "tolerance": 2,
+                       "rect": [0, 1, 2, 3]})")));
+    ASSERT_EQ(scene.shapes.size(), 2U);
+    ASSERT_EQ(scene.instances.size(), 2U);
+    ASSERT_EQ(scene.queries.size(), 3U);
+    const SceneInstance& one = scene.instances[scene.queries[0].a];
+    EXPECT_EQ(one.name, "one");
+    EXPECT_EQ(one.pose.translation, (Vector2{1, -2}));
+    EXPECT_DOUBLE_EQ(one.pose.angle, std::numbers::pi / 2);
+    EXPECT_EQ(scene.shapes[one.shape].rings, (std::vector<Ring>{{{0, 0}, {4, 0}, {0, 3}}}));
+    const SceneInstance& two = scene.instances[scene.queries[0].b];
+    EXPECT_EQ(scene.shapes[two.shape].rings, (std::vector<Ring>{{{0, 0}, {1, 0}, {0, 1}}}));
+    EXPECT_EQ(scene.queries[0].request.points, PenetrationPoints::vertices);
+    EXPECT_FALSE(scene.queries[0].request.records);
+    EXPECT_EQ(scene.queries[1].request.kind, IntersectionKind::boundary_volume);
+    ASSERT_TRUE(scene.queries[2].request.rectangle.has_value());
+    EXPECT_EQ(scene.queries[2].request.rectangle->max, (Vector2{2, 3}));
+}
+
+TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
+    const TemporaryFolder folder;
+    folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
+    const std::string file = folder.file("s.json");
+    const auto error_of_query = [&](const std::string& query) {
+        folder.write("s.json", scene_text(query));
+        return input_error([&] { return read_scene(file); });
+    };
+    const std::string ends = R"("a": "one", "b": "two")";
+    EXPECT_EQ(error_of_query(R"({"query": "penetration", "tolerance": 0, )" + ends + "}"),
+              file + ": queries[0].tolerance: expected a number greater than 0");
+    EXPECT_EQ(error_of_query(R"({"query": "penetration", )" + ends + "}"),
+              file + ": queries[0]: has no \"tolerance\"");
+    EXPECT_EQ(error_of_query(R"({"query": "penetration", "tolerance": 1, "a": "six", "b": "two"})"),
+              file + ": queries[0].a: there is no instance \"six\"");
+    EXPECT_EQ(
+        error_of_query(R"({"query": "penetration", "tolerance": 1, "rect": [], )" + ends + "}"),
+        file + ": queries[0].rect: is not known here");
+    EXPECT_EQ(error_of_query(R"({"query": "separation", "tolerance": 1, )" + ends + "}"),
+              file +
+                  ": queries[0].query: this version does not answer separation; it answers "
+                  "penetration, intersection and distance-field");
+    EXPECT_EQ(
+        error_of_query(R"({"query": "penetration", "pairs": "all"})"),
+        file + ": queries[0].pairs: this version answers single pairs only, given by a and b");
+    EXPECT_EQ(error_of_query("7"), file + ": queries[0]: not an object but a number");
+    folder.write("s.json",
+                 R"({"shapes": {"x": {"file": "none.wkt"}}, "instances": {}, "queries": []})");
+    EXPECT_EQ(input_error([&] { return read_scene(file); }),
+              folder.file("none.wkt") + ": cannot be opened: No such file or directory");
+    folder.write("s.json", R"({"shapes": {"x": {}}, "instances": {}, "queries": []})");
+    EXPECT_EQ(input_error([&] { return read_scene(file); }),
+              file + ": shapes.x: needs either \"file\" or \"rings\"");
+}
+
+TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
+    const Pose pose = parse_pose("-1.5,2e2,720", "--pose-a");
+    EXPECT_EQ(pose.translation, (Vector2{-1.5, 200}));
+    EXPECT_EQ(pose.angle, 0.0);
+    EXPECT_DOUBLE_EQ(parse_pose("0,+0,-90", "--pose-a").angle, -std::numbers::pi / 2);
+    for (const char* const text :
+         {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "1,2,x", "1,2,3 ", " 1,2,3", "nan,0,0",
+          "0,inf,0", "1e999,0,0", "0x1,0,0", "1;2;3", "+-1,0,0"}) {
+        EXPECT_EQ(input_error([&] {
+                      return parse_pose(text, "--pose-a");
+                  }).rfind(std::string("--pose-a: \"") + text + "\": expected X,Y,DEGREES", 0),
+                  0U)
+            << text;
+    }
+}
+
+TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
+    EXPECT_EQ(parse_positive("2.5e-3", "-d"), 2.5e-3);
+    for (const char* const text : {"", "0", "-1", "nan", "inf", "1e999", "1 ", "1,0", "1m"}) {
+        EXPECT_EQ(input_error([&] { return parse_positive(text, "-d"); }),
+                  std::string("-d: \"") + text + "\": expected a finite number greater than 0");
+    }
+    const Rectangle rectangle = parse_rectangle("-1,-2,3,4", "--rect");
+    EXPECT_EQ(rectangle.min, (Vector2{-1, -2}));
+    EXPECT_EQ(rectangle.max, (Vector2{3, 4}));
+    EXPECT_EQ(input_error([] { return parse_rectangle("0,0,0,1", "--rect"); }),
+              "--rect: \"0,0,0,1\": expected X0 < X1 and Y0 < Y1");
+}
+
+TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
+    EXPECT_EQ(input_error([] { return parse_query_type("contacts", "query"); }),
+              "query: this version does not answer contacts; it answers penetration, intersection "
+              "and distance-field");
+    EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
+              "query: \"depth\" is none of penetration, intersection, distance-field");
+    EXPECT_EQ(input_error([] { return check_technique("cpu", "--technique"), 0; }),
+              "--technique: this version answers by the raster technique only, not by cpu");
+    EXPECT_EQ(input_error([] { return check_strategy("blend", "--strategy"), 0; }),
+              "--strategy: this version intersects by the stencil strategy only, not by blend");
+    EXPECT_EQ(input_error([] { return check_technique("automatic", "--technique"), 0; }),
+              "no error");
+}
+
+}  // namespace
+}  // namespace nearfield::tools

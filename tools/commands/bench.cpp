@@ -1,0 +1,213 @@
+#include <nearfield/context.hpp>
+
+#include <tools/commands/bench.hpp>
+#include <tools/commands/library_error.hpp>
+#include <tools/input/input_error.hpp>
+#include <tools/input/scene.hpp>
+#include <tools/output/answer.hpp>
+#include <tools/output/query_json.hpp>
+#include <tools/output/report_target.hpp>
+#include <tools/output/summary.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <iostream>
+#include <numeric>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : std::midpoint(values[half - 1], values[half]);
+}
+
+/// The median over all frames of what `get` picks from each.
+template <class Get>
+double median_of(const std::vector<Timings>& frames, Get get) {
+    std::vector<double> values;
+    values.reserve(frames.size());
+    for (const Timings& frame : frames) {
+        values.push_back(get(frame));
+    }
+    return median(std::move(values));
+}
+
+/// Stage by stage and pass by pass. Every frame has the passes of the first: the queries are the
+/// same.
+Timings median_timings(const std::vector<Timings>& frames) {
+    Timings result;
+    result.localize = median_of(frames, [](const Timings& frame) { return frame.localize; });
+    result.plan = median_of(frames, [](const Timings& frame) { return frame.plan; });
+    result.record = median_of(frames, [](const Timings& frame) { return frame.record; });
+    result.device = median_of(frames, [](const Timings& frame) { return frame.device; });
+    result.decode = median_of(frames, [](const Timings& frame) { return frame.decode; });
+    result.total = median_of(frames, [](const Timings& frame) { return frame.total; });
+    for (std::size_t pass = 0; pass < frames.front().passes.size(); ++pass) {
+        result.passes.push_back(
+            {frames.front().passes[pass].name, median_of(frames, [pass](const Timings& frame) {
+                 return frame.passes.at(pass).milliseconds;
+             })});
+    }
+    return result;
+}
+
+/// A scene in a context, run frame by frame.
+class SceneRunner {
+public:
+    SceneRunner(const Scene& scene, Context& context) : scene_(scene), context_(context) {
+        for (const SceneShape& shape : scene_.shapes) {
+            shapes_.push_back(
+                take(context_.add_shape(shape.rings), "shape \"" + shape.name + "\""));
+        }
+    }
+
+    /// One whole frame: shapes (which may have deformed), poses and queries in, results out.
+    /// Returns its milliseconds.
+    double run_frame() {
+        const auto start = std::chrono::steady_clock::now();
+        for (std::size_t index = 0; index < shapes_.size(); ++index) {
+            require(context_.update_shape(shapes_[index], scene_.shapes[index].rings),
+                    "shape \"" + scene_.shapes[index].name + "\"");
+        }
+        batch_.clear();
+        for (const SceneQuery& query : scene_.queries) {
+            add_query(batch_, query.request, instance(query.a), instance(query.b));
+        }
+        require(context_.run(batch_, results_));
+        const auto end = std::chrono::steady_clock::now();
+        for (std::size_t index = 0; index < results_.results.size(); ++index) {
+            require(summary_of(results_.results[index]).status,
+                    "queries[" + std::to_string(index) + "]");
+        }
+        return std::chrono::duration<double, std::milli>(end - start).count();
+    }
+
+    [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
+
+private:
+    [[nodiscard]] Instance instance(std::size_t index) const {
+        const SceneInstance& entry = scene_.instances[index];
+        return {shapes_[entry.shape], entry.pose};
+    }
+
+    const Scene& scene_;
+    Context& context_;
+    std::vector<ShapeHandle> shapes_;
+    Batch batch_;
+    Results results_;
+};
+
+/// What was measured.
+struct Measurement {
+    std::vector<double> frames_ms;
+    Timings timings;
+};
+
+Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
+    const bool show_progress = isatty(STDERR_FILENO) == 1;
+    Measurement measurement;
+    std::vector<Timings> timings;
+    const std::uint64_t all = std::uint64_t{arguments.warm_up} + arguments.frames;
+    for (std::uint64_t frame = 0; frame < all; ++frame) {
+        if (show_progress) {
+            std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
+        }
+        const double milliseconds = runner.run_frame();
+        if (frame >= arguments.warm_up) {
+            measurement.frames_ms.push_back(milliseconds);
+            timings.push_back(runner.timings());
+        }
+    }
+    if (show_progress) {
+        std::cerr << '\n';
+    }
+    measurement.timings = median_timings(timings);
+    return measurement;
+}
+
+void write_bench_json(std::ostream& stream, const Measurement& measurement,
+                      const BenchArguments& arguments, const std::string& device) {
+    const auto [fastest, slowest] =
+        std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("scene").value(std::string_view(arguments.scene));
+    json.key("device").value(std::string_view(device));
+    json.key("technique").value("raster");
+    json.key("frames").value(std::uint64_t{arguments.frames});
+    json.key("median_ms").value(median(measurement.frames_ms));
+    json.key("min_ms").value(*fastest);
+    json.key("max_ms").value(*slowest);
+    write_timings(json, measurement.timings);
+    json.end_object();
+    stream << '\n';
+}
+
+void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
+                         const std::string& device) {
+    const auto [fastest, slowest] =
+        std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
+    stream << "device            " << device << '\n'
+           << "technique         raster\n"
+           << "queries           " << scene.queries.size() << '\n'
+           << "frames            " << measurement.frames_ms.size() << '\n'
+           << "median            " << short_number(median(measurement.frames_ms)) << " ms a frame ("
+           << short_number(*fastest) << " to " << short_number(*slowest) << ")\n";
+    write_timings_summary(stream, measurement.timings);
+}
+
+}  // namespace
+
+CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
+    CLI::App* command = program.add_subcommand(
+        "bench", "Run the queries of a scene as one batch a frame and report median times (ms)");
+    command
+        ->add_option("--scene", arguments.scene,
+                     "Scene: shapes, instances (shape and pose) and queries; required")
+        ->required()
+        ->type_name("FILE.json");
+    command
+        ->add_option("--technique", arguments.technique,
+                     "raster or automatic; default automatic, which is raster in this version")
+        ->type_name("NAME");
+    command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1U, 1'000'000U));
+    command
+        ->add_option("--warmup", arguments.warm_up,
+                     "Frames before them that are not measured; default 5")
+        ->type_name("COUNT")
+        ->check(CLI::Range(0U, 1'000'000U));
+    command
+        ->add_option("--json", arguments.json,
+                     "Write the times as JSON, milliseconds; - for the standard output, the "
+                     "summary then goes to the standard error; default none")
+        ->type_name("FILE|-");
+    return command;
+}
+
+void run_bench(const BenchArguments& arguments) {
+    if (arguments.technique) {
+        check_technique(*arguments.technique, "--technique");
+    }
+    const Scene scene = read_scene(arguments.scene);
+    if (scene.queries.empty()) {
+        throw InputError(arguments.scene + ": queries: there is none to measure");
+    }
+    ReportTarget report(arguments.json);
+    Context context = take(Context::create_headless());
+    SceneRunner runner(scene, context);
+    const Measurement measurement = measure(runner, arguments);
+    if (std::ostream* json = report.json()) {
+        write_bench_json(*json, measurement, arguments, context.device_name());
+    }
+    write_bench_summary(report.summary(), measurement, scene, context.device_name());
+    report.commit();
+}
+
+}  // namespace nearfield::tools

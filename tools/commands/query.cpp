@@ -1,0 +1,250 @@
+#include <nearfield/context.hpp>
+
+#include <tools/commands/library_error.hpp>
+#include <tools/commands/query.hpp>
+#include <tools/input/input_error.hpp>
+#include <tools/input/outline.hpp>
+#include <tools/input/query_request.hpp>
+#include <tools/input/values.hpp>
+#include <tools/output/npy.hpp>
+#include <tools/output/query_json.hpp>
+#include <tools/output/report_target.hpp>
+#include <tools/output/summary.hpp>
+#include <tools/picture/figure.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+/// An outline as it takes part: where it was read from and where it stands.
+struct PlacedOutline {
+    std::string file;
+    std::vector<Ring> rings;
+    Pose pose;
+};
+
+void refuse_option(const std::optional<std::string>& value, const std::string& option,
+                   const QueryRequest& request, QueryType belongs_to) {
+    if (value && request.type != belongs_to) {
+        throw InputError(option + ": belongs to " + std::string(name_of(belongs_to)) + ", not to " +
+                         std::string(name_of(request.type)));
+    }
+}
+
+QueryRequest parse_request(const QueryArguments& arguments) {
+    QueryRequest request;
+    request.type = parse_query_type(arguments.type, "query");
+    refuse_option(arguments.points, "--points", request, QueryType::penetration);
+    refuse_option(arguments.kind, "--kind", request, QueryType::intersection);
+    refuse_option(arguments.rectangle, "--rect", request, QueryType::distance_field);
+    refuse_option(arguments.field, "--field", request, QueryType::distance_field);
+    if (!arguments.tolerance) {
+        throw InputError("-d: the tolerance is required");
+    }
+    request.tolerance = parse_positive(*arguments.tolerance, "-d");
+    if (arguments.technique) {
+        check_technique(*arguments.technique, "--technique");
+    }
+    if (arguments.strategy) {
+        check_strategy(*arguments.strategy, "--strategy");
+    }
+    if (arguments.points) {
+        request.points = parse_points(*arguments.points, "--points");
+    }
+    if (arguments.kind) {
+        request.kind = parse_kind(*arguments.kind, "--kind");
+    }
+    if (arguments.rectangle) {
+        request.rectangle = parse_rectangle(*arguments.rectangle, "--rect");
+    }
+    return request;
+}
+
+PlacedOutline read_placed(const std::string& file, const std::optional<std::string>& pose,
+                          const std::string& option) {
+    PlacedOutline outline{file, {}, {}};
+    if (pose) {
+        outline.pose = parse_pose(*pose, option);
+    }
+    outline.rings = read_outline(file);
+    return outline;
+}
+
+/// No output may take the place of an input or of another output. Pipes and terminals may be
+/// shared.
+void require_different_files(const QueryArguments& arguments) {
+    std::vector<std::filesystem::path> taken;
+    std::error_code ignored;
+    for (const std::string& input : {arguments.file_a, arguments.file_b}) {
+        taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+    }
+    for (const auto& output : {arguments.json, arguments.image, arguments.field}) {
+        if (!output) {
+            continue;
+        }
+        const std::filesystem::path path = std::filesystem::weakly_canonical(*output, ignored);
+        if (std::filesystem::exists(path, ignored) &&
+            !std::filesystem::is_regular_file(path, ignored)) {
+            continue;
+        }
+        if (std::find(taken.begin(), taken.end(), path) != taken.end()) {
+            throw InputError(*output + ": would be written over an input or another output");
+        }
+        taken.push_back(path);
+    }
+}
+
+FigureShape figure_shape(const PlacedOutline& outline) {
+    FigureShape shape{std::filesystem::path(outline.file).stem().string(), outline.rings};
+    const double cosine = std::cos(outline.pose.angle);
+    const double sine = std::sin(outline.pose.angle);
+    for (Ring& ring : shape.rings) {
+        for (Vector2& vertex : ring) {
+            vertex = {cosine * vertex.x - sine * vertex.y + outline.pose.translation.x,
+                      sine * vertex.x + cosine * vertex.y + outline.pose.translation.y};
+        }
+    }
+    return shape;
+}
+
+/// The field of B that stands behind the marks of a penetration query: over all of the picture's
+/// right panel and about as fine as its pixels, whatever the query's own tolerance.
+DistanceFieldQuery background_query(const Rectangle& detail, const Instance& b) {
+    constexpr double cells = 2.5e5;
+    const double area = (detail.max.x - detail.min.x) * (detail.max.y - detail.min.y);
+    DistanceFieldQuery query;
+    query.b = b;
+    query.tolerance = std::sqrt(area / cells / 2.0);  // half the diagonal of a cell
+    query.rectangle = detail;
+    return query;
+}
+
+std::string draw_answer(Context& context, const Answer& answer, const PlacedOutline& a,
+                        const PlacedOutline& b, const Instance& instance_b) {
+    Figure figure{answer, figure_shape(a), figure_shape(b)};
+    Results background;
+    if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
+        figure.field = field;
+    } else if (answer.request.type == QueryType::penetration) {
+        Batch batch;
+        const auto handle =
+            batch.add(background_query(detail_rectangle(answer, figure.a, figure.b), instance_b));
+        require(context.run(batch, background), "the field of the picture");
+        require(background[handle].status, "the field of the picture");
+        figure.field = &background[handle];
+    }
+    return draw_figure(figure);
+}
+
+}  // namespace
+
+CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
+    CLI::App* command = program.add_subcommand("query", "Answer one query between two outlines");
+    command
+        ->add_option("query", arguments.type,
+                     "penetration: how deep the boundary of A is inside B, and the way out;\n"
+                     "intersection: the samples of a grid that lie in both;\n"
+                     "distance-field: the signed distance to B over a grid, negative inside")
+        ->required()
+        ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
+    command->add_option("A", arguments.file_a, "Outline A: GeoJSON or WKT file")->required();
+    command->add_option("B", arguments.file_b, "Outline B: GeoJSON or WKT file")->required();
+    command
+        ->add_option("-d", arguments.tolerance,
+                     "Tolerance, world units, > 0: half the diagonal of a grid cell; required")
+        ->type_name("TOLERANCE");
+    command
+        ->add_option("--pose-a", arguments.pose_a,
+                     "Where A stands: turned counter-clockwise by degrees about its origin, then "
+                     "moved by world units; default 0,0,0")
+        ->type_name("X,Y,DEGREES");
+    command->add_option("--pose-b", arguments.pose_b, "Where B stands; default 0,0,0")
+        ->type_name("X,Y,DEGREES");
+    command
+        ->add_option("--technique", arguments.technique,
+                     "raster or automatic; default automatic, which is raster in this version")
+        ->type_name("NAME");
+    command
+        ->add_option("--strategy", arguments.strategy,
+                     "How masks are intersected: stencil, the default")
+        ->type_name("NAME");
+    command
+        ->add_option("--kind", arguments.kind,
+                     "Of intersection: boundary-boundary, boundary-volume or volume-volume (of A "
+                     "and of B); default volume-volume")
+        ->type_name("NAME");
+    command
+        ->add_option("--points", arguments.points,
+                     "Of penetration: boundary (samples along A's boundary, no gap wider than a "
+                     "grid cell) or vertices (A's own); default boundary")
+        ->type_name("NAME");
+    command
+        ->add_option("--rect", arguments.rectangle,
+                     "Of distance-field: what the grid covers, world units; default the common box "
+                     "of A and B grown by the tolerance")
+        ->type_name("X0,Y0,X1,Y1");
+    command
+        ->add_option("--json", arguments.json,
+                     "Write the answer as JSON; - for the standard output, the summary then goes "
+                     "to the standard error; default none")
+        ->type_name("FILE|-");
+    command
+        ->add_option("--image", arguments.image,
+                     "Draw the answer, 1600 x 1200 pixels; default none")
+        ->type_name("FILE.png");
+    command
+        ->add_option("--field", arguments.field,
+                     "Of distance-field: write the values, world units, as a NumPy array of "
+                     "float32 (height, width), row 0 at the lowest y; default none")
+        ->type_name("FILE.npy");
+    return command;
+}
+
+void run_query(const QueryArguments& arguments) {
+    const QueryRequest request = parse_request(arguments);
+    const PlacedOutline a = read_placed(arguments.file_a, arguments.pose_a, "--pose-a");
+    const PlacedOutline b = read_placed(arguments.file_b, arguments.pose_b, "--pose-b");
+    require_different_files(arguments);
+    ReportTarget report(arguments.json);
+    std::optional<OutputFile> image;
+    std::optional<OutputFile> field;
+    if (arguments.image) {
+        image.emplace(*arguments.image);
+    }
+    if (arguments.field) {
+        field.emplace(*arguments.field);
+    }
+
+    Context context = take(Context::create_headless());
+    const Instance instance_a{take(context.add_shape(a.rings), a.file), a.pose};
+    const Instance instance_b{take(context.add_shape(b.rings), b.file), b.pose};
+    Batch batch;
+    add_query(batch, request, instance_a, instance_b);
+    Results results;
+    require(context.run(batch, results));
+    require(summary_of(results.results.front()).status);
+
+    const Answer answer{request, results.results.front(), results.timings, context.device_name()};
+    if (image) {
+        image->stream() << draw_answer(context, answer, a, b, instance_b);
+        image->commit();
+    }
+    if (field) {
+        const auto& values = std::get<DistanceFieldResult>(answer.result);
+        write_npy(field->stream(), values.values, values.width, values.height);
+        field->commit();
+    }
+    if (std::ostream* json = report.json()) {
+        write_query_json(*json, answer);
+    }
+    write_summary(report.summary(), answer);
+    report.commit();
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace nearfield::tools {
+
+/// What stands on the command line of `nearfield query`.
+struct QueryArguments {
+    std::string type;
+    std::string file_a;
+    std::string file_b;
+    std::optional<std::string> tolerance;
+    std::optional<std::string> pose_a;
+    std::optional<std::string> pose_b;
+    std::optional<std::string> technique;
+    std::optional<std::string> strategy;
+    std::optional<std::string> kind;
+    std::optional<std::string> points;
+    std::optional<std::string> rectangle;
+    std::optional<std::string> json;
+    std::optional<std::string> image;
+    std::optional<std::string> field;
+};
+
+/// Adds the command `query` to the program; parsing fills `arguments`, which must outlive it.
+CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments);
+
+/// Answers the query and writes what was asked for. Throws InputError, LibraryError or
+/// std::runtime_error.
+void run_query(const QueryArguments& arguments);
+
+}  // namespace nearfield::tools

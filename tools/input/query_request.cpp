@@ -1,0 +1,114 @@
+#include <tools/input/input_error.hpp>
+#include <tools/input/query_request.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
+
+namespace nearfield::tools {
+namespace {
+
+template <class Value>
+using Named = std::pair<std::string_view, Value>;
+
+constexpr std::array<Named<QueryType>, 3> query_types{{
+    {"penetration", QueryType::penetration},
+    {"intersection", QueryType::intersection},
+    {"distance-field", QueryType::distance_field},
+}};
+constexpr std::array<Named<PenetrationPoints>, 2> points_names{{
+    {"boundary", PenetrationPoints::boundary},
+    {"vertices", PenetrationPoints::vertices},
+}};
+constexpr std::array<Named<IntersectionKind>, 3> kinds{{
+    {"boundary-boundary", IntersectionKind::boundary_boundary},
+    {"boundary-volume", IntersectionKind::boundary_volume},
+    {"volume-volume", IntersectionKind::volume_volume},
+}};
+
+template <class Value>
+Value parse_name(std::span<const Named<Value>> table, const std::string& name,
+                 const std::string& what) {
+    std::string choices;
+    for (const auto& [text, value] : table) {
+        if (text == name) {
+            return value;
+        }
+        choices += (choices.empty() ? "" : ", ") + std::string(text);
+    }
+    throw InputError(what + ": \"" + name + "\" is none of " + choices);
+}
+
+template <class Value>
+std::string_view find_name(std::span<const Named<Value>> table, Value value) noexcept {
+    return std::find_if(table.begin(), table.end(),
+                        [value](const Named<Value>& entry) { return entry.second == value; })
+        ->first;
+}
+
+bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+QueryType parse_query_type(const std::string& name, const std::string& what) {
+    if (is_one_of(name, {"contacts", "separation", "closest-point"})) {
+        throw InputError(what + ": this version does not answer " + name +
+                         "; it answers penetration, intersection and distance-field");
+    }
+    return parse_name<QueryType>(query_types, name, what);
+}
+
+PenetrationPoints parse_points(const std::string& name, const std::string& what) {
+    return parse_name<PenetrationPoints>(points_names, name, what);
+}
+
+IntersectionKind parse_kind(const std::string& name, const std::string& what) {
+    return parse_name<IntersectionKind>(kinds, name, what);
+}
+
+std::string_view name_of(QueryType type) noexcept {
+    return find_name<QueryType>(query_types, type);
+}
+
+std::string_view name_of(IntersectionKind kind) noexcept {
+    return find_name<IntersectionKind>(kinds, kind);
+}
+
+void check_technique(const std::string& name, const std::string& what) {
+    if (is_one_of(name, {"compute", "cpu"})) {
+        throw InputError(what + ": this version answers by the raster technique only, not by " +
+                         name);
+    }
+    if (!is_one_of(name, {"raster", "automatic"})) {
+        throw InputError(what + ": \"" + name + "\" is none of raster, automatic");
+    }
+}
+
+void check_strategy(const std::string& name, const std::string& what) {
+    if (is_one_of(name, {"blend", "logic-op", "depth"})) {
+        throw InputError(what + ": this version intersects by the stencil strategy only, not by " +
+                         name);
+    }
+    if (name != "stencil") {
+        throw InputError(what + ": \"" + name + "\" is not stencil");
+    }
+}
+
+void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b) {
+    switch (request.type) {
+        case QueryType::penetration:
+            batch.add(PenetrationQuery{a, b, request.tolerance, request.points, request.records});
+            break;
+        case QueryType::intersection:
+            batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records});
+            break;
+        case QueryType::distance_field:
+            batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle});
+            break;
+    }
+}
+
+}  // namespace nearfield::tools

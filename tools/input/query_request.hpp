@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nearfield/query.hpp>
+#include <nearfield/shape.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nearfield::tools {
+
+enum class QueryType { penetration, intersection, distance_field };
+
+/// One query as a person or a scene asks for it: all but its two shapes.
+struct QueryRequest {
+    QueryType type = QueryType::penetration;
+    double tolerance = 0.0;
+    PenetrationPoints points = PenetrationPoints::boundary;   ///< of penetration
+    IntersectionKind kind = IntersectionKind::volume_volume;  ///< of intersection
+    bool records = true;                                      ///< of both
+    std::optional<Rectangle> rectangle;                       ///< of distance-field
+};
+
+/// The names of the command line and of scenes. Parsing throws InputError with a text that says
+/// what there is to choose from; `what` says where the name stands ("--kind").
+[[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
+[[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
+[[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
+[[nodiscard]] std::string_view name_of(QueryType type) noexcept;
+[[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
+
+/// Throw InputError for a technique or strategy this version does not have.
+void check_technique(const std::string& name, const std::string& what);
+void check_strategy(const std::string& name, const std::string& what);
+
+/// Adds a request between two instances; its result stands at the same place among the results as
+/// the query in the batch.
+void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <tools/input/query_request.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+
+/// A shape of a scene.
+struct SceneShape {
+    std::string name;
+    std::vector<Ring> rings;
+};
+
+/// A shape of a scene at a place.
+struct SceneInstance {
+    std::string name;
+    std::size_t shape = 0;  ///< index into Scene::shapes
+    Pose pose;
+};
+
+/// A query of a scene between two of its instances.
+struct SceneQuery {
+    QueryRequest request;
+    std::size_t a = 0;  ///< index into Scene::instances
+    std::size_t b = 0;  ///< index into Scene::instances
+};
+
+/// Many shapes, poses and queries: what one batch is made of.
+struct Scene {
+    std::vector<SceneShape> shapes;
+    std::vector<SceneInstance> instances;
+    std::vector<SceneQuery> queries;
+};
+
+/// Reads a scene and the outlines it names, whose paths are relative to the scene's folder. Throws
+/// InputError with the file and the place in it. A shape, an instance or a query with a member that
+/// is not known is refused: a misspelt one would change the answer silently.
+[[nodiscard]] Scene read_scene(const std::string& path);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,78 @@
+#include <tools/input/input_error.hpp>
+#include <tools/input/values.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <system_error>
+
+namespace nearfield::tools {
+namespace {
+
+[[noreturn]] void fail(const std::string& option, std::string_view text,
+                       const std::string& reason) {
+    throw InputError(option + ": \"" + std::string(text) + "\": " + reason);
+}
+
+/// False where `text` is not entirely one finite number.
+bool parse_finite(std::string_view text, double& number) {
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') {
+        text.remove_prefix(1);
+    }
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && rest == end && std::isfinite(number);
+}
+
+/// Finite numbers separated by commas; `form` says what they are.
+void parse_list(std::string_view text, const std::string& option, const std::string& form,
+                std::span<double> numbers) {
+    std::string_view rest = text;
+    for (std::size_t index = 0; index < numbers.size(); ++index) {
+        const bool last = index + 1 == numbers.size();
+        const std::size_t comma = last ? rest.size() : rest.find(',');
+        if (comma == std::string_view::npos) {
+            fail(option, text, "expected " + form);
+        }
+        if (!parse_finite(rest.substr(0, comma), numbers[index])) {
+            fail(option, text,
+                 "expected " + form + "; \"" + std::string(rest.substr(0, comma)) +
+                     "\" is not a finite number");
+        }
+        rest.remove_prefix(last ? comma : comma + 1);
+    }
+}
+
+}  // namespace
+
+double parse_positive(std::string_view text, const std::string& option) {
+    double number = 0.0;
+    if (!parse_finite(text, number) || !(number > 0.0)) {
+        fail(option, text, "expected a finite number greater than 0");
+    }
+    return number;
+}
+
+Pose pose_from_degrees(double x, double y, double degrees) {
+    const double turn = std::remainder(degrees, 360.0);
+    return {{x, y}, turn * (std::numbers::pi / 180.0)};
+}
+
+Pose parse_pose(std::string_view text, const std::string& option) {
+    double numbers[3] = {};
+    parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
+    return pose_from_degrees(numbers[0], numbers[1], numbers[2]);
+}
+
+Rectangle parse_rectangle(std::string_view text, const std::string& option) {
+    double numbers[4] = {};
+    parse_list(text, option, "X0,Y0,X1,Y1 (four numbers)", numbers);
+    if (!(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
+        fail(option, text, "expected X0 < X1 and Y0 < Y1");
+    }
+    return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,68 @@
+#include <CLI/CLI.hpp>
+#include <tools/commands/bench.hpp>
+#include <tools/commands/info.hpp>
+#include <tools/commands/library_error.hpp>
+#include <tools/commands/query.hpp>
+#include <tools/input/input_error.hpp>
+
+#include <exception>
+#include <iostream>
+#include <string>
+
+namespace {
+
+namespace tools = nearfield::tools;
+namespace exit_status = nearfield::tools::exit_status;
+
+int fail(const std::exception& error, int status) {
+    std::cerr << "nearfield: " << error.what() << '\n';
+    return status;
+}
+
+int run(int count, char** arguments) {
+    CLI::App program("2D proximity queries between polygons on a Vulkan GPU", "nearfield");
+    program.set_version_flag("--version", "nearfield " NEARFIELD_VERSION);
+    program.footer(
+        "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
+    program.require_subcommand(1);
+    tools::QueryArguments query_arguments;
+    tools::BenchArguments bench_arguments;
+    const CLI::App* const query = tools::add_query_command(program, query_arguments);
+    const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
+    tools::add_info_command(program);
+    try {
+        program.parse(count, arguments);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {  // help or version was asked for
+            return program.exit(error);
+        }
+        if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
+            throw tools::InputError(std::string("\"") + arguments[1] +
+                                    "\" is none of query, bench, info");
+        }
+        return fail(error, exit_status::bad_input);
+    }
+    if (query->parsed()) {
+        tools::run_query(query_arguments);
+        return exit_status::done;
+    }
+    if (bench->parsed()) {
+        tools::run_bench(bench_arguments);
+        return exit_status::done;
+    }
+    return tools::run_info();
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    try {
+        return run(count, arguments);
+    } catch (const tools::InputError& error) {
+        return fail(error, exit_status::bad_input);
+    } catch (const tools::LibraryError& error) {
+        return fail(error, error.program_status());
+    } catch (const std::exception& error) {
+        return fail(error, exit_status::other_error);
+    }
+}

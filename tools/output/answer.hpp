@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <tools/input/query_request.hpp>
+
+#include <string>
+
+namespace nearfield::tools {
+
+/// One query and all there is to say about it. Refers to what the caller keeps.
+struct Answer {
+    const QueryRequest& request;
+    const AnyResult& result;
+    const Timings& timings;
+    const std::string& device;
+};
+
+/// The part that every kind of result has.
+[[nodiscard]] inline const ResultSummary& summary_of(const AnyResult& result) {
+    return std::visit([](const auto& any) -> const ResultSummary& { return any; }, result);
+}
+
+}  // namespace nearfield::tools

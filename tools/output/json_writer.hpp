@@ -1,0 +1,52 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <cstdint>
+#include <ostream>
+#include <string_view>
+#include <vector>
+
+namespace nearfield::tools {
+
+/// Writes JSON as it goes, so that a million records need no tree in memory. Numbers have the
+/// fewest digits that give the same double again. Containers opened as `lines` have an element a
+/// line, the others stand on one.
+class JsonWriter {
+public:
+    enum class Layout { inline_, lines };
+
+    explicit JsonWriter(std::ostream& stream) : stream_(stream) {}
+
+    JsonWriter& begin_object(Layout layout = Layout::inline_);
+    JsonWriter& end_object();
+    JsonWriter& begin_array(Layout layout = Layout::inline_);
+    JsonWriter& end_array();
+    JsonWriter& key(std::string_view name);
+
+    JsonWriter& value(double number);  ///< null where it is not finite
+    JsonWriter& value(std::uint64_t number);
+    JsonWriter& value(bool truth);
+    JsonWriter& value(std::string_view text);
+    JsonWriter& value(const char* text) { return value(std::string_view(text)); }
+    JsonWriter& value(Vector2 point);  ///< [x, y]
+    JsonWriter& null();
+
+private:
+    struct Level {
+        Layout layout;
+        bool empty = true;
+    };
+
+    void separate();
+    void open(char bracket, Layout layout);
+    void close(char bracket);
+    void break_line();
+    void write_text(std::string_view text);
+
+    std::ostream& stream_;
+    std::vector<Level> levels_;
+    bool after_key_ = false;
+};
+
+}  // namespace nearfield::tools

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <tools/output/answer.hpp>
+#include <tools/output/json_writer.hpp>
+
+#include <ostream>
+
+namespace nearfield::tools {
+
+/// Writes the JSON of one query, with a line feed at its end.
+void write_query_json(std::ostream& stream, const Answer& answer);
+
+/// Writes the member `timings_ms` of an object that is open.
+void write_timings(JsonWriter& json, const Timings& timings);
+
+}  // namespace nearfield::tools

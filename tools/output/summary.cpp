@@ -1,0 +1,115 @@
+#include <tools/output/summary.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string_view>
+#include <variant>
+
+namespace nearfield::tools {
+namespace {
+
+/// Nine digits: places need not be near the origin.
+std::string point_text(Vector2 point) {
+    char text[64];
+    std::snprintf(text, sizeof text, "(%.9g, %.9g)", point.x + 0.0, point.y + 0.0);
+    return text;
+}
+
+std::string feature_text(Feature feature) {
+    return (feature.kind == Feature::Kind::edge ? "edge " : "vertex ") +
+           std::to_string(feature.index);
+}
+
+void write_item(std::ostream& stream, std::string_view name, const std::string& text) {
+    constexpr std::size_t column = 18;
+    stream << name << std::string(name.size() < column ? column - name.size() : 1, ' ') << text
+           << '\n';
+}
+
+void write_result(std::ostream& stream, const PenetrationResult& result) {
+    write_item(stream, "count", std::to_string(result.count) + " penetrating points");
+    if (result.count == 0) {
+        return;
+    }
+    const PenetrationRecord& deepest = result.deepest;
+    const double degrees =
+        std::atan2(deepest.direction.y, deepest.direction.x) * (180.0 / std::numbers::pi);
+    write_item(stream, "deepest", point_text(deepest.point));
+    write_item(stream, "depth", short_number(deepest.depth));
+    write_item(stream, "direction",
+               point_text(deepest.direction) + ", " + short_number(degrees) + " degrees");
+    write_item(stream, "nearest",
+               point_text(deepest.nearest) + " on " + feature_text(deepest.feature) + " of B" +
+                   (deepest.unique ? "" : ", one of several"));
+}
+
+void write_result(std::ostream& stream, const IntersectionResult& result) {
+    write_item(stream, "kind", std::string(name_of(result.kind)));
+    write_item(stream, "count", std::to_string(result.count) + " samples");
+    write_item(stream, "area", short_number(result.area));
+}
+
+void write_result(std::ostream& stream, const DistanceFieldResult& result) {
+    write_item(stream, "origin", point_text(result.origin));
+    write_item(stream, "grid",
+               std::to_string(result.width) + " x " + std::to_string(result.height) + " cells of " +
+                   short_number(result.cell));
+}
+
+void write_regions(std::ostream& stream, const ResultSummary& summary) {
+    write_item(stream, "regions", std::to_string(summary.regions.size()));
+    constexpr std::size_t most_shown = 8;
+    for (std::size_t index = 0; index < summary.regions.size() && index < most_shown; ++index) {
+        const Region& region = summary.regions[index];
+        write_item(stream, "",
+                   point_text(region.min) + " to " + point_text(region.max) + ", " +
+                       std::to_string(region.width) + " x " + std::to_string(region.height) +
+                       " cells");
+    }
+    if (summary.regions.size() > most_shown) {
+        write_item(stream, "",
+                   "and " + std::to_string(summary.regions.size() - most_shown) + " more");
+    }
+}
+
+}  // namespace
+
+std::string short_number(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", number + 0.0);  // + 0.0: no negative zero
+    return text;
+}
+
+void write_timings_summary(std::ostream& stream, const Timings& timings) {
+    const auto write_time = [&stream](std::string_view name, double milliseconds) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%10.3f ms", milliseconds);
+        write_item(stream, name, text);
+    };
+    write_time("localize", timings.localize);
+    write_time("plan", timings.plan);
+    write_time("record", timings.record);
+    write_time("device", timings.device);
+    for (const PassTime& pass : timings.passes) {
+        write_time("  " + pass.name, pass.milliseconds);
+    }
+    write_time("decode", timings.decode);
+    write_time("total", timings.total);
+}
+
+void write_summary(std::ostream& stream, const Answer& answer) {
+    const ResultSummary& summary = summary_of(answer.result);
+    write_item(stream, "query", std::string(name_of(answer.request.type)));
+    write_item(stream, "device", answer.device);
+    write_item(stream, "technique", "raster");
+    write_item(
+        stream, "tolerance",
+        short_number(summary.tolerance) + ", error bound " + short_number(summary.error_bound));
+    write_item(stream, "intersects", summary.intersects ? "yes" : "no");
+    write_regions(stream, summary);
+    std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
+    write_timings_summary(stream, answer.timings);
+}
+
+}  // namespace nearfield::tools

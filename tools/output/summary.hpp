@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <tools/output/answer.hpp>
+
+#include <ostream>
+#include <string>
+
+namespace nearfield::tools {
+
+/// A number for people: six significant digits.
+[[nodiscard]] std::string short_number(double number);
+
+/// Writes what an answer says, for people, an item a line.
+void write_summary(std::ostream& stream, const Answer& answer);
+
+/// Writes the stages of a batch and their passes, for people, an item a line.
+void write_timings_summary(std::ostream& stream, const Timings& timings);
+
+}  // namespace nearfield::tools

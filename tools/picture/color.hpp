@@ -1,0 +1,43 @@
+#pragma once
+
+namespace nearfield::tools {
+
+/// A colour in sRGB, each part from 0 to 1.
+struct Color {
+    double red = 0.0;
+    double green = 0.0;
+    double blue = 0.0;
+    double alpha = 1.0;
+
+    [[nodiscard]] constexpr Color with_alpha(double other) const {
+        return {red, green, blue, other};
+    }
+};
+
+/// A colour of six hexadecimal digits: rgb(0x1B2A41).
+[[nodiscard]] constexpr Color rgb(unsigned digits) {
+    return {static_cast<double>(digits >> 16U & 0xFFU) / 255.0,
+            static_cast<double>(digits >> 8U & 0xFFU) / 255.0,
+            static_cast<double>(digits & 0xFFU) / 255.0};
+}
+
+/// What the parts of a figure are drawn in.
+namespace palette {
+inline constexpr Color page = rgb(0xFFFFFF);
+inline constexpr Color panel = rgb(0xF5F6F8);
+inline constexpr Color text = rgb(0x1B2430);
+inline constexpr Color quiet_text = rgb(0x5B6675);
+inline constexpr Color frame = rgb(0xC3CAD3);
+inline constexpr Color shape_a = rgb(0xC2185B);
+inline constexpr Color shape_b = rgb(0x14467C);
+inline constexpr Color region = rgb(0x1B2430);
+inline constexpr Color arrow = rgb(0x1B2430);
+inline constexpr Color sample = rgb(0x7B3FA0).with_alpha(0.62);
+inline constexpr Color highlight = rgb(0xFFD21F);
+}  // namespace palette
+
+/// The diverging colour map of signed distance: `position` from -1 (deepest inside) over 0 (the
+/// boundary, nearly white) to 1 (farthest outside). Lightness falls evenly to both sides.
+[[nodiscard]] Color diverging_color(double position);
+
+}  // namespace nearfield::tools

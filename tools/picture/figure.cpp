@@ -1,0 +1,175 @@
+#include <tools/output/summary.hpp>
+#include <tools/picture/canvas.hpp>
+#include <tools/picture/color.hpp>
+#include <tools/picture/field_layer.hpp>
+#include <tools/picture/figure.hpp>
+#include <tools/picture/furniture.hpp>
+#include <tools/picture/legend.hpp>
+#include <tools/picture/marks.hpp>
+#include <tools/picture/view.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+namespace nearfield::tools {
+namespace {
+
+// The page in pixels. Texts are large enough to be read at half the size, as a README shows it.
+constexpr int page_width = 1600;
+constexpr int page_height = 1200;
+constexpr double margin = 48.0;
+constexpr double title_size = 42.0;
+constexpr Rectangle overview_panel{{margin, 172.0}, {508.0, 760.0}};
+constexpr Rectangle legend_area{{margin, 806.0}, {508.0, 1152.0}};
+constexpr Rectangle panel_beside_colors{{548.0, 172.0}, {1430.0, 1104.0}};
+constexpr Rectangle panel_alone{{548.0, 172.0}, {page_width - margin, 1104.0}};
+constexpr Rectangle color_strip{{1452.0, 172.0}, {1482.0, 1104.0}};
+
+/// Where the right panel stands: a picture of an intersection has no field and no colour bar.
+const Rectangle& detail_panel(const Answer& answer) {
+    return answer.request.type == QueryType::intersection ? panel_alone : panel_beside_colors;
+}
+
+using PageRings = std::vector<std::vector<Vector2>>;
+
+PageRings rings_on_page(const FigureShape& shape, const View& view) {
+    PageRings rings;
+    for (const Ring& ring : shape.rings) {
+        rings.push_back(view.to_page(ring));
+    }
+    return rings;
+}
+
+std::string title_of(const Figure& figure, Canvas& canvas) {
+    const auto name = [&canvas](const FigureShape& shape) {
+        return canvas.shortened(shape.name, title_size, 470.0, Weight::bold);
+    };
+    switch (figure.answer.request.type) {
+        case QueryType::penetration:
+            return "Penetration of " + name(figure.a) + " into " + name(figure.b);
+        case QueryType::intersection:
+            return "Intersection of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::distance_field:
+            break;
+    }
+    return "Signed distance to " + name(figure.b);
+}
+
+std::string facts_of(const PenetrationResult& result) {
+    const std::string count = std::to_string(result.count) + " penetrating points";
+    return result.count == 0 ? count
+                             : count + " \u00B7 deepest " + short_number(result.deepest.depth);
+}
+
+std::string facts_of(const IntersectionResult& result) {
+    return std::string(name_of(result.kind)) + " \u00B7 " + std::to_string(result.count) +
+           " samples \u00B7 area " + short_number(result.area);
+}
+
+std::string facts_of(const DistanceFieldResult& result) {
+    return std::to_string(result.width) + " \u00D7 " + std::to_string(result.height) +
+           " cells of " + short_number(result.cell);
+}
+
+void draw_header(Canvas& canvas, const Figure& figure) {
+    const double width = page_width - 2.0 * margin;
+    canvas.text({margin, 86.0}, title_of(figure, canvas), title_size, palette::text, Align::left,
+                Weight::bold);
+    const std::string facts =
+        std::visit([](const auto& result) { return facts_of(result); }, figure.answer.result);
+    const std::string line = "d = " + short_number(figure.answer.request.tolerance) + " \u00B7 " +
+                             facts + " \u00B7 " + figure.answer.device;
+    canvas.text({margin, 132.0}, canvas.shortened(line, 24.0, width), 24.0, palette::quiet_text);
+}
+
+void draw_regions(Canvas& canvas, const std::vector<Region>& regions, const View& view,
+                  const Pen& pen) {
+    for (const Region& region : regions) {
+        const std::vector<Vector2> corners = view.to_page(Ring{
+            region.min, {region.max.x, region.min.y}, region.max, {region.min.x, region.max.y}});
+        canvas.stroke(std::span(&corners, 1), pen);
+    }
+}
+
+void draw_overview(Canvas& canvas, const Figure& figure) {
+    const Rectangle both = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
+    const View view(with_margin(both, 0.05), overview_panel);
+    canvas.fill(overview_panel, palette::panel);
+    canvas.clip(overview_panel);
+    const PageRings a = rings_on_page(figure.a, view);
+    const PageRings b = rings_on_page(figure.b, view);
+    canvas.fill(b, palette::shape_b.with_alpha(0.28));
+    canvas.fill(a, palette::shape_a.with_alpha(0.30));
+    canvas.stroke(b, {palette::shape_b, 1.4});
+    canvas.stroke(a, {palette::shape_a, 1.4});
+    draw_regions(canvas, summary_of(figure.answer.result).regions, view,
+                 {palette::region, 2.0, {7.0, 5.0}});
+    canvas.unclip();
+    canvas.stroke(overview_panel, {palette::frame, 1.5});
+}
+
+void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
+                 const std::optional<FieldLayer>& field) {
+    canvas.fill(view.page(), palette::panel);
+    canvas.clip(view.page());
+    const PageRings a = rings_on_page(figure.a, view);
+    const PageRings b = rings_on_page(figure.b, view);
+    canvas.fill(b, palette::shape_b.with_alpha(0.14));
+    canvas.fill(a, palette::shape_a.with_alpha(0.14));
+    if (field) {
+        field->draw_colors(canvas);
+        field->draw_iso_lines(canvas);
+    }
+    if (const auto* result = std::get_if<IntersectionResult>(&figure.answer.result)) {
+        draw_samples(canvas, *result, view);
+    }
+    draw_regions(canvas, summary_of(figure.answer.result).regions, view,
+                 {palette::region.with_alpha(0.75), 1.8, {9.0, 8.0}});
+    canvas.stroke(b, {palette::shape_b, 3.0});
+    canvas.stroke(a, {palette::page.with_alpha(0.8), 5.0});
+    canvas.stroke(a, {palette::shape_a, 3.0});
+    if (const auto* result = std::get_if<PenetrationResult>(&figure.answer.result)) {
+        draw_penetrating_points(canvas, *result, view);
+    }
+    draw_scale_bar(canvas, view);
+    canvas.unclip();
+    canvas.stroke(view.page(), {palette::frame, 1.5});
+}
+
+}  // namespace
+
+Rectangle detail_rectangle(const Answer& answer, const FigureShape& a, const FigureShape& b) {
+    const std::vector<Region>& regions = summary_of(answer.result).regions;
+    Rectangle box = united(bounding_box(a.rings), bounding_box(b.rings));
+    if (!regions.empty()) {
+        box = {regions.front().min, regions.front().max};
+        for (const Region& region : regions) {
+            box = united(box, {region.min, region.max});
+        }
+    }
+    return View(with_margin(box, 0.06), detail_panel(answer)).world();
+}
+
+std::string draw_figure(const Figure& figure) {
+    Canvas canvas(page_width, page_height, palette::page);
+    const View view(detail_rectangle(figure.answer, figure.a, figure.b),
+                    detail_panel(figure.answer));
+    std::optional<FieldLayer> field;
+    if (figure.field != nullptr && !figure.field->values.empty()) {
+        field.emplace(*figure.field, view);
+    }
+    draw_header(canvas, figure);
+    draw_overview(canvas, figure);
+    draw_detail(canvas, figure, view, field);
+    draw_legend(canvas, legend_of(figure, field ? &field->scale() : nullptr), legend_area);
+    if (field) {
+        draw_color_bar(canvas, field->scale(), color_strip);
+        canvas.text({page_width - margin, 1140.0}, "signed distance to B, world units", 21.0,
+                    palette::quiet_text, Align::right);
+    }
+    return canvas.png();
+}
+
+}  // namespace nearfield::tools

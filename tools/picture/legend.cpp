@@ -1,0 +1,93 @@
+#include <tools/output/summary.hpp>
+#include <tools/picture/color.hpp>
+#include <tools/picture/legend.hpp>
+#include <tools/picture/marks.hpp>
+
+#include <string>
+#include <variant>
+
+namespace nearfield::tools {
+namespace {
+
+double middle_y(const Rectangle& area) {
+    return (area.min.y + area.max.y) / 2.0;
+}
+
+auto swatch(const Color& color) {
+    return [color](Canvas& canvas, const Rectangle& area) {
+        canvas.fill(area, color.with_alpha(0.30));
+        canvas.stroke(area, {color, 2.4});
+    };
+}
+
+auto line(const Pen& pen) {
+    return [pen](Canvas& canvas, const Rectangle& area) {
+        const std::vector<Vector2> line{{area.min.x, middle_y(area)}, {area.max.x, middle_y(area)}};
+        canvas.stroke_open(std::span(&line, 1), pen);
+    };
+}
+
+using DrawPair = void (*)(Canvas&, Vector2, Vector2);
+
+auto pair_mark(DrawPair draw, bool with_point) {
+    return [draw, with_point](Canvas& canvas, const Rectangle& area) {
+        const Vector2 from{area.min.x + 8.0, middle_y(area)};
+        draw(canvas, from, {area.max.x, middle_y(area)});
+        if (with_point) {
+            draw_point_mark(canvas, from);
+        }
+    };
+}
+
+void add_entries(std::vector<LegendEntry>& entries, const PenetrationResult& result) {
+    if (result.count == 0) {
+        return;
+    }
+    if (!result.records.empty()) {
+        entries.push_back({pair_mark(draw_way_out, true), "point of A in B, its way out"});
+    }
+    entries.push_back({pair_mark(draw_deepest_mark, false), "the deepest point"});
+}
+
+void add_entries(std::vector<LegendEntry>& entries, const IntersectionResult&) {
+    const auto symbol = [](Canvas& canvas, const Rectangle& area) {
+        for (const double x : {area.min.x + 8.0, area.min.x + 25.0, area.min.x + 42.0}) {
+            draw_sample_mark(canvas, {x, middle_y(area)}, 15.0);
+        }
+    };
+    entries.push_back({symbol, "sample in both"});
+}
+
+void add_entries(std::vector<LegendEntry>&, const DistanceFieldResult&) {}
+
+}  // namespace
+
+std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field) {
+    std::vector<LegendEntry> entries{
+        {swatch(palette::shape_a), "A: " + figure.a.name},
+        {swatch(palette::shape_b), "B: " + figure.b.name},
+    };
+    if (!summary_of(figure.answer.result).regions.empty()) {
+        const bool is_field = figure.answer.request.type == QueryType::distance_field;
+        entries.push_back({line({palette::region, 2.0, {9.0, 7.0}}),
+                           is_field ? "grid of the field" : "region of potential intersection"});
+    }
+    std::visit([&entries](const auto& result) { add_entries(entries, result); },
+               figure.answer.result);
+    if (field != nullptr) {
+        const auto colors = [](Canvas& canvas, const Rectangle& area) {
+            for (double x = area.min.x; x < area.max.x; x += 1.0) {
+                const double along = (x - area.min.x) / (area.max.x - area.min.x);
+                canvas.fill({{x, area.min.y}, {x + 1.0, area.max.y}},
+                            diverging_color(2.0 * along - 1.0));
+            }
+            canvas.stroke(area, {palette::frame, 1.5});
+        };
+        entries.push_back({colors, "distance to B, d = " + short_number(figure.field->tolerance)});
+        entries.push_back({line({palette::text.with_alpha(0.5), 1.6}),
+                           "line of equal distance, every " + short_number(field->iso_step)});
+    }
+    return entries;
+}
+
+}  // namespace nearfield::tools

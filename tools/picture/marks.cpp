@@ -1,0 +1,87 @@
+#include <tools/picture/color.hpp>
+#include <tools/picture/marks.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+constexpr std::size_t most_arrows = 150;
+constexpr double least_spacing = 8.0;  // pixels between dots that are drawn
+
+/// Every n-th of the records such that there are not too many arrows.
+std::size_t arrow_stride(std::size_t count) {
+    return (count + most_arrows - 1) / most_arrows;
+}
+
+/// The points of the records on the page, without those that would hide the one before.
+std::vector<Vector2> spaced_points(const PenetrationResult& result, const View& view) {
+    std::vector<Vector2> points;
+    for (const PenetrationRecord& record : result.records) {
+        const Vector2 point = view.to_page(record.point);
+        if (points.empty() ||
+            std::hypot(point.x - points.back().x, point.y - points.back().y) >= least_spacing) {
+            points.push_back(point);
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+void draw_point_mark(Canvas& canvas, Vector2 point) {
+    canvas.dot(point, 4.4, palette::page);
+    canvas.dot(point, 3.3, palette::shape_a);
+}
+
+void draw_way_out(Canvas& canvas, Vector2 point, Vector2 nearest) {
+    canvas.arrow(point, nearest, 10.0, {palette::arrow.with_alpha(0.62), 1.4});
+}
+
+void draw_deepest_mark(Canvas& canvas, Vector2 point, Vector2 nearest) {
+    const double length = std::hypot(nearest.x - point.x, nearest.y - point.y);
+    const double inset = length > 24.0 ? 5.0 / length : 0.0;  // leaves a dark edge at the tip
+    const Vector2 tip{nearest.x - inset * (nearest.x - point.x),
+                      nearest.y - inset * (nearest.y - point.y)};
+    canvas.arrow(point, nearest, 26.0, {palette::text, 8.0});
+    canvas.arrow(point, tip, 18.0, {palette::highlight, 4.5});
+    canvas.dot(point, 10.0, palette::text);
+    canvas.dot(point, 7.5, palette::highlight);
+}
+
+void draw_sample_mark(Canvas& canvas, Vector2 center, double side) {
+    const double half = std::max(side, 1.0) / 2.0;
+    canvas.fill({{center.x - half, center.y - half}, {center.x + half, center.y + half}},
+                palette::sample);
+}
+
+void draw_samples(Canvas& canvas, const IntersectionResult& result, const View& view) {
+    // A thin gap between neighbours shows the grid where its cells are large enough.
+    const double cell = result.cell * view.scale();
+    double side = cell > 6.0 ? cell - 1.0 : cell;
+    if (result.kind != IntersectionKind::volume_volume) {
+        side = std::max(side, 8.0);  // they follow an outline and must be seen beside it
+    }
+    for (const IntersectionSample& sample : result.samples) {
+        draw_sample_mark(canvas, view.to_page(sample.point), side);
+    }
+}
+
+void draw_penetrating_points(Canvas& canvas, const PenetrationResult& result, const View& view) {
+    const std::size_t count = result.records.size();
+    for (std::size_t index = 0; index < count; index += arrow_stride(count)) {
+        const PenetrationRecord& record = result.records[index];
+        draw_way_out(canvas, view.to_page(record.point), view.to_page(record.nearest));
+    }
+    for (const Vector2& point : spaced_points(result, view)) {
+        draw_point_mark(canvas, point);
+    }
+    if (result.count > 0) {
+        draw_deepest_mark(canvas, view.to_page(result.deepest.point),
+                          view.to_page(result.deepest.nearest));
+    }
+}
+
+}  // namespace nearfield::tools
