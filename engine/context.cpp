@@ -48,7 +48,6 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     plan::PlanLimits limits;
     limits.subpixel = subpixel_grid(device);
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
-    limits.largest_tile = std::min(limits.largest_tile, limits.largest_atlas);
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     return limits;

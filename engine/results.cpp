@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace nearfield {
 namespace {
@@ -40,6 +42,26 @@ PenetrationRecord make_record(const PlacedPolygon& b, const Vector& point, std::
         record.feature = {Feature::Kind::edge, edge};
     }
     return record;
+}
+
+/// The edge of A nearest to a point, among a run of edges.
+std::uint32_t nearest_edge(const PlannedQuery& query, plan::EdgeRun run, const Vector& point) {
+    if (run.count == 1) {
+        return run.first;
+    }
+    const PlacedPolygon a(*query.a, query.pose_a);
+    std::uint32_t nearest = run.first;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::uint32_t edge = run.first; edge < run.first + run.count; ++edge) {
+        const double squared =
+            geometry::nearest_on_segment(point, a.vertex(edge), a.vertex(a.polygon().next(edge)))
+                .squared_distance;
+        if (squared < best) {
+            best = squared;
+            nearest = edge;
+        }
+    }
+    return nearest;
 }
 
 bool shapes_intersect(const PlannedQuery& query) {
@@ -85,7 +107,8 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
         const std::uint32_t index = round.tile_index[sample.tile];
         const Tile& tile = plan.tiles[index];
         samples_.push_back({tile.query, tile.region, tile.row + (sample.cell >> 16U),
-                            tile.column + (sample.cell & 0xffffU), sample.edge, index});
+                            tile.column + (sample.cell & 0xffffU), index,
+                            round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run]});
     }
 }
 
@@ -120,7 +143,10 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
 
 void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results) {
     // The device found them in no particular order; the result has one.
-    std::sort(samples_.begin(), samples_.end());
+    std::sort(samples_.begin(), samples_.end(), [](const FoundSample& i, const FoundSample& j) {
+        return std::tie(i.query, i.region, i.row, i.column) <
+               std::tie(j.query, j.region, j.row, j.column);
+    });
     for (const FoundSample& sample : samples_) {
         const auto& query = std::get<IntersectionQuery>(*plan.queries[sample.query].query);
         auto& result = std::get<IntersectionResult>(results[sample.query]);
@@ -129,9 +155,12 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
             const plan::Grid& grid = plan.tiles[sample.tile].grid;
             const Vector centre(static_cast<double>(sample.column) + 0.5,
                                 static_cast<double>(sample.row) + 0.5);
+            const Vector point = grid.origin + grid.cell * centre;
             const bool by_edge = query.kind != IntersectionKind::volume_volume;
-            result.samples.push_back({geometry::to_public(grid.origin + grid.cell * centre),
-                                      by_edge ? sample.edge : IntersectionSample::no_edge});
+            result.samples.push_back(
+                {geometry::to_public(point),
+                 by_edge ? nearest_edge(plan.queries[sample.query], sample.run, point)
+                         : IntersectionSample::no_edge});
         }
     }
 }

@@ -31,9 +31,8 @@ private:
         std::uint32_t region = 0;
         std::uint64_t row = 0;
         std::uint64_t column = 0;
-        std::uint32_t edge = 0;
         std::uint32_t tile = 0;
-        auto operator<=>(const FoundSample&) const = default;
+        plan::EdgeRun run;  // of A's edges, where A takes part by its boundary
     };
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,

@@ -3,9 +3,8 @@
 #include <passes/stencil_pipelines.hpp>
 #include <passes/tile_renderer.hpp>
 
-#include <shaders/constant_frag.hpp>
-#include <shaders/feature_frag.hpp>
 #include <shaders/mesh_vert.hpp>
+#include <shaders/number_frag.hpp>
 
 namespace nearfield::passes {
 
@@ -16,15 +15,14 @@ ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderP
     description.render_pass = render_pass;
     description.layout = layout;
     description.vertex_shader = shaders::mesh_vert;
+    description.fragment_shader = shaders::number_frag;
     description.depth_test = true;
 
     description.name = "nearfield distance clear";
-    description.fragment_shader = shaders::constant_frag;
     description.depth_compare = VK_COMPARE_OP_ALWAYS;
     clear_ = gpu::make_graphics_pipeline(device, description);
 
     description.name = "nearfield distance mesh";
-    description.fragment_shader = shaders::feature_frag;
     description.depth_compare = VK_COMPARE_OP_LESS;
     draw_ = gpu::make_graphics_pipeline(device, description);
 }

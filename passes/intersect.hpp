@@ -10,8 +10,8 @@ namespace nearfield::passes {
 /// The stencil method of Table 1 of the paper: clear by drawing the region, B raises the stencil
 /// to 1, A raises it to 2 where it is 1, and 2 is an intersection. Volumes are filled by parity
 /// first and then counted once; boundaries are drawn as offset polygons.
-/// Reads the mesh; writes the hit image: where A takes part by its boundary an edge of A, else 0;
-/// no_feature where there is no intersection.
+/// Reads the mesh; writes the hit image: where A takes part by its boundary the run of A's edges
+/// that is near (plan::Round::runs), else 0; no_feature where there is no intersection.
 class Intersect {
 public:
     Intersect(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,

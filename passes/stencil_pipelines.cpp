@@ -1,9 +1,8 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/stencil_pipelines.hpp>
 
-#include <shaders/constant_frag.hpp>
-#include <shaders/feature_frag.hpp>
 #include <shaders/mesh_vert.hpp>
+#include <shaders/number_frag.hpp>
 
 #include <string>
 
@@ -25,14 +24,13 @@ StencilPipelines::StencilPipelines(const gpu::Device& device, VkPipelineLayout l
         return gpu::make_graphics_pipeline(device, description);
     };
     const gpu::Spirv none;
-    const gpu::Spirv constant = shaders::constant_frag;
-    const gpu::Spirv feature = shaders::feature_frag;
-    clear = make("clear", VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE, constant);
+    const gpu::Spirv number = shaders::number_frag;
+    clear = make("clear", VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE, number);
     parity = make("parity", VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_INVERT, none);
     set = make("set", VK_COMPARE_OP_ALWAYS, VK_STENCIL_OP_REPLACE, none);
     count = make("count", VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_INCREMENT_AND_CLAMP, none);
-    mark = make("mark", VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP, constant);
-    hit = make("hit", VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_INCREMENT_AND_CLAMP, feature);
+    mark = make("mark", VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_KEEP, number);
+    hit = make("hit", VK_COMPARE_OP_EQUAL, VK_STENCIL_OP_INCREMENT_AND_CLAMP, number);
 }
 
 }  // namespace nearfield::passes

@@ -13,12 +13,12 @@ inline constexpr VkFormat number_format = VK_FORMAT_R32_UINT;
 struct StencilPipelines {
     StencilPipelines(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
 
-    gpu::Owned<VkPipeline> clear;   ///< stencil := reference, colour := constant
+    gpu::Owned<VkPipeline> clear;   ///< stencil := reference, colour := value
     gpu::Owned<VkPipeline> parity;  ///< invert the written bits
     gpu::Owned<VkPipeline> set;     ///< stencil := reference
     gpu::Owned<VkPipeline> count;   ///< where the compared bits equal the reference: add 1
-    gpu::Owned<VkPipeline> mark;    ///< where they equal it: colour := constant
-    gpu::Owned<VkPipeline> hit;     ///< where they equal it: add 1 and colour := id of the feature
+    gpu::Owned<VkPipeline> mark;    ///< where they equal it: colour := value
+    gpu::Owned<VkPipeline> hit;     ///< where they equal it: add 1 and colour := the mesh's id
 };
 
 namespace stencil_bits {

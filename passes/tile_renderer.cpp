@@ -5,7 +5,7 @@
 namespace nearfield::passes {
 namespace {
 
-/// The push constants of mesh.vert and constant.frag.
+/// The push constants of mesh.vert.
 struct Push {
     float scale[2];
     float bias[2];
@@ -18,8 +18,7 @@ static_assert(offsetof(Push, value) == 20 && sizeof(Push) == 24);
 static_assert(sizeof(geometry::MeshVertex) == 16 && offsetof(geometry::MeshVertex, distance) == 8 &&
               offsetof(geometry::MeshVertex, id) == 12);
 
-constexpr VkShaderStageFlags push_stages =
-    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkShaderStageFlags push_stages = VK_SHADER_STAGE_VERTEX_BIT;
 
 // Meshes reach up to two cells outside their tile. A viewport that holds them whole saves the
 // rasteriser from clipping, which would move edges; the scissor cuts what is outside.

@@ -24,7 +24,8 @@ public:
     /// reference value.
     void stencil(std::uint32_t compare_mask, std::uint32_t write_mask,
                  std::uint32_t reference) const;
-    /// Draws a part of the mesh into a tile. `value` goes to constant.frag.
+    /// Draws a part of the mesh into a tile. What is written is a vertex's id, or `value` where
+    /// ids are 0.
     void draw(const plan::TileDraw& tile, plan::DrawRange range, float depth_scale,
               std::uint32_t value) const;
 

@@ -8,15 +8,9 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-struct Sample {
-    uint cell;
-    uint tile;
-    uint edge;
-};
-
 layout(std430, set = 0, binding = 3) buffer Samples {
     uint count;
-    uint words[];  // three a sample: a structure would be padded no differently, but start later
+    uint words[];  // plan::SampleData: three words a sample
 } samples;
 layout(set = 0, binding = 4) uniform usampler2D hit_image;
 

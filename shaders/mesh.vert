@@ -1,21 +1,22 @@
 #version 450
 
-// Every mesh of the library: cells of a tile to the tile's viewport, distance to depth.
+// Every mesh of the library: cells of a tile to the tile's viewport, distance to depth. What is
+// written is the id of the feature, or the draw's own value where ids are 0.
 
 layout(push_constant) uniform Push {
     vec2 scale;
     vec2 bias;
     float depth_scale;
-    uint value;  // for constant.frag
+    uint value;
 } push;
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in float distance_to_feature;
 layout(location = 2) in uint id;
 
-layout(location = 0) flat out uint feature;
+layout(location = 0) flat out uint number;
 
 void main() {
     gl_Position = vec4(position * push.scale + push.bias, distance_to_feature * push.depth_scale, 1.0);
-    feature = id;
+    number = id | push.value;
 }

@@ -80,8 +80,22 @@ private:
         return false;
     }
 
+    /// True where segment cd lies on one side of the line through a and b, out of its reach.
+    [[nodiscard]] bool beside(const Vector& a, const Vector& b, const Vector& c,
+                              const Vector& d) const {
+        const Vector along = b - a;
+        // The sum of the coordinates is no less than the length, and costs no root.
+        const double reach = margin_ * along.lpNorm<1>();
+        const double side_c = cross(along, c - a);
+        const double side_d = cross(along, d - a);
+        return (side_c > reach && side_d > reach) || (side_c < -reach && side_d < -reach);
+    }
+
     [[nodiscard]] bool edges_meet(const Vector& a, const Vector& b, const Vector& c,
                                   const Vector& d) const {
+        if (beside(a, b, c, d) || beside(c, d, a, b)) {
+            return false;
+        }
         // Segments that do not cross are nearest at an end of one of them.
         const auto near = [&](const Vector& p, const Vector& from, const Vector& to) {
             return nearest_on_segment(p, from, to).squared_distance <= margin_ * margin_;

@@ -58,7 +58,7 @@ inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
 struct SampleData {
     std::uint32_t cell = 0;  ///< column | row << 16, within the tile
     std::uint32_t tile = 0;
-    std::uint32_t edge = 0;  ///< of A, or no_feature
+    std::uint32_t run = 0;  ///< in Round::runs, where A takes part by its boundary
 };
 static_assert(sizeof(SampleData) == 12);
 

@@ -27,6 +27,8 @@ constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 // Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth).
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0;
 
+constexpr std::uint32_t smallest_atlas = 256;
+
 double largest_magnitude(const Box& box) {
     return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
@@ -65,6 +67,20 @@ Result& reuse(AnyResult& any) {
 }
 
 }  // namespace
+
+Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
+    // Images get a quarter of the memory at the most; smaller ones only mean more rounds.
+    const auto images = [this] {
+        return bytes_per_pixel * limits_.largest_atlas * limits_.largest_atlas;
+    };
+    while (limits_.largest_atlas > smallest_atlas &&
+           images() > static_cast<double>(limits_.memory) / 4.0) {
+        limits_.largest_atlas /= 2;
+    }
+    limits_.largest_tile = std::min(limits_.largest_tile, limits_.largest_atlas);
+    packer_ = AtlasPacker(limits_.largest_atlas);
+    memory_for_results_ = static_cast<double>(limits_.memory) - images();
+}
 
 void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
                    std::vector<AnyResult>& results) {
@@ -107,7 +123,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
 
 void Planner::require_memory(double bytes, double tolerance, double growth) {
     plan_->result_bytes += bytes;
-    const auto limit = static_cast<double>(limits_.memory);
+    const double limit = memory_for_results_;
     if (plan_->result_bytes <= limit) {
         return;
     }
@@ -401,15 +417,6 @@ void Planner::pack() {
         sizes_.push_back({tile.width, tile.height});
     }
     packer_.pack(sizes_, places_);
-    const double images = bytes_per_pixel * packer_.extent().width * packer_.extent().height;
-    const double limit = static_cast<double>(limits_.memory);
-    if (plan_->result_bytes + images > limit) {
-        throw Failure({StatusCode::too_large,
-                       "the batch needs images of " + number(std::ceil(images / 1048576.0)) +
-                           " MiB on the device, which together with its results is more than the "
-                           "limit of " +
-                           number(std::floor(limit / 1048576.0)) + " MiB"});
-    }
     for (std::size_t i = 0; i < places_.size(); ++i) {
         plan_->tiles[i].place = places_[i];
     }

@@ -26,7 +26,7 @@ using FindShape = std::function<const geometry::Polygon*(ShapeHandle)>;
 /// points over them and packs all tiles of the batch. Keeps its scratch memory from batch to batch.
 class Planner {
 public:
-    explicit Planner(const PlanLimits& limits) : limits_(limits), packer_(limits.largest_atlas) {}
+    explicit Planner(const PlanLimits& limits);
 
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
     /// regions. What is wrong with one query stands in its result and leaves it without tiles.
@@ -52,7 +52,8 @@ private:
 
     PlanLimits limits_;
     AtlasPacker packer_;
-    Plan* plan_ = nullptr;  // of the call in progress
+    double memory_for_results_ = 0.0;  // bytes
+    Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
 

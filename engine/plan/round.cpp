@@ -58,6 +58,7 @@ void Round::clear() {
     distance_draws.clear();
     overlap_draws.clear();
     tile_index.clear();
+    runs.clear();
     field_values = 0;
     overlap_cells = 0;
 }
@@ -176,13 +177,19 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     round.distance_draws.push_back(draw);
 }
 
-DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, Mesh& mesh) const {
-    const std::size_t first = mesh.size();
+DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, Round& round) const {
+    const std::size_t first = round.mesh.size();
     for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
+        const std::size_t before = round.mesh.size();
+        const auto run = static_cast<std::uint32_t>(round.runs.size());
         geometry::append_offset_polygon(boundary_.start(i), boundary_.end(i), offset, tile.width,
-                                        tile.height, grid_, (*boundary_.edges)[i].first, mesh);
+                                        tile.height, grid_, run, round.mesh);
+        if (round.mesh.size() > before) {
+            const geometry::SimplifiedEdge& edge = (*boundary_.edges)[i];
+            round.runs.push_back({edge.first, edge.count});
+        }
     }
-    return since(first, mesh);
+    return since(first, round.mesh);
 }
 
 void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
@@ -197,7 +204,7 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
         boundary_.place(polygon, shapes_.get(polygon, simplification, longest_run * cell),
                         to_cells);
         if (part == Part::boundary) {
-            return add_boundary(tile, query.budget.offset / cell, round.mesh);
+            return add_boundary(tile, query.budget.offset / cell, round);
         }
         crossing_.clear();
         crossing_edges(boundary_, tile.width, tile.height, simplification / cell, crossing_);

@@ -20,6 +20,12 @@ struct DrawRange {
     std::uint32_t count = 0;
 };
 
+/// Consecutive edges of a shape.
+struct EdgeRun {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
 /// How a shape is drawn into an overlap tile.
 enum class Part : std::uint8_t { volume, boundary };
 
@@ -51,6 +57,7 @@ struct Round {
     std::vector<TileDraw> distance_draws;
     std::vector<TileDraw> overlap_draws;
     std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
+    std::vector<EdgeRun> runs;              ///< of A's edges: what ids of offset polygons stand for
     std::uint32_t field_values = 0;         ///< values of all field tiles together
     std::uint64_t overlap_cells = 0;        ///< cells of all overlap tiles together
 
@@ -73,8 +80,7 @@ private:
     void add_points(const Plan& plan, std::uint32_t number, Round& round);
     [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                      geometry::Mesh& mesh) const;
-    [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset,
-                                         geometry::Mesh& mesh) const;
+    [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset, Round& round) const;
     [[nodiscard]] DrawRange add_distance_mesh(const Tile& tile,
                                               const geometry::DistanceMeshOptions& options,
                                               geometry::Mesh& mesh);

@@ -1,0 +1,10 @@
+#version 450
+
+// Writes a number wherever the stencil or depth test lets it.
+
+layout(location = 0) flat in uint number;
+layout(location = 0) out uint color;
+
+void main() {
+    color = number;
+}

@@ -1,0 +1,97 @@
+#include <engine/plan/boundary_points.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <numeric>
+#include <set>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+/// The whole boundary, a chain a ring.
+std::vector<localize::Chain> all_of(const Polygon& polygon) {
+    std::vector<localize::Chain> chains;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        chains.push_back({ring,
+                          polygon.ring_begin(ring),
+                          polygon.ring_end(ring) - polygon.ring_begin(ring),
+                          {}});
+    }
+    return chains;
+}
+
+/// How far along its ring a point is from the ring's first vertex.
+double way_along(const Polygon& polygon, const BoundaryPoint& point) {
+    double way = 0.0;
+    const std::uint32_t begin = polygon.ring_begin(polygon.ring_of(point.edge));
+    for (std::uint32_t i = begin; i < point.edge; ++i) {
+        way += (polygon.vertices()[i + 1] - polygon.vertices()[i]).norm();
+    }
+    const Vector edge =
+        polygon.vertices()[polygon.next(point.edge)] - polygon.vertices()[point.edge];
+    return way + point.parameter * edge.norm();
+}
+
+double length_of_ring(const Polygon& polygon, std::uint32_t ring) {
+    double length = 0.0;
+    for (std::uint32_t i = polygon.ring_begin(ring); i < polygon.ring_end(ring); ++i) {
+        length += (polygon.vertices()[polygon.next(i)] - polygon.vertices()[i]).norm();
+    }
+    return length;
+}
+
+TEST(SampleChains, NoGapAlongTheBoundaryIsWiderThanTheSpacing) {
+    for (const test::NamedRings& shape : test::every_family(7)) {
+        Polygon polygon;
+        ASSERT_TRUE(polygon.assign(shape.rings).ok()) << shape.name;
+        for (const double spacing : {0.003, 0.05, 0.7, 50.0}) {
+            SCOPED_TRACE(shape.name + ", spacing " + std::to_string(spacing));
+            const PlacedPolygon placed(polygon, {});
+            std::vector<BoundaryPoint> points;
+            const auto chains = all_of(polygon);
+            sample_chains(placed, chains, spacing, points);
+            EXPECT_LE(static_cast<double>(points.size()), most_samples(placed, chains, spacing));
+
+            std::vector<double> last(polygon.ring_count(), -1.0);
+            for (const BoundaryPoint& point : points) {
+                ASSERT_GE(point.parameter, 0.0);
+                ASSERT_LT(point.parameter, 1.0);
+                const std::uint32_t ring = polygon.ring_of(point.edge);
+                const double way = way_along(polygon, point);
+                if (last[ring] < 0.0) {
+                    EXPECT_EQ(way, 0.0) << "a chain starts with a sample";
+                } else {
+                    EXPECT_LE(way - last[ring], spacing * (1.0 + 1e-9));
+                }
+                last[ring] = way;
+            }
+            for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+                EXPECT_LE(length_of_ring(polygon, ring) - last[ring], spacing * (1.0 + 1e-9));
+            }
+        }
+    }
+}
+
+TEST(VerticesOfChains, AChainThatWrapsGivesItsVerticesAndTheOneAfterIt) {
+    Polygon polygon;
+    const std::vector<Ring> rings{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {2, 1}, {2, 2}}};
+    ASSERT_TRUE(polygon.assign(rings).ok());
+    const PlacedPolygon placed(polygon, {});
+    std::vector<BoundaryPoint> points;
+    vertices_of_chains(placed, {{0, 3, 2, {}}, {1, 4, 3, {}}}, points);
+    std::vector<std::uint32_t> edges;
+    for (const BoundaryPoint& point : points) {
+        EXPECT_EQ(point.parameter, 0.0);
+        edges.push_back(point.edge);
+    }
+    EXPECT_EQ(edges, (std::vector<std::uint32_t>{3, 0, 1, 4, 5, 6}));
+}
+
+}  // namespace
+}  // namespace nearfield::plan
