@@ -1,0 +1,42 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace {
+
+/// The example of README.md, word for word between the lines.
+TEST(Readme, TheExampleWorks) {
+    const std::vector<nearfield::Ring> rings_of_a{{{0, 0}, {100, 0}, {100, 100}, {0, 100}}};
+    const std::vector<nearfield::Ring> rings_of_b{{{-60, -60}, {60, -60}, {60, 60}, {-60, 60}}};
+    double deepest = 0.0;
+    const auto push = [&](nearfield::Vector2, nearfield::Vector2, double depth) {
+        deepest = std::max(deepest, depth);
+    };
+
+    // ----
+    auto context = nearfield::Context::create_headless();  // or create(), with your own Vulkan device
+    auto a = context->add_shape(rings_of_a);               // std::vector<nearfield::Ring>
+    auto b = context->add_shape(rings_of_b);
+
+    nearfield::Batch batch;
+    auto query = batch.add(nearfield::PenetrationQuery{
+        .a = {*a, {}}, .b = {*b, {.translation = {120, 20}, .angle = 0.5}}, .tolerance = 0.8});
+    nearfield::Results results;
+    if (nearfield::Status status = context->run(batch, results); !status.ok()) {
+        std::puts(status.text().c_str());
+    }
+    for (const nearfield::PenetrationRecord& record : results[query].records) {
+        push(record.point, record.direction, record.depth);
+    }
+    // ----
+
+    EXPECT_TRUE(results[query].intersects);
+    EXPECT_EQ(deepest, results[query].deepest.depth);
+    EXPECT_GT(deepest, 10.0);
+}
+
+}  // namespace
