@@ -16,7 +16,8 @@ const std::vector<geometry::SimplifiedEdge>& SimplifiedShapes::get(const geometr
     const std::size_t filled = std::min(used_, remembered);
     for (std::size_t i = 0; i < filled; ++i) {
         const Entry& entry = entries_[i];
-        if (entry.polygon == &polygon && entry.deviation == deviation) {
+        if (entry.polygon == &polygon && entry.deviation == deviation &&
+            entry.longest_run == longest_run) {
             return entry.edges;
         }
     }
@@ -27,6 +28,7 @@ const std::vector<geometry::SimplifiedEdge>& SimplifiedShapes::get(const geometr
     Entry& entry = entries_[place];
     entry.polygon = &polygon;
     entry.deviation = deviation;
+    entry.longest_run = longest_run;
     entry.edges.clear();
     geometry::simplify(polygon, deviation, longest_run, entry.edges);
     return entry.edges;

@@ -21,6 +21,7 @@ private:
     struct Entry {
         const geometry::Polygon* polygon = nullptr;
         double deviation = 0.0;
+        double longest_run = 0.0;
         std::vector<geometry::SimplifiedEdge> edges;
     };
     // A ring: queries on one shape come close together, so the oldest entry is the one to replace.

@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
 #include <nearfield/host.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 /// \file
 /// The door: a context owns shapes, device objects and memory, takes batches and returns results.
@@ -30,7 +30,7 @@ struct Settings {
 /// One Vulkan device that can be used, and every reason why not where it cannot.
 struct DeviceReport {
     std::string name;
-    std::string driver;       ///< driver version and Vulkan version
+    std::string driver;  ///< driver version and Vulkan version
     bool usable = false;
     std::vector<std::string> missing;  ///< what the base needs and the device lacks
 };

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cstdint>
-
 #include <vulkan/vulkan_core.h>
+
+#include <cstdint>
 
 /// \file
 /// What a Vulkan host hands over.

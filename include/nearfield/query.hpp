@@ -1,12 +1,12 @@
 #pragma once
 
+#include <nearfield/shape.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
 #include <vector>
-
-#include <nearfield/shape.hpp>
 
 /// \file
 /// What can be asked. Queries are collected in a Batch; one batch is one unit of work.
@@ -52,7 +52,8 @@ struct DistanceFieldQuery {
     Instance b;
     double tolerance = 0.0;  ///< d, world units, > 0; the side of a cell is d * sqrt 2
     /// What the grid covers; its low corner is the low corner of cell (0, 0). Left out: what the
-    /// bounding boxes of A and B have in common, grown by d on every side.
+    /// bounding boxes of A and B have in common, grown by d on every side; an error where they have
+    /// nothing in common.
     std::optional<Rectangle> rectangle;
 };
 

@@ -1,14 +1,14 @@
 #pragma once
 
+#include <nearfield/query.hpp>
+#include <nearfield/shape.hpp>
+#include <nearfield/status.hpp>
+
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include <nearfield/query.hpp>
-#include <nearfield/shape.hpp>
-#include <nearfield/status.hpp>
 
 /// \file
 /// What comes back. Points and directions are in world coordinates, lengths in world units.
@@ -44,24 +44,27 @@ struct Feature {
 
 /// One penetrating point of A.
 struct PenetrationRecord {
-    Vector2 point;      ///< on A's boundary, inside B
-    double depth = 0.0; ///< distance from `point` to `nearest`, > 0
-    Vector2 direction;  ///< unit vector from `point` to `nearest`: the way out
-    Vector2 nearest;    ///< the point of B's boundary nearest to `point`
-    Feature feature;    ///< of B: where `nearest` lies
-    /// False where B's boundary holds another point, in another direction, that is no farther than
-    /// `depth` + d/1000: the direction is one of several.
+    Vector2 point;       ///< on A's boundary, inside B
+    double depth = 0.0;  ///< distance from `point` to `nearest`, > 0
+    Vector2 direction;   ///< unit vector from `point` to `nearest`: the way out
+    Vector2 nearest;     ///< the point of B's boundary nearest to `point`
+    Feature feature;     ///< of B: where `nearest` lies
+    /// False where the direction is one of several: B's boundary holds another point no farther
+    /// than `depth` + d/1000 that is not just a little way along the same wall, which is to say
+    /// farther from `nearest` than twice what a straight wall would explain, 2 * sqrt((depth +
+    /// d/1000)^2 - depth^2).
     bool unique = true;
 };
 
 /// Answer to a PenetrationQuery.
 ///
-/// Each record is exact to rounding: `point` and `nearest` are computed in double precision from
-/// the vertices as given. `error_bound` bounds how much deeper than `deepest` any point of A's
-/// boundary can be (any vertex, for PenetrationPoints::vertices).
+/// Each record's numbers are computed in double precision from the vertices as given. Which feature
+/// is nearest is decided in single precision in grid cells: where two are equally near to within
+/// d/1000, either may be named. `error_bound` bounds how much deeper than `deepest` any point of
+/// A's boundary can be (any vertex, for PenetrationPoints::vertices).
 struct PenetrationResult : ResultSummary {
-    std::uint32_t count = 0;    ///< penetrating points found
-    PenetrationRecord deepest;  ///< meaningful where count > 0
+    std::uint32_t count = 0;                 ///< penetrating points found
+    PenetrationRecord deepest;               ///< meaningful where count > 0
     std::vector<PenetrationRecord> records;  ///< in order along A's rings
 };
 
@@ -78,8 +81,8 @@ struct IntersectionSample {
 /// in both (or, by its boundary, lies on it) has a sample within it.
 struct IntersectionResult : ResultSummary {
     IntersectionKind kind = IntersectionKind::volume_volume;
-    std::uint64_t count = 0;  ///< samples found
-    double area = 0.0;        ///< count times the area of a cell
+    std::uint64_t count = 0;                  ///< samples found
+    double area = 0.0;                        ///< count times the area of a cell
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 
@@ -134,7 +137,8 @@ struct Results {
 
     /// The result of a query. Precondition: the handle comes from the batch that was run.
     template <class Query>
-    [[nodiscard]] const typename ResultOf<Query>::type& operator[](QueryHandle<Query> handle) const {
+    [[nodiscard]] const typename ResultOf<Query>::type& operator[](
+        QueryHandle<Query> handle) const {
         return std::get<typename ResultOf<Query>::type>(results[handle.index]);
     }
 };

@@ -14,11 +14,11 @@ namespace nearfield {
 /// What kind of thing went wrong.
 enum class StatusCode {
     ok,
-    invalid_shape,       ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
-    invalid_query,       ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
-    unknown_shape,       ///< a handle that was never given out, or whose shape was removed
-    too_large,           ///< the answer would need more memory than the stated limit
-    no_device,           ///< no Vulkan driver, or no device in it, that could be used
+    invalid_shape,  ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
+    invalid_query,  ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
+    unknown_shape,  ///< a handle that was never given out, or whose shape was removed
+    too_large,      ///< the answer would need more memory than the stated limit
+    no_device,      ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
     out_of_memory,       ///< host or device memory ran out
     device_lost,         ///< the device was lost; the context can only be destroyed

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <cmath>
+
+/// \file
+/// The few operations on points that the oracle needs; its own, so that it shares no arithmetic
+/// with what it judges.
+
+namespace nearfield::oracle {
+
+inline Vector2 plus(const Vector2& a, const Vector2& b) {
+    return {a.x + b.x, a.y + b.y};
+}
+
+inline Vector2 minus(const Vector2& a, const Vector2& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+
+inline Vector2 times(const Vector2& a, double factor) {
+    return {a.x * factor, a.y * factor};
+}
+
+inline double dot(const Vector2& a, const Vector2& b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+inline double length(const Vector2& a) {
+    return std::hypot(a.x, a.y);
+}
+
+inline double distance(const Vector2& a, const Vector2& b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+/// Twice the signed area of triangle abc, in extended precision.
+inline long double orientation(const Vector2& a, const Vector2& b, const Vector2& c) {
+    using Wide = long double;
+    return (Wide(b.x) - Wide(a.x)) * (Wide(c.y) - Wide(a.y)) -
+           (Wide(b.y) - Wide(a.y)) * (Wide(c.x) - Wide(a.x));
+}
+
+}  // namespace nearfield::oracle

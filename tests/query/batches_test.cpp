@@ -1,0 +1,212 @@
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <type_traits>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 300;
+
+class Batches : public QueryTest {
+protected:
+    /// All kinds of queries on every family's pair.
+    struct Everything {
+        std::deque<PlacedPair> pairs;
+        Batch batch;
+    };
+    static void fill(Everything& all) {
+        for (Pair& pair : family_pairs(seed)) {
+            all.pairs.emplace_back(context(), std::move(pair));
+            const PlacedPair& placed = all.pairs.back();
+            all.batch.add(placed.penetration(PenetrationPoints::boundary));
+            all.batch.add(placed.intersection(IntersectionKind::volume_volume));
+            all.batch.add(placed.penetration(PenetrationPoints::vertices));
+            all.batch.add(placed.intersection(IntersectionKind::boundary_boundary));
+            DistanceFieldQuery field;
+            field.b = placed.instance_b();
+            field.tolerance = 0.3;
+            field.rectangle = Rectangle{{-12, -12}, {12, 12}};
+            all.batch.add(field);
+            all.batch.add(placed.intersection(IntersectionKind::boundary_volume));
+        }
+    }
+};
+
+void expect_same(const PenetrationRecord& a, const PenetrationRecord& b) {
+    EXPECT_EQ(a.point, b.point);
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.nearest, b.nearest);
+    EXPECT_EQ(a.feature.kind, b.feature.kind);
+    EXPECT_EQ(a.feature.index, b.feature.index);
+    EXPECT_EQ(a.unique, b.unique);
+}
+
+void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
+    EXPECT_EQ(a.count, b.count);
+    ASSERT_EQ(a.records.size(), b.records.size());
+    for (std::size_t i = 0; i < a.records.size() && !testing::Test::HasFailure(); ++i) {
+        SCOPED_TRACE("record " + std::to_string(i));
+        expect_same(a.records[i], b.records[i]);
+    }
+    if (a.count > 0) {
+        expect_same(a.deepest, b.deepest);
+    }
+}
+
+void expect_same(const IntersectionResult& a, const IntersectionResult& b) {
+    EXPECT_EQ(a.count, b.count);
+    EXPECT_EQ(a.area, b.area);
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    for (std::size_t i = 0; i < a.samples.size() && !testing::Test::HasFailure(); ++i) {
+        EXPECT_EQ(a.samples[i].point, b.samples[i].point) << "sample " << i;
+        EXPECT_EQ(a.samples[i].edge, b.samples[i].edge) << "sample " << i;
+    }
+}
+
+void expect_same(const DistanceFieldResult& a, const DistanceFieldResult& b) {
+    EXPECT_EQ(a.origin, b.origin);
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.values, b.values);
+}
+
+/// Bit for bit the same.
+void expect_same(const AnyResult& a, const AnyResult& b) {
+    ASSERT_EQ(a.index(), b.index());
+    std::visit(
+        [&]<class Result>(const Result& one) {
+            const Result& other = std::get<Result>(b);
+            ASSERT_TRUE(one.status.ok()) << one.status.text();
+            ASSERT_TRUE(other.status.ok()) << other.status.text();
+            EXPECT_EQ(one.intersects, other.intersects);
+            EXPECT_EQ(one.error_bound, other.error_bound);
+            EXPECT_EQ(one.regions.size(), other.regions.size());
+            expect_same(one, other);
+        },
+        a);
+}
+
+/// The same up to what the bounds of both allow: how far a shape is simplified depends on what else
+/// the batch asks of it.
+void expect_alike(const DistanceFieldResult& a, const DistanceFieldResult& b) {
+    ASSERT_TRUE(a.status.ok() && b.status.ok());
+    EXPECT_EQ(a.origin, b.origin);
+    EXPECT_EQ(a.width, b.width);
+    ASSERT_EQ(a.values.size(), b.values.size());
+    double most = 0.0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        most = std::max(most, static_cast<double>(std::abs(a.values[i] - b.values[i])));
+    }
+    EXPECT_LE(most, a.error_bound + b.error_bound);
+}
+
+TEST_F(Batches, AnswerEachQueryAsIfAlone) {
+    Everything all;
+    fill(all);
+    Results together;
+    const Status status = context().run(all.batch, together);
+    ASSERT_TRUE(status.ok()) << status.text();
+    const auto queries = all.batch.queries();
+    ASSERT_EQ(together.results.size(), queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        SCOPED_TRACE("query " + std::to_string(i) + '\n' + describe(all.pairs[i / 6].pair()));
+        std::visit(
+            [&](const auto& query) {
+                const auto alone = run_alone(context(), query);
+                if constexpr (std::is_same_v<decltype(alone), const DistanceFieldResult>) {
+                    expect_alike(std::get<DistanceFieldResult>(together.results[i]), alone);
+                } else {
+                    expect_same(together.results[i], alone);
+                }
+            },
+            queries[i]);
+    }
+}
+
+TEST_F(Batches, RunTwiceGiveTheSame) {
+    Everything all;
+    fill(all);
+    Results first;
+    Results second;
+    ASSERT_TRUE(context().run(all.batch, first).ok());
+    ASSERT_TRUE(context().run(all.batch, second).ok());
+    // The same object a second time: nothing of the first answer is left in it.
+    ASSERT_TRUE(context().run(all.batch, first).ok());
+    ASSERT_EQ(first.results.size(), second.results.size());
+    for (std::size_t i = 0; i < first.results.size() && !HasFailure(); ++i) {
+        SCOPED_TRACE("query " + std::to_string(i));
+        expect_same(first.results[i], second.results[i]);
+    }
+    EXPECT_GT(second.timings.total, 0.0);
+}
+
+TEST_F(Batches, EmptyOnesAreFine) {
+    Batch batch;
+    Results results;
+    EXPECT_TRUE(context().run(batch, results).ok());
+    EXPECT_TRUE(results.results.empty());
+    const PlacedPair pair(context(), family_pairs(seed)[1]);
+    const auto handle = batch.add(pair.penetration());
+    ASSERT_TRUE(context().run(batch, results).ok());
+    check_penetration(pair, PenetrationPoints::boundary, results[handle]);
+    batch.clear();
+    EXPECT_TRUE(context().run(batch, results).ok());
+    EXPECT_TRUE(results.results.empty());
+}
+
+TEST_F(Batches, OfManySmallPairsHold) {
+    constexpr int many = 300;
+    Random random(seed);
+    std::deque<PlacedPair> pairs;
+    std::vector<QueryHandle<PenetrationQuery>> handles;
+    Batch batch;
+    for (int i = 0; i < many; ++i) {
+        const Vector2 place{10.0 * (i % 20), 10.0 * (i / 20)};
+        const Vector2 beside{place.x + random.between(-1.8, 1.8), place.y + 0.4};
+        pairs.emplace_back(context(), Pair{{"A", star(random, random.whole(3, 40), 0.4)},
+                                           {"B", star(random, random.whole(3, 40), 0.4)},
+                                           {place, random.between(0.0, 6.0)},
+                                           {beside, random.between(0.0, 6.0)},
+                                           random.scale(0.02, 0.2)});
+        handles.push_back(batch.add(pairs.back().penetration()));
+    }
+    Results results;
+    const Status status = context().run(batch, results);
+    ASSERT_TRUE(status.ok()) << status.text();
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        SCOPED_TRACE(describe(pairs[i].pair()));
+        check_penetration(pairs[i], PenetrationPoints::boundary, results[handles[i]]);
+    }
+}
+
+TEST_F(Batches, OneShapeManyTimes) {
+    // A shape against itself at several places and tolerances in one batch.
+    Random random(seed);
+    const PlacedPair pair(
+        context(), {{"A", with_holes(random, 4)}, {"B", star(random, 30, 0.6)}, {}, {}, 0.05});
+    Batch batch;
+    std::vector<QueryHandle<PenetrationQuery>> handles;
+    std::vector<PenetrationQuery> queries;
+    for (int i = 0; i < 12; ++i) {
+        PenetrationQuery query = pair.penetration();
+        query.b.shape = i % 2 == 0 ? pair.instance_a().shape : pair.instance_b().shape;
+        query.a.pose = {{0.15 * i - 0.9, 0.2}, 0.5 * i};
+        query.tolerance = 0.02 * (1 + i % 3);
+        queries.push_back(query);
+        handles.push_back(batch.add(query));
+    }
+    Results results;
+    ASSERT_TRUE(context().run(batch, results).ok());
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        SCOPED_TRACE(i);
+        expect_same(results[handles[i]], run_alone(context(), queries[i]));
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nearfield/nearfield.hpp>
+
+#include <tests/query/pair.hpp>
+#include <tests/query/report.hpp>
+
+/// \file
+/// The laws that a result has to obey whatever the shapes: what the public headers promise, held
+/// against the oracle. Each reports its violations as one test failure.
+
+namespace nearfield::test {
+
+/// Status, tolerance, bound, cell and the grids of regions.
+void check_summary(Report& report, const ResultSummary& result, double tolerance);
+
+/// As above, and `intersects`.
+void check_summary(Report& report, const ResultSummary& result, const PlacedPair& pair);
+
+/// Records exact, in order and complete; the deepest right.
+void check_penetration(const PlacedPair& pair, PenetrationPoints points,
+                       const PenetrationResult& result);
+
+/// Samples within the bound of both, and complete; the area right.
+void check_intersection(const PlacedPair& pair, IntersectionKind kind,
+                        const IntersectionResult& result);
+
+/// Values within the bound, at every cell or, in a large field, at `most_cells` of them.
+void check_field(const oracle::ShapeOracle& b, double tolerance, const DistanceFieldResult& result,
+                 std::size_t most_cells = 20000);
+
+}  // namespace nearfield::test

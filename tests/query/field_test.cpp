@@ -1,0 +1,131 @@
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 90210;
+
+class Field : public QueryTest {
+protected:
+    /// The field of a shape over a rectangle, checked.
+    static DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
+                                     const Rectangle& rectangle) {
+        Expected<ShapeHandle> handle = context().add_shape(rings);
+        EXPECT_TRUE(handle.ok()) << handle.status().text();
+        DistanceFieldQuery query;
+        query.b = {handle.value(), pose};
+        query.tolerance = tolerance;
+        query.rectangle = rectangle;
+        DistanceFieldResult result = run_alone(context(), query);
+        SCOPED_TRACE(to_text(rings) + " d = " + std::to_string(tolerance));
+        check_field(oracle::ShapeOracle(rings, pose), tolerance, result);
+        check_covers(result, rectangle);
+        EXPECT_TRUE(context().remove_shape(handle.value()).ok());
+        return result;
+    }
+
+    /// The grid starts at the rectangle's low corner, covers it and has no cell to spare.
+    static void check_covers(const DistanceFieldResult& result, const Rectangle& rectangle) {
+        const double allowed =
+            1e-6 * result.cell + 1e-12 * (std::abs(rectangle.max.x) + std::abs(rectangle.max.y));
+        EXPECT_NEAR(result.origin.x, rectangle.min.x, allowed);
+        EXPECT_NEAR(result.origin.y, rectangle.min.y, allowed);
+        const double right = result.origin.x + result.width * result.cell;
+        const double top = result.origin.y + result.height * result.cell;
+        EXPECT_GE(right, rectangle.max.x - allowed);
+        EXPECT_GE(top, rectangle.max.y - allowed);
+        EXPECT_LE(right - result.cell, rectangle.max.x + allowed);
+        EXPECT_LE(top - result.cell, rectangle.max.y + allowed);
+    }
+};
+
+TEST_F(Field, HoldsForRandomShapes) {
+    const int cases = random_cases(120);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + static_cast<std::uint64_t>(i));
+        const Pair pair = any_pair(random);
+        const Rectangle box = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
+        const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+        const Vector2 low{box.min.x + size * random.between(-0.5, 0.8),
+                          box.min.y + size * random.between(-0.5, 0.8)};
+        const Vector2 high{low.x + size * random.scale(0.02, 1.5),
+                           low.y + size * random.scale(0.02, 1.5)};
+        check(pair.b.rings, pair.pose_b, size * random.scale(0.004, 0.2), {low, high});
+    }
+}
+
+TEST_F(Field, HoldsForEveryFamily) {
+    for (const auto& [name, rings] : every_family(seed)) {
+        SCOPED_TRACE(name);
+        check(rings, {{0.5, -0.25}, 0.9}, 0.02, {{-1.0, -1.5}, {2.0, 1.0}});
+    }
+}
+
+TEST_F(Field, CoversWhatTheBoxesShare) {
+    const int cases = random_cases(60);
+    for (int i = 0; i < cases; ++i) {
+        Random random(seed + 100 + static_cast<std::uint64_t>(i));
+        const PlacedPair pair(context(), any_pair(random));
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i) + '\n' +
+                     describe(pair.pair()));
+        DistanceFieldQuery query;
+        query.a = pair.instance_a();
+        query.b = pair.instance_b();
+        query.tolerance = pair.tolerance();
+        const DistanceFieldResult result = run_alone(context(), query);
+        const Rectangle a = pair.a().box();
+        const Rectangle b = pair.b().box();
+        const Rectangle common{{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
+                               {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
+        const double d = pair.tolerance();
+        if (common.max.x < common.min.x - 2 * d || common.max.y < common.min.y - 2 * d) {
+            EXPECT_EQ(result.status.code(), StatusCode::invalid_query) << result.status.text();
+            continue;
+        }
+        if (common.min.x <= common.max.x && common.min.y <= common.max.y) {
+            check_field(pair.b(), d, result);
+            check_covers(result, {{common.min.x - d, common.min.y - d},
+                                  {common.max.x + d, common.max.y + d}});
+        }
+    }
+}
+
+TEST_F(Field, RectanglesLargerThanATileHold) {
+    Random random(seed);
+    const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
+    const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells a unit
+    const auto wide = check(shape, {}, d, {{-20.0, 3.0}, {20.0, 3.05}});
+    EXPECT_GT(wide.width, 5900U);
+    const auto high = check(shape, {}, d, {{-0.03, -20.0}, {0.03, 20.0}});
+    EXPECT_GT(high.height, 5900U);
+}
+
+TEST_F(Field, TinyAndHugeTolerancesHold) {
+    Random random(seed);
+    const Rings shape = star(random, 40, 0.4);
+    const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
+    EXPECT_EQ(one.values.size(), 1U);
+    check(shape, {}, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}});
+    check(shape, {}, 0.05, {{30.0, -40.0}, {32.0, -38.0}});  // far outside
+    check(scaled_and_moved(shape, 1e-3, {}), {{1e6, 1e6}, 0.3}, 2e-5,
+          {{1e6 - 1e-3, 1e6 - 1e-3}, {1e6 + 1e-3, 1e6 + 1e-3}});
+    for (const double factor : {1e-12, 1e7, 1e11}) {
+        check(scaled_and_moved(shape, factor, {}), {}, 0.01 * factor,
+              {{-factor, -factor}, {factor, factor}});
+    }
+}
+
+TEST_F(Field, FarInsideIsDeepNegative) {
+    const auto result = check(rectangle({-100, -100}, {100, 100}), {}, 0.5, {{-3, -3}, {3, 3}});
+    for (const float value : result.values) {
+        EXPECT_LT(value, -96.0F);
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test

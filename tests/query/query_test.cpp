@@ -1,0 +1,66 @@
+#include "query_test.hpp"
+
+#include <tests/support/vulkan_host.hpp>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace nearfield::test {
+namespace {
+
+/// Made once for the whole program and taken down at its end, while Vulkan is still loaded.
+class Device : public testing::Environment {
+public:
+    void SetUp() override {
+        host_.emplace();
+        Expected<Context> made = Context::create(host_->device());
+        ASSERT_TRUE(made.ok()) << made.status().text();
+        context_.emplace(std::move(made.value()));
+    }
+    void TearDown() override {
+        context_.reset();
+        for (const std::string& message : host_->close()) {
+            ADD_FAILURE() << "validation: " << message;
+        }
+    }
+
+    std::optional<test_support::VulkanHost> host_;
+    std::optional<Context> context_;
+};
+
+/// GoogleTest owns it.
+Device& device() {
+    static Device* const shared = new Device;
+    return *shared;
+}
+
+const testing::Environment* const registered = testing::AddGlobalTestEnvironment(&device());
+
+}  // namespace
+
+int random_cases(int usual) {
+    const char* const asked = std::getenv("NEARFIELD_TEST_CASES");
+    return asked != nullptr ? std::atoi(asked) : usual;
+}
+
+void QueryTest::SetUp() {
+    ASSERT_TRUE(device().context_.has_value()) << "no context to test";
+}
+
+void QueryTest::TearDown() {
+    for (const std::string& message : device().host_->messages()) {
+        ADD_FAILURE() << "validation: " << message;
+    }
+    device().host_->clear_messages();
+}
+
+Context& QueryTest::context() {
+    return *device().context_;
+}
+
+const HostDevice& QueryTest::host_device() {
+    return device().host_->device();
+}
+
+}  // namespace nearfield::test
