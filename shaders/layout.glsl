@@ -2,7 +2,7 @@
 // Lengths are in cells of the tile, positions relative to its low corner.
 
 const uint no_feature = 0xffffffffu;
-const uint cluster_size = 16u;
+const uint cluster_size = 8u;
 
 struct EdgeList {
     uint clusters;

@@ -10,6 +10,7 @@ namespace nearfield::localize {
 namespace {
 
 using geometry::Box;
+using geometry::cross;
 using geometry::nearest_on_segment;
 using geometry::PlacedPolygon;
 using geometry::Polygon;
@@ -17,7 +18,7 @@ using geometry::segments_intersect;
 using geometry::Vector;
 
 /// Pairs of so few edges are tested one by one: computing smaller boxes would cost as much.
-constexpr std::uint32_t leaf_edges = 6;
+constexpr std::uint32_t leaf_edges = 8;
 
 /// The vertices of a leaf's edges in the world.
 struct Leaf {

@@ -78,6 +78,7 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
         limits_.largest_atlas /= 2;
     }
     limits_.largest_tile = std::min(limits_.largest_tile, limits_.largest_atlas);
+    point_tiles_ = PointTiles(std::min(limits_.points_tile, limits_.largest_tile));
     packer_ = AtlasPacker(limits_.largest_atlas);
     memory_for_results_ = static_cast<double>(limits_.memory) - images();
 }
@@ -206,91 +207,8 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         sample_chains(a, chains_, planned.budget.cell, samples_);
     }
     add_regions(planned.budget.cell, result);
-    spread_points(a, box_b);
+    point_tiles_.spread(a, samples_, box_b, boxes_, grids_, query_, *plan_);
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
-}
-
-void Planner::spread_points(const PlacedPolygon& a, const Box& within) {
-    cells_.clear();
-    keys_.clear();
-    std::size_t kept = 0;
-    for (const BoundaryPoint& sample : samples_) {
-        const geometry::Vector p = position(a, sample);
-        if (!within.contains(p)) {
-            continue;
-        }
-        // A sample on the border of a box may miss all boxes by a rounding; the nearest one takes
-        // it. Samples come in order along the boundary, so the last one's region is tried first.
-        std::uint32_t grid = cells_.empty() ? 0 : cells_.back().grid;
-        if (!boxes_[grid].contains(p)) {
-            double nearest = boxes_[grid].squaredExteriorDistance(p);
-            for (std::uint32_t i = 0; i < boxes_.size() && nearest > 0.0; ++i) {
-                const double distance = boxes_[i].squaredExteriorDistance(p);
-                if (distance < nearest) {
-                    nearest = distance;
-                    grid = i;
-                }
-            }
-        }
-        const Grid& region = grids_[grid];
-        const geometry::Vector local = (p - region.origin) / region.cell;
-        const auto index = [](double value, std::uint64_t count) {
-            const double last = static_cast<double>(count - 1);
-            return static_cast<std::uint64_t>(std::clamp(std::floor(value), 0.0, last));
-        };
-        const PointCell cell{grid, index(local.x(), region.width), index(local.y(), region.height)};
-        cells_.push_back(cell);
-        keys_.push_back(
-            {grid, cell.row / limits_.largest_tile, cell.column / limits_.largest_tile});
-        samples_[kept++] = sample;
-    }
-    samples_.resize(kept);
-    std::sort(keys_.begin(), keys_.end());
-    keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
-
-    const std::size_t first_tile = plan_->tiles.size();
-    for (const TileKey& key : keys_) {
-        Tile& tile = plan_->tiles.emplace_back();
-        tile.query = query_;
-        tile.kind = TileKind::points;
-        tile.region = key.grid;
-        tile.grid = grids_[key.grid];
-    }
-    for (std::size_t i = 0; i < kept; ++i) {
-        const TileKey key{cells_[i].grid, cells_[i].row / limits_.largest_tile,
-                          cells_[i].column / limits_.largest_tile};
-        const auto found = std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
-        plan_->points.push_back({samples_[i], static_cast<std::uint32_t>(
-                                                  first_tile + static_cast<std::size_t>(found))});
-    }
-    trim_tiles_to_points();
-}
-
-void Planner::trim_tiles_to_points() {
-    const std::size_t first_point = plan_->points.size() - cells_.size();
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        Tile& tile = plan_->tiles[plan_->points[first_point + i].tile];
-        const PointCell& cell = cells_[i];
-        const bool first = tile.width == 0;
-        const std::uint64_t column = first ? cell.column : std::min(tile.column, cell.column);
-        const std::uint64_t row = first ? cell.row : std::min(tile.row, cell.row);
-        const std::uint64_t right =
-            first ? cell.column + 1 : std::max(tile.column + tile.width, cell.column + 1);
-        const std::uint64_t top =
-            first ? cell.row + 1 : std::max(tile.row + tile.height, cell.row + 1);
-        tile.column = column;
-        tile.row = row;
-        tile.width = static_cast<std::uint32_t>(right - column);
-        tile.height = static_cast<std::uint32_t>(top - row);
-    }
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-        Tile& tile = plan_->tiles[plan_->points[first_point + i].tile];
-        if (tile.needed.empty()) {
-            tile.needed = NeededBlocks(tile.width, tile.height);
-        }
-        tile.needed.add(static_cast<std::uint32_t>(cells_[i].column - tile.column),
-                        static_cast<std::uint32_t>(cells_[i].row - tile.row));
-    }
 }
 
 void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {

@@ -2,6 +2,7 @@
 
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/plan/point_tiles.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -14,6 +15,9 @@ namespace nearfield::plan {
 struct PlanLimits {
     geometry::SubpixelGrid subpixel;
     std::uint32_t largest_tile = 1024;  ///< cells along a side
+    /// Cells along a side of tiles for boundary points, which fill their region thinly: small tiles
+    /// leave out what holds no point, and each draws and tests the edges near it only.
+    std::uint32_t points_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
     std::uint32_t hierarchy_height = 8;
@@ -44,8 +48,6 @@ private:
 
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
-    void spread_points(const geometry::PlacedPolygon& a, const geometry::Box& within);
-    void trim_tiles_to_points();
     void cut_into_tiles(std::uint32_t region, TileKind kind);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();
@@ -62,19 +64,7 @@ private:
     std::vector<geometry::Box> boxes_;
     std::vector<Grid> grids_;
     std::vector<BoundaryPoint> samples_;
-    struct PointCell {
-        std::uint32_t grid = 0;
-        std::uint64_t column = 0;
-        std::uint64_t row = 0;
-    };
-    std::vector<PointCell> cells_;  // by point of the query
-    struct TileKey {
-        std::uint32_t grid = 0;
-        std::uint64_t row = 0;
-        std::uint64_t column = 0;
-        auto operator<=>(const TileKey&) const = default;
-    };
-    std::vector<TileKey> keys_;
+    PointTiles point_tiles_{64};
     std::vector<TileSize> sizes_;
     std::vector<AtlasPlace> places_;
 };

@@ -48,7 +48,7 @@ protected:
 };
 
 TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
-    limits_.largest_tile = 100;
+    limits_.points_tile = 100;
     run({penetration_});
     ASSERT_GT(plan_.tiles.size(), 3U);
     ASSERT_GT(plan_.points.size(), 500U);
@@ -59,7 +59,7 @@ TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
         ASSERT_GE(local.minCoeff(), -1e-9);
         ASSERT_LE(local.x(), tile.width + 1e-9);
         ASSERT_LE(local.y(), tile.height + 1e-9);
-        ASSERT_LE(std::max(tile.width, tile.height), limits_.largest_tile);
+        ASSERT_LE(std::max(tile.width, tile.height), limits_.points_tile);
         const auto side = tile.needed.side();
         const auto block = [side](double value, std::uint32_t count) {
             return static_cast<std::uint32_t>(std::clamp(value, 0.0, count - 1.0)) / side;

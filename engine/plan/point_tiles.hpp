@@ -1,0 +1,51 @@
+#pragma once
+
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/plan/plan.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// Spreads a query's boundary points over tiles. Only what holds points becomes a tile.
+class PointTiles {
+public:
+    /// Tiles of at most `side` x `side` cells.
+    explicit PointTiles(std::uint32_t side) : side_(side) {}
+
+    /// Appends the points of `samples` that lie in `within` to the plan, and the tiles they need.
+    /// `boxes` and `grids` are the query's regions; a point belongs to the box that holds it, or to
+    /// the nearest one where rounding left it outside all of them.
+    void spread(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,
+                const geometry::Box& within, const std::vector<geometry::Box>& boxes,
+                const std::vector<Grid>& grids, std::uint32_t query, Plan& plan);
+
+private:
+    struct PointCell {
+        std::uint32_t grid = 0;
+        std::uint64_t column = 0;
+        std::uint64_t row = 0;
+    };
+    struct TileKey {
+        std::uint32_t grid = 0;
+        std::uint64_t row = 0;
+        std::uint64_t column = 0;
+        auto operator<=>(const TileKey&) const = default;
+    };
+
+    void find_cells(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,
+                    const geometry::Box& within, const std::vector<geometry::Box>& boxes,
+                    const std::vector<Grid>& grids);
+    void trim_to_points(Plan& plan) const;
+    [[nodiscard]] TileKey tile_of(const PointCell& cell) const {
+        return {cell.grid, cell.row / side_, cell.column / side_};
+    }
+
+    std::uint32_t side_;
+    std::vector<BoundaryPoint> kept_;  // samples that lie within
+    std::vector<PointCell> cells_;     // by kept sample
+    std::vector<TileKey> keys_;        // of the tiles, sorted
+};
+
+}  // namespace nearfield::plan
