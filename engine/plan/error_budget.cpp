@@ -12,7 +12,7 @@ constexpr double float_rounding = 1.0 / 1024.0;
 
 // Error of the distance mesh, in cells. Where resolve walks the original edges, errors of the mesh
 // and of simplification cost it work but no accuracy, so both are coarse there.
-constexpr double points_mesh_error = 0.25;
+constexpr double points_mesh_error = 0.5;
 constexpr double field_mesh_error = 0.125;
 
 }  // namespace
@@ -21,7 +21,7 @@ ErrorBudget penetration_budget(const PenetrationQuery& query) {
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
-    budget.simplification = d / 2.0;
+    budget.simplification = d;
     budget.mesh = points_mesh_error * budget.cell;
     // Depth changes by no more than the way along the boundary, and samples are at most a cell
     // apart on it; vertices are all looked at.
