@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing.
+#   setup.sh run    what building and running the command line needs
+#   setup.sh test   that, and what the tests and checks need
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+run_packages=(
+    cmake ninja-build g++ pkg-config glslang-tools
+    libvulkan-dev libvulkan1 mesa-vulkan-drivers
+    libeigen3-dev libcli11-dev nlohmann-json3-dev libcairo2-dev fonts-dejavu-core
+)
+test_packages=(libgtest-dev libgeos-dev vulkan-validationlayers clang-format clang-tidy)
+
+case "$*" in
+    run) wanted=("${run_packages[@]}") ;;
+    test) wanted=("${run_packages[@]}" "${test_packages[@]}") ;;
+    *) die "usage: setup.sh run|test" ;;
+esac
+
+for tool in apt-get dpkg-query; do
+    command -v "$tool" >/dev/null ||
+        die "this system has no $tool; install what matches these Debian packages and run" \
+            "again with --no-setup: ${wanted[*]}"
+done
+
+is_installed() {
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=()
+for package in "${wanted[@]}"; do
+    is_installed "$package" || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+    echo "all ${#wanted[@]} packages are installed"
+    exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+        die "root rights are needed to install: ${missing[*]}; run as root, install sudo," \
+            "or install them and run again with --no-setup"
+    as_root=(sudo)
+fi
+echo "missing: ${missing[*]}"
+"${as_root[@]}" apt-get update
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --yes --no-install-recommends "${missing[@]}"

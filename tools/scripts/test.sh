@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Sets up, builds, runs all tests and all checks; stops at the first that fails.
+#   test.sh [--no-setup]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+jobs=$(nproc)
+log="$root/build/release/ctest.log"
+report="$root/build/release/ctest.xml"
+
+# sources PATTERN...: the project's own C++ files with such names, zero-terminated.
+sources() {
+    local names=(-false)
+    for pattern in "$@"; do
+        names+=(-o -name "$pattern")
+    done
+    find "$root"/{include,engine,passes,tools,tests} -type f \( "${names[@]}" \) -print0 | sort -z
+}
+
+# The count of ctest's report with the given name.
+reported() {
+    sed -n "s/^\t$1=\"\([0-9]*\)\".*/\1/p" "$report" | head -n 1
+}
+
+print_counts() {
+    local failed skipped
+    failed=$(reported failures)
+    skipped=$(($(reported skipped) + $(reported disabled)))
+    ((skipped == 0)) || printf '%d skipped\n' "$skipped"
+    printf '%d passed, %d failed\n' "$(($(reported tests) - failed - skipped))" "$failed"
+}
+
+run_tests() {
+    rm -f "$report"
+    ctest --test-dir "$root/build/release" --parallel "$jobs" --output-on-failure --no-tests=error \
+        --output-junit "$report" 2>&1 | tee "$log" || {
+        [[ ! -f $report ]] || print_counts
+        return 1
+    }
+}
+
+check_format() {
+    sources '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
+}
+
+# A dot for a clean file; clang-tidy's words, which count what it left out too, for another.
+tidy_file() {
+    local words
+    if words=$(clang-tidy -p "$root/build/release" --quiet "$1" 2>&1); then
+        printf .
+    else
+        printf '\n%s\n' "$words"
+        return 1
+    fi
+}
+
+check_tidy() {
+    export root
+    export -f tidy_file
+    # shellcheck disable=SC2016  # for the inner shell to expand
+    sources '*.cpp' | xargs -0 -P "$jobs" -I '{}' bash -c 'tidy_file "$0"' '{}'
+    echo
+}
+
+# The rooms that need no driver, with every memory access and every undefined operation watched.
+# Warnings are not errors here: the sanitizers' own code sets off false ones.
+check_sanitized() {
+    local test tests=(test_geometry test_localize test_graph)
+    configure sanitize -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
+        "-DNEARFIELD_SANITIZE=address,undefined" -DNEARFIELD_BUILD_TOOLS=OFF \
+        -DNEARFIELD_WARNINGS_AS_ERRORS=OFF >/dev/null
+    build sanitize --target "${tests[@]}"
+    for test in "${tests[@]}"; do
+        "$root/build/sanitize/tests/$test" --gtest_brief=1
+    done
+}
+
+# A host gives the Vulkan entry points at run time: the library defines none and asks for none.
+check_symbols() {
+    local symbols
+    symbols=$(nm --format=just-symbols "$root/build/release/libnearfield.a" | grep '^vk[A-Z]' || true)
+    [[ -z $symbols ]] || {
+        printf 'libnearfield.a has Vulkan entry points of its own:\n%s\n' "$symbols"
+        return 1
+    }
+}
+
+if wants_setup "$@"; then
+    step "Install what is missing" "$root/tools/scripts/setup.sh" test
+fi
+step "Configure" configure release -DCMAKE_BUILD_TYPE=Release -DNEARFIELD_BUILD_TESTS=ON
+step "Build" build release
+step "Tests" run_tests
+step "No Vulkan symbols in the library" check_symbols
+step "Format" check_format
+step "clang-tidy" check_tidy
+step "Sanitizers" check_sanitized
+printf '\n== All checks passed; the tests again\n'
+tail -n 4 "$log"
+print_counts
