@@ -148,7 +148,7 @@ Status Context::Implementation::run(const Batch& batch, Results& results) {
         return {StatusCode::device_lost,
                 "the device was lost in an earlier batch; destroy this context and make another"};
     }
-    const Status status = guarded([&] { run_batch(batch, results); });
+    Status status = guarded([&] { run_batch(batch, results); });
     lost_ = status.code() == StatusCode::device_lost;
     return status;
 }

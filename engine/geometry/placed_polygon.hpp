@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include <engine/geometry/polygon.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/shape.hpp>
+
+#include <cstdint>
+#include <span>
 
 namespace nearfield::geometry {
 
@@ -22,9 +22,7 @@ public:
     [[nodiscard]] const Vector& translation() const { return translation_; }
 
     /// Vertex i in world coordinates.
-    [[nodiscard]] Vector vertex(std::uint32_t i) const {
-        return to_world(polygon_->vertices()[i]);
-    }
+    [[nodiscard]] Vector vertex(std::uint32_t i) const { return to_world(polygon_->vertices()[i]); }
     /// From coordinates relative to the polygon's centre to world coordinates.
     [[nodiscard]] Vector to_world(const Vector& v) const {
         return rotation_.col(0) * v.x() + rotation_.col(1) * v.y() + translation_;

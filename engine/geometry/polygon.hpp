@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include <engine/geometry/vector.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace nearfield::geometry {
 
@@ -24,7 +24,9 @@ public:
     [[nodiscard]] const Vector& centre() const { return centre_; }
     /// Vertices relative to centre().
     [[nodiscard]] std::span<const Vector> vertices() const { return vertices_; }
-    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(vertices_.size()); }
+    [[nodiscard]] std::uint32_t size() const {
+        return static_cast<std::uint32_t>(vertices_.size());
+    }
 
     [[nodiscard]] std::uint32_t ring_count() const {
         return static_cast<std::uint32_t>(ring_ends_.size());

@@ -12,7 +12,8 @@ struct NearestOnSegment {
 };
 
 /// The point of segment ab nearest to p. A segment of no length is its point a.
-[[nodiscard]] NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a, const Vector& b);
+[[nodiscard]] NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a,
+                                                  const Vector& b);
 
 /// True where the closed segments ab and cd share a point; touching and overlapping count.
 /// Exact up to the rounding of the orientation determinants.

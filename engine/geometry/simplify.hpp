@@ -1,9 +1,9 @@
 #pragma once
 
+#include <engine/geometry/polygon.hpp>
+
 #include <cstdint>
 #include <vector>
-
-#include <engine/geometry/polygon.hpp>
 
 namespace nearfield::geometry {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <nearfield/shape.hpp>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-
-#include <nearfield/shape.hpp>
 
 namespace nearfield::geometry {
 

@@ -8,7 +8,7 @@ namespace nearfield::plan {
 /// Lengths are in cells of the tile, positions relative to its low corner.
 
 inline constexpr std::uint32_t no_feature = UINT32_MAX;  ///< in an id image: nothing was drawn
-inline constexpr std::uint32_t cluster_size = 8;        ///< edges under one bounding box
+inline constexpr std::uint32_t cluster_size = 8;         ///< edges under one bounding box
 
 /// A list of edges in the geometry array, in clusters: `count` edges (EdgeData) from `edges` on;
 /// from `clusters` on a box (low corner, high corner) for every cluster_size of them. Both are

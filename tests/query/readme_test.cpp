@@ -18,8 +18,9 @@ TEST(Readme, TheExampleWorks) {
     };
 
     // ----
-    auto context = nearfield::Context::create_headless();  // or create(), with your own Vulkan device
-    auto a = context->add_shape(rings_of_a);               // std::vector<nearfield::Ring>
+    auto context =
+        nearfield::Context::create_headless();  // or create(), with your own Vulkan device
+    auto a = context->add_shape(rings_of_a);    // std::vector<nearfield::Ring>
     auto b = context->add_shape(rings_of_b);
 
     nearfield::Batch batch;

@@ -7,8 +7,8 @@
 #include <engine/graph/print.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/allocations.hpp>
 #include <tests/unit/gpu_fixture.hpp>
-#include <tests/unit/graph_allocations.hpp>
 #include <tests/unit/graph_support.hpp>
 
 #include <cstring>
@@ -259,9 +259,9 @@ TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
     barrier_calls = 0;
     barriers_recorded = 0;
     memory_barriers_recorded = 0;
-    const std::uint64_t before = allocation_count();
+    const std::uint64_t before = test_support::allocation_count();
     executor.execute(two.graph, VK_NULL_HANDLE, timestamps);
-    EXPECT_EQ(allocation_count(), before);
+    EXPECT_EQ(test_support::allocation_count(), before);
     EXPECT_EQ(barrier_calls, 5U);  // four passes and the host
     EXPECT_EQ(barriers_recorded, expected);
     EXPECT_EQ(memory_barriers_recorded, 0U);  // the first image of the slot was read last

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstdint>
+
+namespace nearfield::test_support {
+
+/// Heap allocations of this program so far, on all threads. A program that asks gets counting
+/// operators new in place of the ordinary ones.
+[[nodiscard]] std::uint64_t allocation_count() noexcept;
+
+}  // namespace nearfield::test_support
