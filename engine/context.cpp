@@ -6,10 +6,10 @@
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
 #include <engine/results.hpp>
+#include <engine/stopwatch.hpp>
 #include <nearfield/context.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -18,12 +18,6 @@
 
 namespace nearfield {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// Turns whatever an action throws into a status: no exception crosses the interface.
 template <class Action>
@@ -154,7 +148,7 @@ Status Context::Implementation::run(const Batch& batch, Results& results) {
 }
 
 void Context::Implementation::run_batch(const Batch& batch, Results& results) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     Timings& timings = results.timings;
     timings.plan = timings.record = timings.device = timings.decode = 0.0;
     timings.passes.clear();
@@ -163,26 +157,26 @@ void Context::Implementation::run_batch(const Batch& batch, Results& results) {
         batch.queries(), [this](ShapeHandle handle) { return find(handle); }, plan_,
         results.results);
     timings.localize = planner_.localize_milliseconds();
-    timings.plan = milliseconds_since(start) - timings.localize;
+    timings.plan = start.milliseconds() - timings.localize;
 
     builder_.begin_batch();
     decoder_.begin_batch(plan_);
     for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
-        const auto build_start = Clock::now();
+        const Stopwatch build_start;
         builder_.build(plan_, number, round_);
-        timings.plan += milliseconds_since(build_start);
+        timings.plan += build_start.milliseconds();
         renderer_.render(round_, plan_.extent, timings);
 
-        const auto decode_start = Clock::now();
+        const Stopwatch decode_start;
         decoder_.add_points(round_, renderer_.points());
         decoder_.add_field_values(plan_, round_, renderer_.field_values(), results.results);
         decoder_.add_samples(plan_, round_, renderer_.samples());
-        timings.decode += milliseconds_since(decode_start);
+        timings.decode += decode_start.milliseconds();
     }
-    const auto decode_start = Clock::now();
+    const Stopwatch decode_start;
     decoder_.finish(plan_, results.results);
-    timings.decode += milliseconds_since(decode_start);
-    timings.total = milliseconds_since(start);
+    timings.decode += decode_start.milliseconds();
+    timings.total = start.milliseconds();
 }
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept

@@ -1,21 +1,15 @@
 #include <engine/failure.hpp>
 #include <engine/renderer.hpp>
+#include <engine/stopwatch.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 
 namespace nearfield {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::uint32_t most_passes = 8;
 constexpr std::uint32_t smallest_atlas = 256;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 template <class Element>
 std::uint64_t bytes_of(const std::vector<Element>& elements) {
@@ -147,7 +141,7 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
 }
 
 void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     const Needs needs{!round.points.empty(), round.field_values > 0, !round.overlap_draws.empty()};
     Recipe& recipe = recipe_for(needs, extent);
     last_recipe_ = &recipe;
@@ -157,7 +151,7 @@ void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& 
     frame_.sample_capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         round.overlap_cells,
         std::max<std::uint64_t>(frame_.sample_capacity, 4096 + round.overlap_cells / 8)));
-    timings.plan += milliseconds_since(start);
+    timings.plan += start.milliseconds();
 
     for (;;) {
         lay_out_output(round);
@@ -173,16 +167,16 @@ void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& 
 }
 
 void Renderer::submit_and_wait(const Recipe& recipe, Timings& timings) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     const VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
     recipe.execute(commands, timestamps_);
-    timings.record += milliseconds_since(start);
+    timings.record += start.milliseconds();
 
-    const auto submitted = Clock::now();
+    const Stopwatch submitted;
     submission_.submit();
     submission_.wait();
-    timings.device += milliseconds_since(submitted);
+    timings.device += submitted.milliseconds();
     timestamps_.collect(timings.passes);
     read_back_.invalidate();
 }

@@ -4,11 +4,6 @@
 #include <shaders/collect_comp.hpp>
 
 namespace nearfield::passes {
-namespace {
-
-constexpr std::uint32_t group_side = 8;
-
-}  // namespace
 
 Collect::Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
     : device_(&device),
@@ -38,8 +33,7 @@ void Collect::record(VkCommandBuffer commands) const {
         const std::uint32_t push[2] = {tile.tile, frame_->sample_capacity};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
-        functions.vkCmdDispatch(commands, (tile.width + group_side - 1) / group_side,
-                                (tile.height + group_side - 1) / group_side, 1);
+        dispatch_tile(functions, commands, tile);
     }
 }
 

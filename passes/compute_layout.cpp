@@ -130,4 +130,11 @@ void ComputeLayout::write_image(VkDescriptorSet set, Binding binding, VkImageVie
     device_->functions().vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
 }
 
+void dispatch_tile(const gpu::Functions& functions, VkCommandBuffer commands,
+                   const plan::TileDraw& tile) {
+    constexpr std::uint32_t side = 8;
+    functions.vkCmdDispatch(commands, (tile.width + side - 1) / side,
+                            (tile.height + side - 1) / side, 1);
+}
+
 }  // namespace nearfield::passes

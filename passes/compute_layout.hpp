@@ -2,6 +2,7 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
+#include <engine/plan/round.hpp>
 
 #include <cstdint>
 
@@ -33,5 +34,9 @@ private:
     gpu::Owned<VkDescriptorPool> pool_;
     VkDescriptorSet sets_[set_count]{};  // owned by the pool
 };
+
+/// Dispatches a shader that runs one thread a cell, in groups of 8 x 8, over a tile.
+void dispatch_tile(const gpu::Functions& functions, VkCommandBuffer commands,
+                   const plan::TileDraw& tile);
 
 }  // namespace nearfield::passes

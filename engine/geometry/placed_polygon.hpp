@@ -48,6 +48,6 @@ private:
 
 /// True where the point lies inside by the odd-even rule. For a point on the boundary either
 /// answer may come. Linear in the number of vertices.
-[[nodiscard]] bool contains(const PlacedPolygon& polygon, const Vector& point);
+[[nodiscard]] bool contains(const PlacedPolygon& placed, const Vector& point);
 
 }  // namespace nearfield::geometry

@@ -17,7 +17,8 @@ namespace nearfield::geometry {
 /// Edge i goes from vertex i to vertex next(i); vertices and edges count through all rings.
 class Polygon {
 public:
-    /// Replaces all rings, or refuses them and leaves the polygon as it was. Reuses memory.
+    /// Replaces all rings, or refuses them and leaves the polygon as it was. The message names the
+    /// ring and the vertex of the ring, both counted from 0. Reuses memory.
     Status assign(std::span<const Ring> rings);
 
     /// The centre of the bounding box, in the shape's own coordinates.

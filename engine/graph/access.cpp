@@ -10,7 +10,7 @@ namespace {
 // Attachments read as well as they write: loading, blending, logic operations and tests look at
 // what was there. All reads of images share one layout and all reads of one kind of resource differ
 // in their stages, which lets a read after a read do without a second look at the layout.
-constexpr std::array<AccessTraits, 6> table = {{
+constexpr std::array<AccessTraits, 6> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -56,7 +56,7 @@ constexpr std::array<AccessTraits, 6> table = {{
 }  // namespace
 
 const AccessTraits& traits(Access access) noexcept {
-    return table[static_cast<std::size_t>(access)];
+    return accesses[static_cast<std::size_t>(access)];
 }
 
 }  // namespace nearfield::graph

@@ -1,6 +1,7 @@
 #include <engine/graph/access.hpp>
 #include <engine/graph/bake_steps.hpp>
 #include <engine/graph/format.hpp>
+#include <engine/graph/names.hpp>
 
 #include <optional>
 #include <string>
@@ -19,10 +20,6 @@ string quoted(const string& name) {
     return text;
 }
 
-string to_text(VkExtent2D extent) {
-    return std::to_string(extent.width) + " x " + std::to_string(extent.height);
-}
-
 Status check_image(const ImageDescription& image) {
     if (find_format(image.format) == nullptr) {
         return graph_error("image " + quoted(image.name) + " has the format number " +
@@ -30,7 +27,7 @@ Status check_image(const ImageDescription& image) {
     }
     if (image.extent.width == 0 || image.extent.height == 0) {
         return graph_error("image " + quoted(image.name) + " is empty: its extent is " +
-                           to_text(image.extent));
+                           extent_text(image.extent));
     }
     return {};
 }
@@ -96,8 +93,8 @@ Status check_attachments(const Graph& graph, const Pass& pass) {
         const VkExtent2D common = first->image.extent;
         if (extent.width != common.width || extent.height != common.height) {
             return graph_error("pass " + quoted(pass.name) + " has attachments of two extents: " +
-                               quoted(first->name()) + " is " + to_text(common) + ", " +
-                               quoted(resource.name()) + " is " + to_text(extent));
+                               quoted(first->name()) + " is " + extent_text(common) + ", " +
+                               quoted(resource.name()) + " is " + extent_text(extent));
         }
         if (use.access != Access::depth_stencil_attachment) {
             continue;

@@ -11,7 +11,7 @@ constexpr VkImageAspectFlags color = VK_IMAGE_ASPECT_COLOR_BIT;
 constexpr VkImageAspectFlags depth = VK_IMAGE_ASPECT_DEPTH_BIT;
 constexpr VkImageAspectFlags stencil = VK_IMAGE_ASPECT_STENCIL_BIT;
 
-constexpr std::array table = {
+constexpr std::array formats = {
     FormatTraits{VK_FORMAT_R8_UNORM, "R8_UNORM", color},
     FormatTraits{VK_FORMAT_R8_UINT, "R8_UINT", color},
     FormatTraits{VK_FORMAT_R8G8_UNORM, "R8G8_UNORM", color},
@@ -48,9 +48,9 @@ constexpr std::array table = {
 
 const FormatTraits* find_format(VkFormat format) noexcept {
     const auto* const found =
-        std::find_if(table.begin(), table.end(),
+        std::find_if(formats.begin(), formats.end(),
                      [format](const FormatTraits& known) { return known.format == format; });
-    return found == table.end() ? nullptr : found;
+    return found == formats.end() ? nullptr : found;
 }
 
 }  // namespace nearfield::graph

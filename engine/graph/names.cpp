@@ -95,4 +95,8 @@ std::string format_name(VkFormat format) {
     return known != nullptr ? known->name : std::to_string(format);
 }
 
+std::string extent_text(VkExtent2D extent) {
+    return std::to_string(extent.width) + " x " + std::to_string(extent.height);
+}
+
 }  // namespace nearfield::graph

@@ -13,5 +13,6 @@ namespace nearfield::graph {
 [[nodiscard]] std::string usage_names(VkImageUsageFlags usage);
 [[nodiscard]] std::string layout_name(VkImageLayout layout);
 [[nodiscard]] std::string format_name(VkFormat format);
+[[nodiscard]] std::string extent_text(VkExtent2D extent);
 
 }  // namespace nearfield::graph

@@ -11,10 +11,6 @@ namespace {
 using std::string;
 using std::to_string;
 
-string to_text(VkExtent2D extent) {
-    return to_string(extent.width) + " x " + to_string(extent.height);
-}
-
 string to_text(const Graph& graph, const Barrier& barrier) {
     const Resource& resource = graph.resources()[barrier.resource];
     string text = "barrier " + resource.name() + ": " + stage_names(barrier.source_stages) + " (" +
@@ -49,7 +45,7 @@ string pass_text(const Graph& graph, const BakedPass& baked, std::size_t positio
     const Pass& pass = graph.passes()[baked.pass];
     const bool graphics = pass.kind == PassKind::graphics;
     string text = to_string(position) + ". " + pass.name + (graphics ? " (graphics" : " (compute");
-    text += graphics ? ", " + to_text(baked.extent) + ")\n" : ")\n";
+    text += graphics ? ", " + extent_text(baked.extent) + ")\n" : ")\n";
     for (const Barrier& barrier : baked.barriers) {
         text += "     " + to_text(graph, barrier) + "\n";
     }
@@ -65,7 +61,8 @@ string pass_text(const Graph& graph, const BakedPass& baked, std::size_t positio
 string resource_text(const Resource& resource, const Lifetime& lifetime) {
     string text = (resource.is_image ? "image " : "buffer ") + resource.name() + ": ";
     if (resource.is_image) {
-        text += format_name(resource.image.format) + ", " + to_text(resource.image.extent) + ", ";
+        text +=
+            format_name(resource.image.format) + ", " + extent_text(resource.image.extent) + ", ";
     }
     if (resource.buffer.written_by_host) {
         text += "written by the host, ";
@@ -85,7 +82,7 @@ string resource_text(const Resource& resource, const Lifetime& lifetime) {
 }
 
 /// A text as a quoted identifier of the DOT language.
-string quoted(const string& text) {
+string dot_string(const string& text) {
     string result = "\"";
     for (const char character : text) {
         if (character == '"' || character == '\\') {
@@ -123,7 +120,8 @@ string version_nodes(const Graph& graph, std::uint32_t index, std::uint32_t newe
         const bool empty = version == 0 && !resource.buffer.written_by_host;
         text += "    " + version_node({index, version}) + " [shape=ellipse" +
                 (empty ? ", style=dotted" : "") +
-                ", label=" + quoted(resource.name() + "\nversion " + to_string(version)) + "];\n";
+                ", label=" + dot_string(resource.name() + "\nversion " + to_string(version)) +
+                "];\n";
     }
     return text;
 }
@@ -132,7 +130,7 @@ string version_nodes(const Graph& graph, std::uint32_t index, std::uint32_t newe
 string use_arrows(const Pass& pass, const string& node) {
     string text;
     for (const Use& use : pass.uses) {
-        const string label = " [label=" + quoted(traits(use.access).name) + "];\n";
+        const string label = " [label=" + dot_string(traits(use.access).name) + "];\n";
         text += "    " + version_node(use.handle) + " -> " + node + label;
         if (use.write) {
             const Handle written = {use.handle.resource, use.handle.version + 1};
@@ -177,7 +175,7 @@ string print_graphviz(const Graph& graph, const BakedGraph& baked) {
             label += to_text(graph, barrier);
         }
         const string node = "pass_" + to_string(position);
-        text += "    " + node + " [shape=box, label=" + quoted(label) + "];\n";
+        text += "    " + node + " [shape=box, label=" + dot_string(label) + "];\n";
         text += use_arrows(declared, node);
     }
     return text + "}\n";

@@ -27,7 +27,7 @@ void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Vi
 }  // namespace
 
 Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
-    const Vector a = polygon.vertex(point.edge);
+    Vector a = polygon.vertex(point.edge);
     if (point.parameter == 0.0) {
         return a;
     }
@@ -44,9 +44,10 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
                 since_last += length;
                 return;
             }
-            const double parts = std::max(1.0, std::ceil(length / spacing));
-            for (double part = 0.0; part < parts; part += 1.0) {
-                points.push_back({edge, part / parts});
+            const auto parts =
+                static_cast<std::uint32_t>(std::max(1.0, std::ceil(length / spacing)));
+            for (std::uint32_t part = 0; part < parts; ++part) {
+                points.push_back({edge, static_cast<double>(part) / parts});
             }
             since_last = length / parts;
         });

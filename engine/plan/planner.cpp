@@ -1,9 +1,9 @@
 #include <engine/failure.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/stopwatch.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace nearfield::plan {
@@ -11,12 +11,6 @@ namespace {
 
 using geometry::Box;
 using geometry::PlacedPolygon;
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 // What a point, a sample and a cell of a field may take on the host: planned and resolved, in the
 // result and in the buffers on the way there.
@@ -186,11 +180,11 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
 
-    const auto start = Clock::now();
+    const Stopwatch start;
     chains_.clear();
     localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
     join_chain_boxes(box_b, 0.0);
-    localize_milliseconds_ += milliseconds_since(start);
+    localize_milliseconds_ += start.milliseconds();
     planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
     if (chains_.empty()) {
         return;
@@ -227,7 +221,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
         return;
     }
 
-    const auto start = Clock::now();
+    const Stopwatch start;
     const double bound = planned.budget.bound;
     chains_.clear();
     Box within = box_a.intersection(box_b);
@@ -255,7 +249,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
         within.max().array() += grow;
     }
     join_chain_boxes(within, grow);
-    localize_milliseconds_ += milliseconds_since(start);
+    localize_milliseconds_ += start.milliseconds();
 
     add_regions(planned.budget.cell, result);
     double cells = 0.0;

@@ -4,6 +4,7 @@
 #include <engine/plan/plan.hpp>
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace nearfield::plan {
@@ -31,7 +32,10 @@ private:
         std::uint32_t grid = 0;
         std::uint64_t row = 0;
         std::uint64_t column = 0;
-        auto operator<=>(const TileKey&) const = default;
+        bool operator==(const TileKey&) const = default;
+        bool operator<(const TileKey& other) const {
+            return std::tie(grid, row, column) < std::tie(other.grid, other.row, other.column);
+        }
     };
 
     void find_cells(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,

@@ -54,7 +54,7 @@ std::string plain_reason(std::string reason) {
 }
 
 std::string with_article(const json& value) {
-    const std::string name = value.type_name();
+    std::string name = value.type_name();
     if (value.is_null()) {
         return name;
     }

@@ -14,13 +14,13 @@ namespace nearfield::tools {
 /// line, the others stand on one.
 class JsonWriter {
 public:
-    enum class Layout { inline_, lines };
+    enum class Layout { one_line, lines };
 
     explicit JsonWriter(std::ostream& stream) : stream_(stream) {}
 
-    JsonWriter& begin_object(Layout layout = Layout::inline_);
+    JsonWriter& begin_object(Layout layout = Layout::one_line);
     JsonWriter& end_object();
-    JsonWriter& begin_array(Layout layout = Layout::inline_);
+    JsonWriter& begin_array(Layout layout = Layout::one_line);
     JsonWriter& end_array();
     JsonWriter& key(std::string_view name);
 

@@ -94,7 +94,8 @@ void FieldLayer::draw_colors(Canvas& canvas) const {
     pixels.reserve(lattice.values.size());
     for (const float value : lattice.values) {
         const double position = std::clamp(scale_.position(static_cast<double>(value)), -1.0, 1.0);
-        pixels.push_back(table[static_cast<std::size_t>((position + 1.0) / 2.0 * last + 0.5)]);
+        pixels.push_back(
+            table[static_cast<std::size_t>(std::lround((position + 1.0) / 2.0 * last))]);
     }
     canvas.image(pixels, static_cast<int>(lattice.width), static_cast<int>(lattice.height),
                  page_.min);

@@ -38,7 +38,8 @@ void draw_color_bar(Canvas& canvas, const FieldScale& scale, const Rectangle& st
     const auto page_y = [&](double value) {
         return strip.max.y - (value - scale.lowest) / range * height;
     };
-    for (double y = strip.min.y; y < strip.max.y; y += 1.0) {
+    for (int row = 0; row < height; ++row) {
+        const double y = strip.min.y + row;
         const double value = scale.lowest + (strip.max.y - y - 0.5) / height * range;
         canvas.fill({{strip.min.x, y}, {strip.max.x, std::min(y + 1.0, strip.max.y)}},
                     diverging_color(scale.position(value)));

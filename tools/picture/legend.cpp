@@ -76,8 +76,10 @@ std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field
                figure.answer.result);
     if (field != nullptr) {
         const auto colors = [](Canvas& canvas, const Rectangle& area) {
-            for (double x = area.min.x; x < area.max.x; x += 1.0) {
-                const double along = (x - area.min.x) / (area.max.x - area.min.x);
+            const double width = area.max.x - area.min.x;
+            for (int column = 0; column < width; ++column) {
+                const double x = area.min.x + column;
+                const double along = column / width;
                 canvas.fill({{x, area.min.y}, {x + 1.0, area.max.y}},
                             diverging_color(2.0 * along - 1.0));
             }
