@@ -1,0 +1,344 @@
+#include "shape_samples.hpp"
+
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/overlap.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nearfield::localize {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+using ChainFinder = Effort (*)(const PlacedPolygon&, const PlacedPolygon&, const OverlapOptions&,
+                               std::vector<Chain>&);
+
+double distance_to_boundary(const PlacedPolygon& placed, const Vector& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < placed.polygon().size(); ++i) {
+        const Vector a = placed.vertex(i);
+        const Vector b = placed.vertex(placed.polygon().next(i));
+        least = std::min(least, geometry::nearest_on_segment(p, a, b).squared_distance);
+    }
+    return std::sqrt(least);
+}
+
+/// What brute force knows of an edge of A.
+struct Wanted {
+    std::vector<bool> near;       ///< a sample is within `grow` of B's boundary
+    std::vector<bool> in_volume;  ///< or inside B
+};
+
+Wanted wanted_edges(const PlacedPolygon& a, const PlacedPolygon& b, double grow) {
+    Wanted wanted;
+    for (std::uint32_t i = 0; i < a.polygon().size(); ++i) {
+        const Vector from = a.vertex(i);
+        const Vector to = a.vertex(a.polygon().next(i));
+        bool near = false;
+        bool inside = false;
+        for (int k = 0; k < 6; ++k) {
+            const Vector p = from + k / 5.0 * (to - from);
+            near = near || distance_to_boundary(b, p) <= grow;
+            inside = inside || contains(b, p);
+        }
+        wanted.near.push_back(near);
+        wanted.in_volume.push_back(near || inside);
+    }
+    return wanted;
+}
+
+/// Which edges the chains cover. Holds the chains to their form: ring by ring, boxes around them,
+/// no edge twice, no two neighbours.
+std::vector<bool> covered_edges(const PlacedPolygon& a, const std::vector<Chain>& chains,
+                                const std::string& what) {
+    const Polygon& polygon = a.polygon();
+    std::vector<bool> covered(polygon.size(), false);
+    std::vector<bool> ends(polygon.size(), false);
+    for (std::size_t c = 0; c < chains.size(); ++c) {
+        const Chain& chain = chains[c];
+        EXPECT_TRUE(c == 0 || chains[c - 1].ring <= chain.ring) << what;
+        EXPECT_GE(chain.count, 1U) << what;
+        EXPECT_EQ(polygon.ring_of(chain.first), chain.ring) << what;
+        std::uint32_t edge = chain.first;
+        for (std::uint32_t i = 0; i < chain.count; ++i, edge = polygon.next(edge)) {
+            EXPECT_FALSE(covered[edge]) << what << ": edge " << edge << " twice";
+            covered[edge] = true;
+        }
+        const std::uint32_t size = polygon.ring_end(chain.ring) - polygon.ring_begin(chain.ring);
+        ends[edge] = chain.count < size;
+        const Box box = a.chain_box(chain.ring, chain.first, chain.count);
+        EXPECT_EQ(chain.box.min(), box.min()) << what;
+        EXPECT_EQ(chain.box.max(), box.max()) << what;
+    }
+    for (const Chain& chain : chains) {
+        EXPECT_FALSE(ends[chain.first]) << what << ": neighbours at edge " << chain.first;
+    }
+    return covered;
+}
+
+void expect_superset(const std::vector<bool>& covered, const std::vector<bool>& wanted,
+                     const std::string& what) {
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        EXPECT_TRUE(covered[i] || !wanted[i]) << what << ": edge " << i;
+    }
+}
+
+/// Both functions at all heights: nothing wanted is left out, and no height covers an edge that a
+/// lower one left out.
+void expect_lawful(const PlacedPolygon& a, const PlacedPolygon& b, double grow,
+                   const std::string& what) {
+    const Wanted wanted = wanted_edges(a, b, grow);
+    std::vector<bool> near_before(a.polygon().size(), true);
+    std::vector<bool> volume_before = near_before;
+    std::vector<Chain> chains;
+    for (std::uint32_t height = 0; height <= 12; ++height) {
+        const std::string where = what + ", height " + std::to_string(height);
+        chains.clear();
+        chains_near_boundary(a, b, {height, grow}, chains);
+        const std::vector<bool> near = covered_edges(a, chains, where + ", near");
+        expect_superset(near, wanted.near, where + ", near");
+        expect_superset(near_before, near, where + ", near, refined");
+        chains.clear();
+        chains_in_volume(a, b, {height, grow}, chains);
+        const std::vector<bool> volume = covered_edges(a, chains, where + ", volume");
+        expect_superset(volume, wanted.in_volume, where + ", volume");
+        expect_superset(volume_before, volume, where + ", volume, refined");
+        near_before = near;
+        volume_before = volume;
+    }
+}
+
+TEST(Chains, NothingWantedIsLeftOut) {
+    samples::Random random(1);
+    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    for (const samples::NamedRings& shape_a : shapes) {
+        for (const samples::NamedRings& shape_b : shapes) {
+            const double far = random.below(2) == 0 ? 0.0 : 1e6;
+            const Polygon a = samples::polygon(shape_a.rings);
+            const Polygon b = samples::polygon(samples::moved(shape_b.rings, -far, far));
+            const double reach = random.between(0.0, 2.0);
+            const double grow = random.below(2) == 0 ? 0.0 : random.between(0.0, 0.2);
+            const Pose pose_a{{far + reach, -far}, random.between(0.0, 6.0)};
+            const double angle = random.between(-0.5, 0.5);
+            // B's own coordinates are far from its origin: bring it back after the rotation.
+            const Vector back = Eigen::Rotation2Dd(angle) * Vector(far, -far);
+            const Pose pose_b{{far + back.x(), -far + back.y()}, angle};
+            expect_lawful(PlacedPolygon(a, pose_a), PlacedPolygon(b, pose_b), grow,
+                          shape_a.name + " against " + shape_b.name + ", far " +
+                              std::to_string(far) + ", grow " + std::to_string(grow));
+        }
+    }
+}
+
+TEST(Chains, ContainmentEitherWay) {
+    samples::Random random(2);
+    const Polygon large = samples::polygon({samples::star(random, 200, 2.0, 3.0)});
+    const Polygon small = samples::polygon({samples::coast(random, 300, 0.5)});
+    const Polygon holed = samples::polygon(
+        {samples::star(random, 200, 2.0, 3.0), samples::star(random, 100, 1.2, 1.5)});
+    const PlacedPolygon outer(large, {});
+    const PlacedPolygon inner(small, {});
+    const PlacedPolygon around(holed, {});
+    for (std::uint32_t height = 0; height <= 12; ++height) {
+        std::vector<Chain> chains;
+        chains_in_volume(inner, outer, {height, 0.0}, chains);
+        ASSERT_EQ(chains.size(), 1U) << "the whole of the inner one, at height " << height;
+        EXPECT_EQ(chains[0].count, small.size());
+        chains.clear();
+        chains_near_boundary(inner, outer, {12, 0.0}, chains);
+        chains_in_volume(inner, around, {12, 0.0}, chains);
+        chains_in_volume(outer, inner, {12, 0.0}, chains);
+        EXPECT_TRUE(chains.empty()) << "at height " << height;
+    }
+}
+
+TEST(Chains, ManyRingsInsideOrInAHole) {
+    samples::Random random(7);
+    samples::Rings islands;
+    for (int i = 0; i < 13; ++i) {
+        islands.push_back(samples::moved({samples::star(random, 7, 0.1, 0.4)}, i, 0.0).front());
+    }
+    const Polygon archipelago = samples::polygon(islands);
+    const PlacedPolygon a(archipelago, {});
+    const Ring sea = samples::rectangle(-1.0, -1.0, 20.0, 1.0);
+    const Polygon solid = samples::polygon({sea});
+    // Holds the rings from 3 to 5 and leaves the others in its hole.
+    const Polygon holed = samples::polygon(
+        {sea, samples::rectangle(-0.9, -0.9, 19.0, 0.9), samples::rectangle(2.5, -0.8, 5.5, 0.8)});
+    std::vector<Chain> chains;
+    chains_in_volume(a, PlacedPolygon(solid, {}), {8, 0.0}, chains);
+    ASSERT_EQ(chains.size(), 13U);
+    for (const Chain& chain : chains) {
+        EXPECT_EQ(chain.count, 7U);
+    }
+    chains.clear();
+    chains_in_volume(a, PlacedPolygon(holed, {}), {8, 0.0}, chains);
+    ASSERT_EQ(chains.size(), 3U);
+    EXPECT_EQ(chains.front().ring, 3U);
+    EXPECT_EQ(chains.back().ring, 5U);
+}
+
+/// With single edges at the leaves, an edge is near exactly where its box meets that of an edge.
+TEST(Chains, FullHeightComparesSingleEdges) {
+    samples::Random random(3);
+    for (int round = 0; round < 20; ++round) {
+        const Polygon polygon_a = samples::polygon({samples::coast(random, 200, 1.0)});
+        const Polygon polygon_b = samples::polygon(
+            {samples::coast(random, 150, 1.0), samples::star(random, 30, 0.1, 0.3)});
+        const PlacedPolygon a(polygon_a, {{random.between(0.0, 2.0), 0.0}, 1.0 * round});
+        const PlacedPolygon b(polygon_b, {});
+        const double grow = 0.01 * (round % 4);
+        std::vector<Chain> chains;
+        chains_near_boundary(a, b, {32, grow}, chains);
+        const std::vector<bool> covered = covered_edges(a, chains, "full height");
+        for (std::uint32_t i = 0; i < polygon_a.size(); ++i) {
+            Box box = a.chain_box(0, i, 1);
+            box = Box(box.min() - Vector(grow, grow), box.max() + Vector(grow, grow));
+            bool meets = false;
+            for (std::uint32_t j = 0; j < polygon_b.size(); ++j) {
+                meets = meets || box.intersects(b.chain_box(polygon_b.ring_of(j), j, 1));
+            }
+            EXPECT_EQ(covered[i], meets) << "round " << round << ", edge " << i;
+        }
+    }
+}
+
+TEST(Chains, HeightZeroComparesRings) {
+    samples::Rings rings;
+    for (int i = 0; i < 9; ++i) {
+        rings.push_back(samples::rectangle(i, 0.0, i + 0.5, 0.5));
+    }
+    const Polygon row = samples::polygon(rings);
+    const Polygon one = samples::polygon({samples::rectangle(4.2, 0.2, 4.3, 0.9)});
+    std::vector<Chain> chains;
+    const Effort effort =
+        chains_near_boundary(PlacedPolygon(row, {}), PlacedPolygon(one, {}), {0, 0.0}, chains);
+    ASSERT_EQ(chains.size(), 1U);
+    EXPECT_EQ(chains[0].ring, 4U);
+    EXPECT_EQ(chains[0].count, 4U);
+    EXPECT_LE(effort.nodes_evaluated, 10U);
+}
+
+TEST(Chains, FarApartCostsTheTopLevelBoxes) {
+    samples::Random random(4);
+    const Polygon polygon = samples::polygon({samples::coast(random, 3000, 1.0)});
+    const PlacedPolygon a(polygon, {});
+    const PlacedPolygon b(polygon, {{9.0, 1.0}, 1.0});
+    for (const ChainFinder find : {chains_in_volume, chains_near_boundary}) {
+        std::vector<Chain> chains;
+        const Effort effort = find(a, b, {12, 0.1}, chains);
+        EXPECT_TRUE(chains.empty());
+        EXPECT_EQ(effort.nodes_evaluated, 2U);
+        EXPECT_EQ(effort.pairs_rejected, 1U);
+    }
+}
+
+TEST(Chains, ASmallContactOpensFewNodes) {
+    // Two smooth rings that overlap a little: whole trees would have 8191 nodes each.
+    samples::Random random(5);
+    const Polygon polygon = samples::polygon({samples::star(random, 4096, 1.0, 1.0)});
+    const PlacedPolygon a(polygon, {});
+    const PlacedPolygon b(polygon, {{1.999, 0.0}, 0.3});
+    std::vector<Chain> chains;
+    const Effort effort = chains_in_volume(a, b, {12, 0.0}, chains);
+    EXPECT_LT(effort.nodes_evaluated, 600U);
+    std::uint32_t kept = 0;
+    for (const Chain& chain : chains) {
+        kept += chain.count;
+    }
+    EXPECT_GT(kept, 0U);
+    EXPECT_LT(kept, 120U);
+}
+
+TEST(Chains, EntangledBoundariesStayLawfulAndAffordable) {
+    // Every tooth crosses every tooth: nothing can be told apart, whatever the height.
+    const Polygon polygon = samples::polygon({samples::comb(700)});
+    const PlacedPolygon a(polygon, {});
+    const PlacedPolygon b(polygon, {{0.0, 0.0}, 0.5 * std::numbers::pi});
+    for (const ChainFinder find : {chains_in_volume, chains_near_boundary}) {
+        std::vector<Chain> chains;
+        const Effort effort = find(a, b, {30, 0.0}, chains);
+        EXPECT_LE(effort.nodes_evaluated, 4U * polygon.size());
+        EXPECT_LE(effort.pairs_rejected, 8U << 18U);
+        const std::vector<bool> covered = covered_edges(a, chains, "combs");
+        for (std::uint32_t i = 2; i + 1 < polygon.size(); ++i) {
+            const double run = (a.vertex(i) - a.vertex(i + 1)).norm();
+            EXPECT_TRUE(covered[i] || run < 1.0) << "the long edge " << i << " of a tooth";
+        }
+    }
+}
+
+TEST(Chains, AppendToWhatIsThere) {
+    const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
+    const PlacedPolygon a(polygon, {});
+    for (const ChainFinder find : {chains_in_volume, chains_near_boundary}) {
+        // The entry before belongs to another call, though it looks like a neighbour.
+        std::vector<Chain> chains{{0, 0, 0, Box()}};
+        find(a, a, {0, 0.0}, chains);
+        ASSERT_EQ(chains.size(), 2U);
+        EXPECT_EQ(chains[0].count, 0U);
+        EXPECT_EQ(chains[1].count, 4U);
+    }
+}
+
+TEST(JoinBoxes, ResultIsDisjointAndCovers) {
+    samples::Random random(6);
+    for (int round = 0; round < 60; ++round) {
+        const double size = std::pow(10.0, random.between(-4.0, -0.5));
+        const double far = round % 2 == 0 ? 0.0 : 1e6;
+        std::vector<Box> given;
+        for (std::uint32_t i = 0; i < 10 + 5 * static_cast<std::uint32_t>(round); ++i) {
+            const Vector low(far + random.between(0.0, 1.0), random.between(0.0, 1.0) - far);
+            const Vector extent(random.between(0.0, size), random.below(5) * size / 4.0);
+            given.emplace_back(low, low + extent);
+        }
+        std::vector<Box> joined = given;
+        join_boxes(joined);
+        for (const Box& box : given) {
+            EXPECT_EQ(std::count_if(joined.begin(), joined.end(),
+                                    [&](const Box& j) { return j.contains(box); }),
+                      1)
+                << "round " << round;
+        }
+        for (std::size_t i = 0; i < joined.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                EXPECT_FALSE(joined[i].intersects(joined[j])) << "round " << round;
+            }
+        }
+        std::vector<Box> again = joined;
+        join_boxes(again);
+        EXPECT_EQ(again.size(), joined.size()) << "round " << round;
+    }
+}
+
+TEST(JoinBoxes, JoinsWhatIsNearAndLeavesWhatIsFar) {
+    const auto box = [](double x0, double y0, double x1, double y1) {
+        return Box(Vector(x0, y0), Vector(x1, y1));
+    };
+    std::vector<Box> side_by_side{box(0.0, 0.0, 1.0, 1.0), box(1.05, 0.0, 2.0, 1.0)};
+    join_boxes(side_by_side);
+    EXPECT_EQ(side_by_side.size(), 1U);
+    std::vector<Box> far{box(0.0, 0.0, 1.0, 1.0), box(5.0, 5.0, 6.0, 6.0)};
+    join_boxes(far);
+    EXPECT_EQ(far.size(), 2U);
+    // Joining the first and the last makes a box that reaches the one between.
+    std::vector<Box> chain{box(0.0, 0.0, 1.0, 3.0), box(1.5, 2.5, 1.6, 2.6),
+                           box(0.5, 0.0, 2.0, 1.0)};
+    join_boxes(chain);
+    EXPECT_EQ(chain.size(), 1U);
+    std::vector<Box> none;
+    join_boxes(none);
+    EXPECT_TRUE(none.empty());
+}
+
+}  // namespace
+}  // namespace nearfield::localize
