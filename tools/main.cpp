@@ -7,6 +7,7 @@
 
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -57,7 +58,11 @@ int run(int count, char** arguments) {
 
 int main(int count, char** arguments) {
     try {
-        return run(count, arguments);
+        const int status = run(count, arguments);
+        if (!std::cout.flush()) {
+            throw std::runtime_error("the standard output could not be written");
+        }
+        return status;
     } catch (const tools::InputError& error) {
         return fail(error, exit_status::bad_input);
     } catch (const tools::LibraryError& error) {

@@ -15,6 +15,8 @@
 #include <cstddef>
 #include <iostream>
 #include <numeric>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::tools {
@@ -59,10 +61,11 @@ Timings median_timings(const std::vector<Timings>& frames) {
 /// A scene in a context, run frame by frame.
 class SceneRunner {
 public:
-    SceneRunner(const Scene& scene, Context& context) : scene_(scene), context_(context) {
+    /// `file` is for the messages.
+    SceneRunner(const Scene& scene, std::string file, Context& context)
+        : scene_(scene), file_(std::move(file)), context_(context) {
         for (const SceneShape& shape : scene_.shapes) {
-            shapes_.push_back(
-                take(context_.add_shape(shape.rings), "shape \"" + shape.name + "\""));
+            shapes_.push_back(take(context_.add_shape(shape.rings), place_of(shape)));
         }
     }
 
@@ -71,18 +74,21 @@ public:
     double run_frame() {
         const auto start = std::chrono::steady_clock::now();
         for (std::size_t index = 0; index < shapes_.size(); ++index) {
-            require(context_.update_shape(shapes_[index], scene_.shapes[index].rings),
-                    "shape \"" + scene_.shapes[index].name + "\"");
+            const SceneShape& shape = scene_.shapes[index];
+            if (const Status status = context_.update_shape(shapes_[index], shape.rings);
+                !status.ok()) {
+                require(status, place_of(shape));
+            }
         }
         batch_.clear();
         for (const SceneQuery& query : scene_.queries) {
             add_query(batch_, query.request, instance(query.a), instance(query.b));
         }
-        require(context_.run(batch_, results_));
+        require(context_.run(batch_, results_), file_);
         const auto end = std::chrono::steady_clock::now();
         for (std::size_t index = 0; index < results_.results.size(); ++index) {
             require(summary_of(results_.results[index]).status,
-                    "queries[" + std::to_string(index) + "]");
+                    file_ + ": queries[" + std::to_string(index) + "]");
         }
         return std::chrono::duration<double, std::milli>(end - start).count();
     }
@@ -95,7 +101,12 @@ private:
         return {shapes_[entry.shape], entry.pose};
     }
 
+    [[nodiscard]] std::string place_of(const SceneShape& shape) const {
+        return file_ + ": shapes." + shape.name;
+    }
+
     const Scene& scene_;
+    std::string file_;
     Context& context_;
     std::vector<ShapeHandle> shapes_;
     Batch batch_;
@@ -201,7 +212,7 @@ void run_bench(const BenchArguments& arguments) {
     }
     ReportTarget report(arguments.json);
     Context context = take(Context::create_headless());
-    SceneRunner runner(scene, context);
+    SceneRunner runner(scene, arguments.scene, context);
     const Measurement measurement = measure(runner, arguments);
     if (std::ostream* json = report.json()) {
         write_bench_json(*json, measurement, arguments, context.device_name());

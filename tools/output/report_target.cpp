@@ -1,7 +1,6 @@
 #include <tools/output/report_target.hpp>
 
 #include <iostream>
-#include <stdexcept>
 
 namespace nearfield::tools {
 
@@ -25,10 +24,6 @@ std::ostream& ReportTarget::summary() noexcept {
 void ReportTarget::commit() {
     if (file_) {
         file_->commit();
-    }
-    std::cout.flush();
-    if (!std::cout) {
-        throw std::runtime_error("the standard output could not be written");
     }
 }
 
