@@ -1,0 +1,117 @@
+#include "cli_test.hpp"
+#include "contract.hpp"
+
+#include <cstddef>
+
+namespace nearfield::test {
+namespace {
+
+/// A scene whose first shape is a file beside it.
+constexpr auto good_scene = R"({
+"shapes": {"disk": {"file": "a square.geojson"},
+           "house": {"rings": [[[0, 0], [1, 0], [1, 1], [0.5, 1.5], [0, 1]]]}},
+"instances": {"A": {"shape": "disk"},
+              "B": {"shape": "house", "pose": [0.6, 0.3, 15]},
+              "far": {"shape": "house", "pose": [100, 0, 0]}},
+"queries": [{"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},
+            {"query": "penetration", "a": "B", "b": "far", "tolerance": 0.05, "records": false},
+            {"query": "intersection", "a": "B", "b": "A", "tolerance": 0.05,
+             "kind": "boundary-volume", "technique": "raster", "strategy": "stencil"},
+            {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.1,
+             "rect": [-1, -1, 2, 2]}]
+})";
+
+class Bench : public CliTest {
+protected:
+    /// The good scene with one piece of its text replaced.
+    std::string scene_with(const std::string& piece, const std::string& other) const {
+        std::string text = good_scene;
+        const std::size_t place = text.find(piece);
+        EXPECT_NE(place, std::string::npos) << piece;
+        return folder_.write("scene.json", text.replace(place, piece.size(), other));
+    }
+
+    void expect_bad_scene(const std::string& piece, const std::string& other,
+                          std::vector<std::string> parts) const {
+        const std::string scene = scene_with(piece, other);
+        parts.push_back(scene);
+        expect_refused(
+            {"bench", "--scene", scene, "--frames", "1", "--json", folder_.path("bench.json")},
+            parts);
+    }
+};
+
+TEST_F(Bench, TellsMedianFramesDeviceAndTimesByPass) {
+    const std::string scene = folder_.write("scene.json", good_scene);
+    const Json json = answer({"bench", "--scene", scene, "--frames", "4", "--warmup", "1"});
+    ASSERT_TRUE(json.is_object());
+    expect_number(json, "median_ms");
+    EXPECT_GT(json.at("median_ms").get<double>(), 0.0);
+    EXPECT_EQ(json.at("frames"), 4);
+    EXPECT_TRUE(json.at("device").is_string());
+    const Json& passes = json.at("timings_ms").at("passes");
+    ASSERT_TRUE(passes.is_object());
+    EXPECT_FALSE(passes.empty());
+    double sum = 0.0;
+    for (const auto& [name, time] : passes.items()) {
+        EXPECT_GE(time.get<double>(), 0.0) << name;
+        sum += time.get<double>();
+    }
+    EXPECT_GT(sum, 0.0);
+}
+
+TEST_F(Bench, PrintsASummaryAndWritesAFile) {
+    const std::string scene = folder_.write("scene.json", good_scene);
+    const Outcome outcome = run_program({"bench", "--scene", scene, "--frames", "2", "--technique",
+                                         "raster", "--json", folder_.path("bench.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("median"), std::string::npos) << outcome.out;
+    EXPECT_EQ(Json::parse(folder_.read("bench.json")).at("frames"), 2);
+}
+
+TEST_F(Bench, RefusesScenesByFileAndPlace) {
+    expect_bad_scene("]\n}", "\n}", {"scene.json:13:1: "});
+    expect_bad_scene("\"shape\": \"house\"", "\"shape\": \"home\"", {"instances.B.shape", "home"});
+    expect_bad_scene("\"b\": \"far\"", "\"b\": \"near\"", {"queries[1].b", "near"});
+    expect_bad_scene("\"tolerance\": 0.1", "\"tolerance\": 0", {"queries[3].tolerance"});
+    expect_bad_scene("\"tolerance\": 0.1", "\"tol\": 0.1", {"queries[3]", "tolerance"});
+    expect_bad_scene("\"kind\"", "\"points\"", {"queries[2].points"});
+    expect_bad_scene("[0.6, 0.3, 15]", "[0.6, 0.3]", {"instances.B.pose"});
+    expect_bad_scene("[-1, -1, 2, 2]", "[-1, -1, 2, -2]", {"queries[3].rect"});
+    expect_bad_scene("\"queries\"", "\"questions\"", {"queries"});
+}
+
+TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
+    expect_bad_scene("[1, 1], [0.5, 1.5], [0, 1]", "[0, 0]", {"house", "ring 0", "three"});
+    expect_bad_scene("\"b\": \"B\", \"tolerance\": 0.1,\n             \"rect\": [-1, -1, 2, 2]",
+                     "\"b\": \"far\", \"tolerance\": 0.1", {"queries[3]", "nothing in common"});
+    expect_bad_scene("\"tolerance\": 0.1", "\"tolerance\": 1e-9",
+                     {"query 3", "the smallest tolerance that fits"});
+}
+
+TEST_F(Bench, RefusesWhatLaterVersionsAnswer) {
+    expect_bad_scene("\"penetration\"", "\"contacts\"", {"queries[0].query", "this version"});
+    expect_bad_scene("\"a\": \"A\", \"b\": \"B\"", "\"pairs\": \"all\"",
+                     {"queries[0].pairs", "this version"});
+    expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2].technique", "this version"});
+    const std::string scene = folder_.write("scene.json", good_scene);
+    expect_refused({"bench", "--scene", scene, "--technique", "compute"},
+                   {"--technique", "this version"});
+    expect_refused({"bench"}, {"--scene"});
+}
+
+TEST_F(Bench, RefusesFilesAndCountsThatAreNone) {
+    expect_refused({"bench", "--scene", folder_.path("none.json")},
+                   {folder_.path("none.json"), "cannot be opened"});
+    expect_refused({"bench", "--scene", scene_with("a square.geojson", "missing.wkt")},
+                   {folder_.path("missing.wkt"), "cannot be opened"});
+    const std::string scene = folder_.write("scene.json", good_scene);
+    for (const auto& frames : {"0", "-1", "x", "1.5"}) {
+        expect_refused({"bench", "--scene", scene, "--frames", frames}, {"--frames"});
+    }
+    const std::string nowhere = folder_.path("no such folder/bench.json");
+    expect_refused({"bench", "--scene", scene, "--json", nowhere}, {nowhere, "cannot be written"});
+}
+
+}  // namespace
+}  // namespace nearfield::test

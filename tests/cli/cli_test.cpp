@@ -1,0 +1,46 @@
+#include "cli_test.hpp"
+
+namespace nearfield::test {
+
+Arguments operator+(Arguments first, const Arguments& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+CliTest::CliTest()
+    : a_(folder_.write(
+          "a square.geojson",
+          R"({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]})")),
+      b_(folder_.write("b square.wkt", "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))\n")) {}
+
+Arguments CliTest::squares(const std::string& type) const {
+    return {"query", type, a_, b_};
+}
+
+Json CliTest::answer(const Arguments& query) {
+    const Arguments arguments = query + Arguments{"--json", "-"};
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.status, 0) << command_line(arguments) << '\n' << outcome.err;
+    Json json = Json::parse(outcome.out, nullptr, false);
+    if (outcome.status != 0 || json.is_discarded()) {
+        ADD_FAILURE() << command_line(arguments) << "\nprints no JSON: " << outcome.out;
+        return nullptr;
+    }
+    return json;
+}
+
+void CliTest::expect_refused(const Arguments& arguments,
+                             const std::vector<std::string>& parts) const {
+    const auto before = folder_.contents();
+    const Outcome outcome = run_program(arguments);
+    const std::string context = command_line(arguments) + "\n" + outcome.err;
+    EXPECT_EQ(outcome.status, 2) << context;
+    EXPECT_EQ(outcome.out, "") << context;
+    EXPECT_TRUE(outcome.err.find("nearfield: ") != std::string::npos) << context;
+    for (const std::string& part : parts) {
+        EXPECT_TRUE(outcome.err.find(part) != std::string::npos) << context << "lacks: " << part;
+    }
+    EXPECT_TRUE(folder_.contents() == before) << context << "and leaves other files than before";
+}
+
+}  // namespace nearfield::test

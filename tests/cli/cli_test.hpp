@@ -1,0 +1,41 @@
+#pragma once
+
+#include "folder.hpp"
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+
+using Json = nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+[[nodiscard]] Arguments operator+(Arguments first, const Arguments& second);
+
+/// A folder with the unit square in both formats. Its vertices, and so its edges, count from the
+/// origin counter-clockwise: edge 0 is the lowest, 1 the right one, 2 the highest, 3 the left one.
+class CliTest : public testing::Test {
+protected:
+    CliTest();
+
+    /// "query TYPE A B", the unit square twice.
+    [[nodiscard]] Arguments squares(const std::string& type) const;
+
+    /// The JSON of a query. Anything but exit status 0 and one JSON value, alone on the standard
+    /// output, fails the test and gives null.
+    [[nodiscard]] static Json answer(const Arguments& query);
+
+    /// Expects exit status 2, nothing on the standard output, a message that holds all of `parts`,
+    /// and every file as it was.
+    void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const;
+
+    Folder folder_;
+    std::string a_;  ///< GeoJSON
+    std::string b_;  ///< well-known text
+};
+
+}  // namespace nearfield::test

@@ -1,0 +1,67 @@
+#include "contract.hpp"
+
+#include "rectangle_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace nearfield::test {
+
+using Json = nlohmann::json;
+
+void expect_number(const Json& json, const std::string& key) {
+    ASSERT_TRUE(json.contains(key)) << key;
+    EXPECT_TRUE(json.at(key).is_number()) << key << ": " << json.at(key);
+}
+
+namespace {
+
+void expect_times(const Json& times) {
+    ASSERT_TRUE(times.is_object()) << times;
+    EXPECT_FALSE(times.empty());
+    expect_number(times, "total");
+    for (const auto& [name, value] : times.items()) {
+        for (const Json& time : value.is_object() ? value : Json::array({value})) {
+            ASSERT_TRUE(time.is_number()) << name << ": " << time;
+            EXPECT_GE(time.get<double>(), 0.0) << name;
+        }
+    }
+}
+
+/// The side of a region's cells, along x and y the same.
+double side_of_cells(const Json& region) {
+    const Point min = to_point(region.at("min"));
+    const Point max = to_point(region.at("max"));
+    EXPECT_TRUE(region.at("width").is_number_unsigned()) << region;
+    EXPECT_TRUE(region.at("height").is_number_unsigned()) << region;
+    const double side = (max.x - min.x) / region.at("width").get<double>();
+    EXPECT_NEAR((max.y - min.y) / region.at("height").get<double>(), side, 1e-9 * side) << region;
+    return side;
+}
+
+}  // namespace
+
+double expect_common_part(const Json& json, const std::string& query, double tolerance,
+                          double cell) {
+    EXPECT_EQ(json.at("query"), query);
+    EXPECT_EQ(json.at("tolerance").get<double>(), tolerance);
+    EXPECT_GE(json.at("error_bound").get<double>(), 0.0);
+    EXPECT_LE(json.at("error_bound").get<double>(), tolerance);
+    EXPECT_TRUE(json.at("intersects").is_boolean());
+    EXPECT_TRUE(json.at("device").is_string());
+    EXPECT_NE(json.at("device"), "");
+    EXPECT_EQ(json.at("technique"), "raster");
+    expect_times(json.at("timings_ms"));
+    EXPECT_TRUE(json.at("regions").is_array());
+    for (const Json& region : json.at("regions")) {
+        const double side = side_of_cells(region);
+        cell = cell == 0.0 ? side : cell;
+        EXPECT_NEAR(side, cell, 1e-9 * cell) << region;
+    }
+    EXPECT_LE(cell, tolerance * std::numbers::sqrt2 * (1.0 + 1e-9));
+    return cell;
+}
+
+}  // namespace nearfield::test

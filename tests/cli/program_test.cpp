@@ -1,0 +1,81 @@
+#include "cli_test.hpp"
+
+namespace nearfield::test {
+namespace {
+
+class Help : public CliTest {
+protected:
+    static void expect_names(const Arguments& arguments, const std::vector<std::string>& parts) {
+        const Outcome outcome = run_program(arguments);
+        EXPECT_EQ(outcome.status, 0) << command_line(arguments) << '\n' << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        for (const std::string& part : parts) {
+            EXPECT_NE(outcome.out.find(part), std::string::npos)
+                << command_line(arguments) << " does not say " << part << '\n'
+                << outcome.out;
+        }
+    }
+};
+
+TEST_F(Help, NamesCommandsOptionsAndExitStatus) {
+    const std::string statuses =
+        "0 done, 2 bad input or usage, 3 no usable device, 1 anything else";
+    expect_names({"--help"}, {"query", "bench", "info", "--version", statuses});
+    expect_names(
+        {"query", "--help"},
+        {"penetration", "intersection", "distance-field", "GeoJSON", "WKT", "-d ", "--pose-a",
+         "--pose-b", "--technique", "--strategy", "--kind", "--points", "--json", "--image",
+         "--rect", "--field", "X,Y,DEGREES", "X0,Y0,X1,Y1", statuses});
+    expect_names({"bench", "--help"},
+                 {"--scene", "--technique", "--frames", "--warmup", "--json", statuses});
+    expect_names({"info", "--help"}, {"devices"});
+    expect_names({"--version"}, {"nearfield "});
+}
+
+class Device : public CliTest {};
+
+TEST_F(Device, InfoListsTheOneThatAnswers) {
+    const Json json = answer(squares("penetration") + Arguments{"-d", "0.1"});
+    ASSERT_TRUE(json.is_object());
+    const Outcome info = run_program({"info"});
+    EXPECT_EQ(info.status, 0) << info.err;
+    EXPECT_EQ(info.out.rfind("nearfield ", 0), 0U) << info.out;
+    EXPECT_NE(info.out.find(json.at("device").get<std::string>()), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("usable"), std::string::npos) << info.out;
+}
+
+TEST_F(Device, WithoutADriverTheExitStatusIs3AndNothingIsWritten) {
+    const std::string scene = folder_.write("scene.json", R"({
+        "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1]]]}},
+        "instances": {"A": {"shape": "square"}},
+        "queries": [{"query": "penetration", "a": "A", "b": "A", "tolerance": 0.1}]})");
+    const Arguments outputs{"--json", folder_.path("answer.json")};
+    const auto before = folder_.contents();
+    for (const Arguments& arguments :
+         {squares("penetration") + Arguments{"-d", "0.1", "--image", folder_.path("i.png")} +
+              outputs,
+          squares("penetration") + Arguments{"-d", "0.1", "--json", "-"},
+          Arguments{"bench", "--scene", scene} + outputs, Arguments{"info"}}) {
+        const Outcome outcome = run_program(arguments, without_driver());
+        EXPECT_EQ(outcome.status, 3) << command_line(arguments);
+        EXPECT_NE(outcome.err.find("driver"), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.out.find('{'), std::string::npos) << outcome.out;
+        EXPECT_TRUE(folder_.contents() == before) << command_line(arguments);
+    }
+}
+
+TEST_F(Device, TheTechniquesOfThisVersionAgree) {
+    const Arguments query = squares("penetration") + Arguments{"-d", "0.1", "--pose-b", "0.6,0,5"};
+    Json left_out = answer(query);
+    ASSERT_TRUE(left_out.is_object());
+    left_out.erase("timings_ms");
+    for (const auto& technique : {"raster", "automatic"}) {
+        Json json = answer(query + Arguments{"--technique", technique});
+        ASSERT_TRUE(json.is_object());
+        json.erase("timings_ms");
+        EXPECT_EQ(json, left_out) << technique;
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
