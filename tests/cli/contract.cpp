@@ -59,6 +59,7 @@ double expect_common_part(const Json& json, const std::string& query, double tol
         const double side = side_of_cells(region);
         cell = cell == 0.0 ? side : cell;
         EXPECT_NEAR(side, cell, 1e-9 * cell) << region;
+        EXPECT_NEAR(side, json.at("cell").get<double>(), 1e-9 * side) << region;
     }
     EXPECT_LE(cell, tolerance * std::numbers::sqrt2 * (1.0 + 1e-9));
     return cell;

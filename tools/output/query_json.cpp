@@ -68,7 +68,7 @@ void write_result(JsonWriter& json, const IntersectionResult& result) {
 }
 
 void write_result(JsonWriter& json, const DistanceFieldResult& result) {
-    json.key("origin").value(result.origin).key("cell").value(result.cell);
+    json.key("origin").value(result.origin);
     json.key("width").value(std::uint64_t{result.width});
     json.key("height").value(std::uint64_t{result.height});
 }
@@ -94,6 +94,7 @@ void write_query_json(std::ostream& stream, const Answer& answer) {
     json.key("query").value(name_of(answer.request.type));
     json.key("tolerance").value(summary.tolerance);
     json.key("error_bound").value(summary.error_bound);
+    json.key("cell").value(summary.cell);
     json.key("intersects").value(summary.intersects);
     json.key("device").value(std::string_view(answer.device));
     json.key("technique").value("raster");
