@@ -130,10 +130,10 @@ Status Context::Implementation::remove_shape(ShapeHandle handle) {
                                                std::to_string(handle.index) +
                                                " and that generation"};
     }
+    free_slots_.push_back(handle.index);
     Slot& slot = slots_[handle.index];
     slot.alive = false;
     ++slot.generation;
-    free_slots_.push_back(handle.index);
     return {};
 }
 
@@ -222,7 +222,9 @@ Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings) {
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
-    return implementation_->remove_shape(shape);
+    Status result;
+    Status status = guarded([&] { result = implementation_->remove_shape(shape); });
+    return status.ok() ? result : status;
 }
 
 Status Context::run(const Batch& batch, Results& results) {
@@ -234,7 +236,9 @@ const std::string& Context::device_name() const noexcept {
 }
 
 std::string Context::describe_graph(GraphFormat format) const {
-    return implementation_->renderer().print(format);
+    std::string text;
+    const Status status = guarded([&] { text = implementation_->renderer().print(format); });
+    return status.ok() ? text : status.text();
 }
 
 }  // namespace nearfield

@@ -11,6 +11,9 @@ namespace {
 constexpr std::uint32_t most_passes = 8;
 constexpr std::uint32_t smallest_atlas = 256;
 
+// Every part of a buffer that is bound has at least these bytes, its last one too.
+constexpr std::uint64_t smallest_range = 16;
+
 template <class Element>
 std::uint64_t bytes_of(const std::vector<Element>& elements) {
     return elements.size() * sizeof(Element);
@@ -86,7 +89,7 @@ Renderer::InputParts Renderer::upload(const plan::Round& round) {
     parts.end = parts.points + bytes_of(round.points);
     require_range(bytes_of(geometry), "the edges of one round");
     require_range(bytes_of(round.points), "the points of one round");
-    input_.reserve(parts.end);
+    input_.reserve(parts.end + smallest_range);
     copy_to(input_.data() + parts.tiles, round.tiles);
     copy_to(input_.data() + parts.geometry, geometry);
     copy_to(input_.data() + parts.points, round.points);
@@ -106,7 +109,7 @@ void Renderer::lay_out_output(const plan::Round& round) {
     output_.samples = align(output_.values + value_bytes);
     output_.end = output_.samples + sample_bytes;
     require_range(std::max({point_bytes, value_bytes, sample_bytes}), "the results of one round");
-    read_back_.reserve(output_.end);
+    read_back_.reserve(output_.end + smallest_range);
     std::memset(read_back_.data() + output_.samples, 0, sizeof(std::uint32_t));
     read_back_.flush();
 }
@@ -117,7 +120,7 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     const auto write = [&](VkDescriptorSet set, Layout::Binding binding,
                            const gpu::MappedBuffer& buffer, std::uint64_t from, std::uint64_t to) {
         layout_.write_buffer(set, binding, buffer.handle(), from,
-                             std::max<std::uint64_t>(to - from, 16));
+                             std::max(to - from, smallest_range));
     };
     const auto write_tiles = [&](VkDescriptorSet set) {
         write(set, Layout::tiles, input_, 0, bytes_of(round.tiles));
@@ -150,7 +153,7 @@ void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& 
     frame_.mesh = mesh_.handle();
     frame_.sample_capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         round.overlap_cells,
-        std::max<std::uint64_t>(frame_.sample_capacity, 4096 + round.overlap_cells / 8)));
+        std::max<std::uint64_t>(most_samples_, 4096 + round.overlap_cells / 8)));
     timings.plan += start.milliseconds();
 
     for (;;) {
@@ -159,6 +162,7 @@ void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& 
         bind(recipe, round, input);
         submit_and_wait(recipe, timings);
         std::memcpy(&sample_count_, read_back_.data() + output_.samples, sizeof(sample_count_));
+        most_samples_ = std::max(most_samples_, sample_count_);
         if (sample_count_ <= frame_.sample_capacity) {
             return;
         }

@@ -65,6 +65,7 @@ private:
     const Recipe* last_recipe_ = nullptr;
     OutputParts output_;
     std::uint32_t sample_count_ = 0;
+    std::uint32_t most_samples_ = 0;  // that any round found, so that the next one has room
 };
 
 }  // namespace nearfield

@@ -23,11 +23,20 @@ double touching_distance(const Tile& tile) {
     return tile.grid.cell * std::ldexp(side, -21);
 }
 
+/// Deeper than this many cells, single precision cannot tell apart what differs by a thousandth of
+/// d: which edge is nearest is decided once more, in double precision.
+constexpr double deepest_in_single_precision = 1024.0;
+
+geometry::NearestOnSegment nearest_on_edge(const PlacedPolygon& polygon, std::uint32_t edge,
+                                           const Vector& point) {
+    return geometry::nearest_on_segment(point, polygon.vertex(edge),
+                                        polygon.vertex(polygon.polygon().next(edge)));
+}
+
 /// The record of a point whose nearest edge of B is known, in double precision.
 PenetrationRecord make_record(const PlacedPolygon& b, const Vector& point, std::uint32_t edge,
                               bool unique) {
-    const std::uint32_t next = b.polygon().next(edge);
-    const auto nearest = geometry::nearest_on_segment(point, b.vertex(edge), b.vertex(next));
+    const auto nearest = nearest_on_edge(b, edge, point);
     PenetrationRecord record;
     record.point = geometry::to_public(point);
     record.depth = std::sqrt(nearest.squared_distance);
@@ -37,9 +46,34 @@ PenetrationRecord make_record(const PlacedPolygon& b, const Vector& point, std::
     if (nearest.parameter <= 0.0) {
         record.feature = {Feature::Kind::vertex, edge};
     } else if (nearest.parameter >= 1.0) {
-        record.feature = {Feature::Kind::vertex, next};
+        record.feature = {Feature::Kind::vertex, b.polygon().next(edge)};
     } else {
         record.feature = {Feature::Kind::edge, edge};
+    }
+    return record;
+}
+
+/// The record of a point very deep inside B, from all of B's edges.
+PenetrationRecord make_deep_record(const PlacedPolygon& b, const Vector& point, double margin) {
+    std::uint32_t nearest = 0;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::uint32_t edge = 0; edge < b.polygon().size(); ++edge) {
+        const double squared = nearest_on_edge(b, edge, point).squared_distance;
+        if (squared < best) {
+            best = squared;
+            nearest = edge;
+        }
+    }
+    PenetrationRecord record = make_record(b, point, nearest, true);
+    // As in resolve_points.comp: a rival is as near and farther away than the same wall explains.
+    const double limit = record.depth + margin;
+    const double along_wall = limit * limit - best;
+    for (std::uint32_t edge = 0; edge < b.polygon().size(); ++edge) {
+        const auto other = nearest_on_edge(b, edge, point);
+        const Vector apart = other.point - geometry::to_vector(record.nearest);
+        if (other.squared_distance <= limit * limit && apart.squaredNorm() > 4.0 * along_wall) {
+            record.unique = false;
+        }
     }
     return record;
 }
@@ -124,9 +158,12 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
             continue;
         }
         const PlannedPoint& point = plan.points[i];
-        const PenetrationRecord record =
-            make_record(b, position(a, point.point), word & plan::point_edge_mask,
-                        (word & plan::point_unique) != 0);
+        const Vector p = position(a, point.point);
+        PenetrationRecord record =
+            make_record(b, p, word & plan::point_edge_mask, (word & plan::point_unique) != 0);
+        if (record.depth > deepest_in_single_precision * planned.budget.cell) {
+            record = make_deep_record(b, p, result.tolerance * plan::uniqueness_margin);
+        }
         if (record.depth <= touching_distance(plan.tiles[point.tile])) {
             continue;
         }
@@ -165,6 +202,24 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
     }
 }
 
+void ResultDecoder::finish_field(DistanceFieldResult& result) {
+    // Far from B a float of single precision is coarser than the rest of the bound.
+    float largest = 0.0F;
+    for (const float value : result.values) {
+        largest = std::max(largest, std::abs(value));
+    }
+    result.error_bound += std::ldexp(static_cast<double>(largest), -21);
+    if (!(result.error_bound <= result.tolerance)) {
+        result.values.clear();
+        result.status = {StatusCode::invalid_query,
+                         "the field reaches to a distance of " + std::to_string(largest) +
+                             " from B, where single precision cannot tell apart what differs by "
+                             "the tolerance " +
+                             std::to_string(result.tolerance) +
+                             "; take a rectangle nearer to B or a larger tolerance"};
+    }
+}
+
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     finish_intersections(plan, results);
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -180,8 +235,10 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
                 intersection->intersects = shapes_intersect(planned);
             }
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
-            field->intersects =
-                field->status.ok() && planned.a != nullptr && shapes_intersect(planned);
+            if (field->status.ok()) {
+                field->intersects = planned.a != nullptr && shapes_intersect(planned);
+                finish_field(*field);
+            }
         }
     }
 }

@@ -37,6 +37,7 @@ private:
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result) const;
+    static void finish_field(DistanceFieldResult& result);
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan

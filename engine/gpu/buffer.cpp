@@ -41,17 +41,8 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
 
 std::uint64_t MappedBuffer::grown(std::uint64_t bytes) const {
     constexpr std::uint64_t step = 65536;
-    const std::uint64_t limit = (usage_ & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0
-                                    ? device_->limits().maxStorageBufferRange
-                                    : std::numeric_limits<std::uint64_t>::max() / 4;
-    if (bytes > limit) {
-        throw Failure(Status(StatusCode::too_large,
-                             "buffer '" + name_ + "' would need " + std::to_string(bytes) +
-                                 " bytes, but device '" + device_->name() + "' allows " +
-                                 std::to_string(limit) + " (maxStorageBufferRange)"));
-    }
     const std::uint64_t wanted = std::max(bytes, capacity_ + capacity_ / 2);
-    return std::min((wanted + step - 1) / step * step, limit);
+    return (wanted + step - 1) / step * step;
 }
 
 void MappedBuffer::create_buffer(std::uint64_t bytes) {

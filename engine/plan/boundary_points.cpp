@@ -1,3 +1,4 @@
+#include <engine/geometry/clip.hpp>
 #include <engine/plan/boundary_points.hpp>
 
 #include <algorithm>
@@ -24,6 +25,40 @@ void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Vi
     }
 }
 
+/// An edge divided evenly: it has `parts` parts, of which first, ..., end - 1 can start inside a
+/// box or on the way into it.
+struct Division {
+    double parts = 1.0;
+    double first = 0.0;
+    double end = 1.0;
+};
+
+Division divide(const PlacedPolygon& placed, std::uint32_t edge, double length, double spacing,
+                const geometry::Box& within) {
+    Division division;
+    division.parts = std::max(1.0, std::ceil(length / spacing));
+    division.end = division.parts;
+    if (division.parts < 16.0) {
+        return division;  // not worth a look
+    }
+    Vector a = placed.vertex(edge);
+    Vector b = placed.vertex(placed.polygon().next(edge));
+    const Vector start = a;
+    const double whole = (b - a).norm();
+    for (const int axis : {0, 1}) {
+        if (!geometry::clip_to_slab(a, b, axis, within.min()[axis], within.max()[axis])) {
+            division.end = 0.0;
+            return division;
+        }
+    }
+    // A part more at either end, for rounding.
+    const double from = (a - start).norm() / whole * division.parts;
+    const double to = (b - start).norm() / whole * division.parts;
+    division.first = std::max(0.0, std::floor(from) - 1.0);
+    division.end = std::min(division.parts, std::ceil(to) + 2.0);
+    return division;
+}
+
 }  // namespace
 
 Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
@@ -35,7 +70,8 @@ Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
 }
 
 void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
-                   double spacing, std::vector<BoundaryPoint>& points) {
+                   double spacing, const geometry::Box& within,
+                   std::vector<BoundaryPoint>& points) {
     for (const localize::Chain& chain : chains) {
         // A chain's first vertex always starts a new sample: what came before is elsewhere.
         double since_last = spacing;
@@ -44,12 +80,12 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
                 since_last += length;
                 return;
             }
-            const auto parts =
-                static_cast<std::uint32_t>(std::max(1.0, std::ceil(length / spacing)));
-            for (std::uint32_t part = 0; part < parts; ++part) {
-                points.push_back({edge, static_cast<double>(part) / parts});
+            const Division division = divide(polygon, edge, length, spacing, within);
+            const auto end = static_cast<std::uint32_t>(division.end);
+            for (auto part = static_cast<std::uint32_t>(division.first); part < end; ++part) {
+                points.push_back({edge, part / division.parts});
             }
-            since_last = length / parts;
+            since_last = division.end < division.parts ? spacing : length / division.parts;
         });
     }
 }
@@ -71,11 +107,12 @@ void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize
 }
 
 double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
-                    double spacing) {
+                    double spacing, const geometry::Box& within) {
     double count = 0.0;
     for (const localize::Chain& chain : chains) {
-        for_each_edge(polygon, chain, [&](std::uint32_t, double length) {
-            count += std::max(1.0, std::ceil(length / spacing));
+        for_each_edge(polygon, chain, [&](std::uint32_t edge, double length) {
+            const Division division = divide(polygon, edge, length, spacing, within);
+            count += std::max(0.0, division.end - division.first);
         });
     }
     return count;

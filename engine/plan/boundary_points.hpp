@@ -18,12 +18,13 @@ struct BoundaryPoint {
 [[nodiscard]] geometry::Vector position(const geometry::PlacedPolygon& polygon,
                                         const BoundaryPoint& point);
 
-/// Appends samples along each chain, consecutive ones at most `spacing` apart along the boundary.
-/// Long edges are divided evenly from vertex to vertex, so corners are sampled; of vertices closer
-/// together than `spacing` some are left out.
+/// Appends samples along each chain, consecutive ones at most `spacing` apart along the boundary,
+/// where it lies `within` a box; what samples there are outside it is left open. Long edges are
+/// divided evenly from vertex to vertex, so corners are sampled; of vertices closer together than
+/// `spacing` some are left out.
 void sample_chains(const geometry::PlacedPolygon& polygon,
                    const std::vector<localize::Chain>& chains, double spacing,
-                   std::vector<BoundaryPoint>& points);
+                   const geometry::Box& within, std::vector<BoundaryPoint>& points);
 
 /// Appends the first vertex of every edge of the chains.
 void vertices_of_chains(const geometry::PlacedPolygon& polygon,
@@ -32,6 +33,7 @@ void vertices_of_chains(const geometry::PlacedPolygon& polygon,
 
 /// What sample_chains may append at the most; needs no memory. A double, since it may be huge.
 [[nodiscard]] double most_samples(const geometry::PlacedPolygon& polygon,
-                                  const std::vector<localize::Chain>& chains, double spacing);
+                                  const std::vector<localize::Chain>& chains, double spacing,
+                                  const geometry::Box& within);
 
 }  // namespace nearfield::plan

@@ -13,9 +13,10 @@ Status invalid(const std::string& message) {
 }
 
 Status check_tolerance(double tolerance) {
-    if (!std::isfinite(tolerance) || tolerance <= 0.0) {
+    if (!(tolerance > 0.0 && tolerance <= largest_coordinate)) {
         return invalid("the tolerance is " + number(tolerance) +
-                       "; it must be a finite number above 0");
+                       "; it must be a finite number above 0 and at most " +
+                       number(largest_coordinate));
     }
     return {};
 }
@@ -84,7 +85,8 @@ Status check_query(const AnyQuery& query) {
 }
 
 Status check_resolution(double tolerance, double largest_magnitude) {
-    const double resolution = 64.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
+    // Placing a vertex rounds a few times; this leaves that far below a thousandth of d.
+    const double resolution = 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
     if (tolerance < resolution) {
         return invalid("the tolerance " + number(tolerance) +
                        " is below what double precision resolves at coordinates of " +

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 namespace nearfield::plan {
 namespace {
@@ -14,13 +16,17 @@ constexpr std::uint32_t not_written = UINT32_MAX;
 /// A run's vertices and its straight edge are rounded to floats apart from each other.
 constexpr double deviation_slack = 1.0 / 1024.0;
 
-/// The part of an edge with |x| and |y| at most `extent`; the whole edge where there is none.
-TileEdge cut(const TileEdge& edge, double extent) {
+/// The part of an edge with |x| and |y| at most `extent`, if there is one.
+std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
     double from = 0.0;
     double to = 1.0;
     const Vector d = edge.b - edge.a;
     for (int axis = 0; axis < 2; ++axis) {
-        if (d[axis] != 0.0) {
+        if (d[axis] == 0.0) {
+            if (std::abs(edge.a[axis]) > extent) {
+                return std::nullopt;
+            }
+        } else {
             const double enter = (-extent - edge.a[axis]) / d[axis];
             const double leave = (extent - edge.a[axis]) / d[axis];
             from = std::max(from, std::min(enter, leave));
@@ -28,11 +34,11 @@ TileEdge cut(const TileEdge& edge, double extent) {
         }
     }
     if (from > to) {
-        return edge;
+        return std::nullopt;
     }
     // An end that needs no cut stays the very same number: neighbours share it.
-    return {from == 0.0 ? edge.a : Vector(edge.a + from * d),
-            to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
+    return TileEdge{from == 0.0 ? edge.a : Vector(edge.a + from * d),
+                    to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
 }
 
 }  // namespace
@@ -88,7 +94,11 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
     for (const TileEdge& edge : edges) {
         const bool exact =
             edge.simplified == no_simplified || (*boundary_->edges)[edge.simplified].count == 1;
-        list_.push_back(describe(exact ? cut(edge, extent) : edge));
+        if (!exact) {
+            list_.push_back(describe(edge));
+        } else if (const auto part = cut(edge, extent)) {
+            list_.push_back(describe(*part));
+        }
     }
 
     EdgeListData result;

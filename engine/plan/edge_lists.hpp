@@ -23,7 +23,8 @@ public:
 
     /// Writes one list; position i of the list is edge i. Edges that stand for themselves are cut,
     /// in double precision, to the square |x|, |y| <= `extent` around the tile's low corner, so
-    /// that no coordinate is larger than a float can tell apart: nothing outside may matter.
+    /// that no coordinate is larger than a float can tell apart. Nothing outside may matter: edges
+    /// wholly outside are left out.
     EdgeListData write(const std::vector<TileEdge>& edges, double extent);
 
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }

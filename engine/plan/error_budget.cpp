@@ -1,6 +1,7 @@
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/error_budget.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 namespace nearfield::plan {
@@ -55,13 +56,14 @@ ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
-    budget.simplification = d / 4.0;
-    budget.mesh = field_mesh_error * budget.cell;
+    // A distance mesh cannot be finer than the raster's snapping lets it be.
+    budget.mesh = std::max(field_mesh_error, 10.0 * grid.largest_move()) * budget.cell;
     // The sample itself is a cell's centre, so there is no sampling error: what is left is the
     // simplified boundary, a feature that won although another is nearer by up to the error of the
     // mesh, the raster's snapping of that mesh and of the fill, and rounding.
-    const double snapping = 2.0 * grid.largest_move() * budget.cell;
-    budget.bound = budget.simplification + budget.mesh + snapping + float_rounding * budget.cell;
+    const double rest = budget.mesh + (2.0 * grid.largest_move() + float_rounding) * budget.cell;
+    budget.simplification = std::min(d / 4.0, 0.9 * (d - rest));
+    budget.bound = budget.simplification + rest;
     return budget;
 }
 

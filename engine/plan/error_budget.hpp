@@ -5,6 +5,9 @@
 
 namespace nearfield::plan {
 
+/// Two distances closer than this part of d count as equal (PenetrationRecord::unique).
+inline constexpr double uniqueness_margin = 1e-3;
+
 /// How a query spends its tolerance d. Lengths in world units; derivations in docs/error_budget.md.
 struct ErrorBudget {
     double cell = 0.0;            ///< side of a grid cell

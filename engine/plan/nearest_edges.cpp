@@ -1,9 +1,10 @@
+#include <engine/geometry/clip.hpp>
+#include <engine/geometry/segment.hpp>
 #include <engine/plan/nearest_edges.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace nearfield::plan {
 
@@ -12,14 +13,48 @@ using geometry::Vector;
 void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& needed, double slack,
                              std::vector<NearestEdge>& result) {
     result.clear();
+    needed_ = &needed;
+    left_.assign(boundary.size(), 0.0);
+    right_.assign(boundary.size(), 0.0);
+    find_candidates(boundary, slack);
+    visit(0, 0, NeededBlocks::most_along, 0, candidates_.size());
+
+    for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+        if (left_[i] > 0.0 || right_[i] > 0.0) {
+            result.push_back({{boundary.start(i), boundary.end(i), i}, left_[i], right_[i]});
+        }
+    }
+}
+
+void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double slack) {
     const std::uint32_t count = boundary.size();
-    const Vector centre(0.5 * needed.width(), 0.5 * needed.height());
-    edges_.resize(count);
-    double extent = 0.0;
+    const Vector centre(0.5 * needed_->width(), 0.5 * needed_->height());
+    distances_.resize(count);
+    double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Vector a = boundary.start(i) - centre;
-        const Vector d = boundary.end(i) - boundary.start(i);
-        extent = std::max(extent, a.cwiseAbs().maxCoeff());
+        distances_[i] =
+            std::sqrt(geometry::nearest_on_segment(centre, boundary.start(i), boundary.end(i))
+                          .squared_distance);
+        nearest = std::min(nearest, distances_[i]);
+    }
+    // In double precision so far. What can matter lies within a window around the tile; edges are
+    // cut to it, so that what rounding to floats may change about a distance, which is granted on
+    // top of the slack, depends on the window and not on how far an edge reaches.
+    const double window = nearest + 2.0 * (centre.norm() + slack) + 1.0;
+    slack_ = slack + 0.01 + 1e-6 * window;
+    const double limit = nearest + 2.0 * (centre.norm() + slack_);
+    edges_.resize(count);
+    candidates_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (distances_[i] > limit) {
+            continue;
+        }
+        Vector a = boundary.start(i) - centre;
+        Vector b = boundary.end(i) - centre;
+        for (const int axis : {0, 1}) {
+            static_cast<void>(geometry::clip_to_slab(a, b, axis, -2.0 * window, 2.0 * window));
+        }
+        const Vector d = b - a;
         const double squared = d.squaredNorm();
         const bool is_point = squared < 1e-30;
         edges_[i] = {static_cast<float>(a.x()),
@@ -28,20 +63,7 @@ void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& n
                      static_cast<float>(d.y()),
                      is_point ? 0.0F : static_cast<float>(1.0 / squared),
                      is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared))};
-    }
-    // What rounding to floats may change about a distance is granted on top of the slack.
-    slack_ = slack + 0.01 + 1e-6 * extent;
-    needed_ = &needed;
-    left_.assign(count, 0.0);
-    right_.assign(count, 0.0);
-    candidates_.resize(count);
-    std::iota(candidates_.begin(), candidates_.end(), 0U);
-    visit(0, 0, NeededBlocks::most_along, 0, count);
-
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (left_[i] > 0.0 || right_[i] > 0.0) {
-            result.push_back({{boundary.start(i), boundary.end(i), i}, left_[i], right_[i]});
-        }
+        candidates_.push_back(i);
     }
 }
 

@@ -31,13 +31,14 @@ public:
               std::vector<NearestEdge>& result);
 
 private:
-    /// An edge in floats relative to the tile's centre.
+    /// An edge, or what of it lies near the tile, in floats relative to the tile's centre.
     struct Candidate {
         float ax, ay, dx, dy;
         float inverse_squared_length;
         float inverse_length;
     };
 
+    void find_candidates(const TileBoundary& boundary, double slack);
     void visit(std::uint32_t column, std::uint32_t row, std::uint32_t count, std::size_t first,
                std::size_t end);
     void reach_out(std::size_t first, std::size_t end, float x, float y, double limit,
@@ -45,8 +46,9 @@ private:
 
     const NeededBlocks* needed_ = nullptr;
     double slack_ = 0.0;
+    std::vector<double> distances_;          // by simplified edge: to the tile's centre
     std::vector<Candidate> edges_;           // by simplified edge
-    std::vector<std::uint32_t> candidates_;  // a stack: one list a level, all edges first
+    std::vector<std::uint32_t> candidates_;  // a stack: one list a level
     std::vector<float> squared_;        // by place on the stack: squared distance to the centre
     std::vector<double> left_, right_;  // by simplified edge
 };

@@ -27,6 +27,13 @@ double largest_magnitude(const Box& box) {
     return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
+/// The largest number that placing a shape in the world goes through.
+double largest_magnitude(const PlacedPolygon& placed, const Pose& pose) {
+    return std::max({largest_magnitude(placed.box()),
+                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                     std::abs(pose.translation.y)});
+}
+
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
                                            std::to_string(handle.index) +
@@ -174,8 +181,8 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     const Box box_b = b.box();
-    result.status = check_resolution(
-        query.tolerance, std::max(largest_magnitude(a.box()), largest_magnitude(box_b)));
+    result.status = check_resolution(query.tolerance, std::max(largest_magnitude(a, query.a.pose),
+                                                               largest_magnitude(b, query.b.pose)));
     if (!result.status.ok()) {
         return;
     }
@@ -196,9 +203,9 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
                        1.0);
     } else {
-        require_memory(bytes_per_point * most_samples(a, chains_, planned.budget.cell),
+        require_memory(bytes_per_point * most_samples(a, chains_, planned.budget.cell, box_b),
                        query.tolerance, 1.0);
-        sample_chains(a, chains_, planned.budget.cell, samples_);
+        sample_chains(a, chains_, planned.budget.cell, box_b, samples_);
     }
     add_regions(planned.budget.cell, result);
     point_tiles_.spread(a, samples_, box_b, boxes_, grids_, query_, *plan_);
@@ -286,7 +293,7 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.status = check_resolution(
         query.tolerance,
         std::max(largest_magnitude(box),
-                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose).box())));
+                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
     if (!result.status.ok()) {
         return;
     }

@@ -18,9 +18,6 @@ using geometry::Vector;
 // what is left has coordinates that a float can tell apart.
 constexpr double longest_run = 64.0;
 
-// Two distances closer than this part of d count as equal (PenetrationRecord::unique).
-constexpr double uniqueness_margin = 1e-3;
-
 DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
     const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
     const auto right = static_cast<float>(width);

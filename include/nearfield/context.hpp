@@ -19,8 +19,9 @@ namespace nearfield {
 
 /// Limits and settings of a context.
 struct Settings {
-    /// The most memory a batch may need, device and host side together, in bytes. A batch that
-    /// needs more is refused (StatusCode::too_large) before any work.
+    /// The most memory that images and results of a batch may need, device and host side together,
+    /// in bytes. A batch that needs more is refused (StatusCode::too_large) before any work. Meshes
+    /// and lists of edges, which grow with the shapes and not with the grid, come on top.
     std::uint64_t memory_limit = std::uint64_t{1} << 30U;
     /// Maximum height of the bounding-volume hierarchies that localise (section 2.1 of the paper):
     /// more is more work on the CPU and less on the device.
@@ -63,7 +64,8 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Copies the rings. Needs no precomputation: a shape may be added in the frame it is used.
+    /// Copies the rings; refuses bad ones (invalid_shape). Needs no precomputation: a shape may be
+    /// added in the frame it is used.
     [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings);
 
     /// Replaces all rings of a shape; the handle stays. Nothing is rebuilt, so deforming a shape
@@ -74,8 +76,10 @@ public:
     Status remove_shape(ShapeHandle shape);
 
     /// Answers a batch; returns when all results are there. An error of the batch as a whole
-    /// (device lost, more memory needed than the limit) is the returned status; what is wrong with
-    /// one query alone stands in that query's result, and the other queries are answered.
+    /// is the returned status: too_large (more memory than the limit, or than one buffer of the
+    /// device holds), out_of_memory, device_lost, device_error; the results are then undefined.
+    /// What is wrong with one query alone (invalid_query, unknown_shape) stands in that query's
+    /// result, and the other queries are answered.
     Status run(const Batch& batch, Results& results);
 
     /// The device's name as its driver gives it.

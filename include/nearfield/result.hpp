@@ -29,8 +29,10 @@ struct ResultSummary {
     Status status;             ///< of this query alone; the rest is meaningful only where it is ok
     double tolerance = 0.0;    ///< d as asked
     double error_bound = 0.0;  ///< what the result's own description says it bounds; at most d
-    bool intersects = false;   ///< the closed shapes share a point; containment and touching count
-    double cell = 0.0;         ///< side of a grid cell
+    /// The closed shapes share a point; containment and touching count. False for a distance field
+    /// without a shape A.
+    bool intersects = false;
+    double cell = 0.0;  ///< side of a grid cell
     std::vector<Region> regions;
 };
 

@@ -161,7 +161,7 @@ TEST_F(GpuTimestamps, CounterMayWrapAndTicksAreScaled) {
     EXPECT_NEAR(times[0].milliseconds, 1500 * 40e-6, 1e-12);
 }
 
-TEST_F(GpuTimestamps, UnwrittenTimestampsAreAnError) {
+TEST_F(GpuTimestamps, UnwrittenTimestampsLeaveNoTimesAndNoError) {
     Lies lies;
     lies.entry_points["vkGetQueryPoolResults"] =
         reinterpret_cast<PFN_vkVoidFunction>(&unready_results);
@@ -170,7 +170,8 @@ TEST_F(GpuTimestamps, UnwrittenTimestampsAreAnError) {
     gpu::Timestamps timestamps(device, 1);
     time_passes(device, timestamps, {"pass"});
     std::vector<PassTime> times;
-    EXPECT_THROW(timestamps.collect(times), Failure);
+    EXPECT_NO_THROW(timestamps.collect(times));
+    EXPECT_TRUE(times.empty());
 }
 
 }  // namespace

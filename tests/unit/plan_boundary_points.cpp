@@ -55,8 +55,9 @@ TEST(SampleChains, NoGapAlongTheBoundaryIsWiderThanTheSpacing) {
             const PlacedPolygon placed(polygon, {});
             std::vector<BoundaryPoint> points;
             const auto chains = all_of(polygon);
-            sample_chains(placed, chains, spacing, points);
-            EXPECT_LE(static_cast<double>(points.size()), most_samples(placed, chains, spacing));
+            sample_chains(placed, chains, spacing, placed.box(), points);
+            EXPECT_LE(static_cast<double>(points.size()),
+                      most_samples(placed, chains, spacing, placed.box()));
 
             std::vector<double> last(polygon.ring_count(), -1.0);
             for (const BoundaryPoint& point : points) {

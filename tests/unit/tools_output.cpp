@@ -60,7 +60,8 @@ TEST(ToolsJson, PenetrationHasTheKeysOfTheContract) {
     EXPECT_EQ(answer["records"],
               json::parse(R"([{"point": [0.1, 0.2], "depth": 0.3, "direction": [0.6, 0.8],
                      "nearest": [0.28, 0.44], "feature": {"vertex": 7}, "unique": false}])"));
-    EXPECT_EQ(answer.size(), 11U);
+    EXPECT_EQ(answer["cell"], 0.1 * std::sqrt(2.0));
+    EXPECT_EQ(answer.size(), 12U);
 }
 
 TEST(ToolsJson, NothingFoundIsNullAndEmpty) {

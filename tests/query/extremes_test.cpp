@@ -1,0 +1,119 @@
+#include <tests/oracle/plane.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <cmath>
+#include <numbers>
+
+// Where single precision on the device, or double precision in the world, comes to its end.
+
+namespace nearfield::test {
+namespace {
+
+class Extremes : public QueryTest {};
+
+Rings polygon_around(const Vector2& centre, double radius, int n, double turn) {
+    Ring ring;
+    for (int i = 0; i < n; ++i) {
+        const double angle = turn + 2.0 * std::numbers::pi * i / n;
+        ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+    }
+    return {ring};
+}
+
+TEST_F(Extremes, DeepInsideAHugeShapeRecordsAreStillExact) {
+    for (const double radius : {1e3, 1e5, 1e7}) {
+        SCOPED_TRACE(radius);
+        const PlacedPair placed(context(), Pair{{"A", polygon_around({0.4, -0.3}, 3.0, 7, 0.1)},
+                                                {"B", polygon_around({0.0, 0.0}, radius, 97, 0.05)},
+                                                {},
+                                                {},
+                                                0.1});
+        for (const auto points : {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
+            check_penetration(placed, points, run_alone(context(), placed.penetration(points)));
+        }
+    }
+}
+
+TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
+    const auto b = context().add_shape(rectangle({0.0, 0.0}, {1.0, 2.0}));
+    ASSERT_TRUE(b.ok());
+    for (const double x : {1e3, 1e5, 1e6, 1e7}) {
+        SCOPED_TRACE(x);
+        DistanceFieldQuery query;
+        query.b.shape = *b;
+        query.tolerance = 0.1;
+        query.rectangle = Rectangle{{x, 0.0}, {x + 5.0, 2.0}};
+        const DistanceFieldResult result = run_alone(context(), query);
+        if (!result.status.ok()) {
+            EXPECT_EQ(result.status.code(), StatusCode::invalid_query) << result.status.text();
+            EXPECT_GT(x, 1e4);
+            continue;
+        }
+        EXPECT_LE(result.error_bound, 0.1);
+        EXPECT_LT(x, 1e7);
+        for (std::uint32_t column = 0; column < result.width; ++column) {
+            // The lowest row of cell centres lies between the box's lower and upper side.
+            const double centre = result.origin.x + (column + 0.5) * result.cell;
+            EXPECT_NEAR(static_cast<double>(result.values[column]), centre - 1.0,
+                        result.error_bound);
+        }
+    }
+    EXPECT_TRUE(context().remove_shape(*b).ok());
+}
+
+TEST_F(Extremes, TolerancesThatCoordinatesCannotResolveAreRefused) {
+    // Its own coordinates are huge; in the world it stands near the origin.
+    const auto far = context().add_shape(rectangle({5e11, 5e11}, {5e11 + 1.0, 5e11 + 1.0}));
+    const auto near = context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    ASSERT_TRUE(far.ok() && near.ok());
+    PenetrationQuery query;
+    query.a.shape = *far;
+    query.a.pose.translation = {-5e11, -5e11};
+    query.b.shape = *near;
+    query.tolerance = 1e-6;
+    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
+    for (const double tolerance : {1e13, 1e300, 1.7e308}) {
+        query.tolerance = tolerance;
+        EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
+    }
+    EXPECT_TRUE(context().remove_shape(*far).ok());
+    EXPECT_TRUE(context().remove_shape(*near).ok());
+}
+
+TEST_F(Extremes, ALongEdgeOfAIsSampledOnlyNearB) {
+    const PlacedPair placed(context(), Pair{{"A", rectangle({-5000.0, -1.0}, {5000.0, 0.0})},
+                                            {"B", polygon_around({10.3, 0.1}, 0.5, 12, 0.0)},
+                                            {},
+                                            {},
+                                            1e-3});
+    const auto result = run_alone(context(), placed.penetration(PenetrationPoints::boundary));
+    check_penetration(placed, PenetrationPoints::boundary, result);
+    EXPECT_GT(result.count, 300U);
+}
+
+TEST_F(Extremes, ManyOverlapTilesFillABufferToItsEnd) {
+    // Tiles and nothing else in the input buffer, of about the size it grows to.
+    for (const int count : {1360, 1365, 4092, 4096}) {
+        auto fresh = Context::create(host_device());
+        ASSERT_TRUE(fresh.ok());
+        const auto square = fresh->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+        ASSERT_TRUE(square.ok());
+        IntersectionQuery query;
+        query.a.shape = query.b.shape = *square;
+        query.b.pose.translation = {0.5, 0.5};
+        query.tolerance = 0.3;
+        Batch batch;
+        Results results;
+        for (int i = 0; i < count; ++i) {
+            batch.add(query);
+        }
+        ASSERT_TRUE(fresh->run(batch, results).ok());
+        for (const AnyResult& result : results.results) {
+            ASSERT_GT(std::get<IntersectionResult>(result).count, 0U);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
