@@ -53,7 +53,8 @@ check_tidy() {
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
 
-# The rooms that need no driver, with every memory access and every undefined operation watched.
+# The rooms that need no driver, with every memory access, leak and undefined operation watched. What
+# runs graphs on a device is left out: drivers leak on their own account.
 # Warnings are not errors here: the sanitizers' own code sets off false ones.
 check_sanitized() {
     local test tests=(test_geometry test_localize test_graph)
@@ -62,7 +63,7 @@ check_sanitized() {
         -DNEARFIELD_WARNINGS_AS_ERRORS=OFF >/dev/null
     build sanitize --target "${tests[@]}"
     for test in "${tests[@]}"; do
-        "$root/build/sanitize/tests/$test" --gtest_brief=1
+        "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
     done
 }
 
