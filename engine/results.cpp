@@ -12,70 +12,17 @@ namespace {
 
 using geometry::PlacedPolygon;
 using geometry::Vector;
-using plan::PlannedPoint;
 using plan::PlannedQuery;
 using plan::Tile;
 
-/// The device decides on which side of the boundary a point lies in single precision, in cells of a
-/// tile. A point nearer to the boundary than this could lie on either side: it touches.
-double touching_distance(const Tile& tile) {
-    const double side = std::max({tile.width, tile.height, 64U});
-    return tile.grid.cell * std::ldexp(side, -21);
-}
-
-/// Deeper than this many cells, single precision cannot tell apart what differs by a thousandth of
-/// d: which edge is nearest is decided once more, in double precision.
-constexpr double deepest_in_single_precision = 1024.0;
-
-geometry::NearestOnSegment nearest_on_edge(const PlacedPolygon& polygon, std::uint32_t edge,
-                                           const Vector& point) {
-    return geometry::nearest_on_segment(point, polygon.vertex(edge),
-                                        polygon.vertex(polygon.polygon().next(edge)));
-}
-
-/// The record of a point whose nearest edge of B is known, in double precision.
-PenetrationRecord make_record(const PlacedPolygon& b, const Vector& point, std::uint32_t edge,
-                              bool unique) {
-    const auto nearest = nearest_on_edge(b, edge, point);
-    PenetrationRecord record;
-    record.point = geometry::to_public(point);
-    record.depth = std::sqrt(nearest.squared_distance);
-    record.nearest = geometry::to_public(nearest.point);
-    record.direction = geometry::to_public((nearest.point - point) / record.depth);
-    record.unique = unique;
-    if (nearest.parameter <= 0.0) {
-        record.feature = {Feature::Kind::vertex, edge};
-    } else if (nearest.parameter >= 1.0) {
-        record.feature = {Feature::Kind::vertex, b.polygon().next(edge)};
-    } else {
-        record.feature = {Feature::Kind::edge, edge};
-    }
-    return record;
-}
-
-/// The record of a point very deep inside B, from all of B's edges.
-PenetrationRecord make_deep_record(const PlacedPolygon& b, const Vector& point, double margin) {
-    std::uint32_t nearest = 0;
-    double best = std::numeric_limits<double>::infinity();
-    for (std::uint32_t edge = 0; edge < b.polygon().size(); ++edge) {
-        const double squared = nearest_on_edge(b, edge, point).squared_distance;
-        if (squared < best) {
-            best = squared;
-            nearest = edge;
-        }
-    }
-    PenetrationRecord record = make_record(b, point, nearest, true);
-    // As in resolve_points.comp: a rival is as near and farther away than the same wall explains.
-    const double limit = record.depth + margin;
-    const double along_wall = limit * limit - best;
-    for (std::uint32_t edge = 0; edge < b.polygon().size(); ++edge) {
-        const auto other = nearest_on_edge(b, edge, point);
-        const Vector apart = other.point - geometry::to_vector(record.nearest);
-        if (other.squared_distance <= limit * limit && apart.squaredNorm() > 4.0 * along_wall) {
-            record.unique = false;
-        }
-    }
-    return record;
+PenetrationRecord make_record(const ResolvedPoint& resolved) {
+    const Vector way = resolved.nearest - resolved.point;
+    return {geometry::to_public(resolved.point),
+            resolved.distance,
+            geometry::to_public(way / resolved.distance),
+            geometry::to_public(resolved.nearest),
+            resolved.feature,
+            resolved.unique};
 }
 
 /// The edge of A nearest to a point, among a run of edges.
@@ -147,26 +94,19 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
 }
 
 void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
-                                       PenetrationResult& result) const {
+                                       PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    resolver_.begin(plan, planned);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
-        const std::uint32_t word = words_[i];
-        if ((word & plan::point_inside) == 0) {
+        if ((words_[i] & plan::point_inside) == 0) {
             continue;
         }
-        const PlannedPoint& point = plan.points[i];
-        const Vector p = position(a, point.point);
-        PenetrationRecord record =
-            make_record(b, p, word & plan::point_edge_mask, (word & plan::point_unique) != 0);
-        if (record.depth > deepest_in_single_precision * planned.budget.cell) {
-            record = make_deep_record(b, p, result.tolerance * plan::uniqueness_margin);
+        const ResolvedPoint resolved = resolver_.resolve(plan.points[i], words_[i]);
+        if (!resolved.inside) {
+            continue;  // it touches the boundary
         }
-        if (record.depth <= touching_distance(plan.tiles[point.tile])) {
-            continue;
-        }
+        const PenetrationRecord record = make_record(resolved);
         if (result.count == 0 || record.depth > result.deepest.depth) {
             result.deepest = record;
         }
@@ -238,6 +178,19 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
             if (field->status.ok()) {
                 field->intersects = planned.a != nullptr && shapes_intersect(planned);
                 finish_field(*field);
+            }
+        } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
+            if (contact->status.ok()) {
+                contacts_.decode(plan, planned, words_, *contact);
+                contact->intersects = shapes_intersect(planned);
+            }
+        } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {
+            if (closest->status.ok()) {
+                closest_.decode(plan, planned, words_, *closest);
+            }
+        } else if (auto* separation = std::get_if<SeparationResult>(&results[i])) {
+            if (separation->status.ok()) {
+                closest_.decode(plan, planned, words_, *separation);
             }
         }
     }

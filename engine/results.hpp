@@ -1,7 +1,10 @@
 #pragma once
 
+#include <engine/closest.hpp>
+#include <engine/contacts.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
+#include <engine/point_resolver.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -36,11 +39,14 @@ private:
     };
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                            PenetrationResult& result) const;
+                            PenetrationResult& result);
     static void finish_field(DistanceFieldResult& result);
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
+    PointResolver resolver_;
+    ContactDecoder contacts_;
+    ClosestDecoder closest_;
     std::vector<FoundSample> samples_;
 };
 

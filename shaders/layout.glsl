@@ -19,6 +19,7 @@ struct Tile {
     EdgeList crossing;
     float settled;
     float margin;
+    uint outside;
 };
 
 layout(std430, set = 0, binding = 0) readonly buffer Tiles {

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Point depth (section 2.2.4 of the paper), one thread a point of A's boundary. The images of the
-// raster passes settle what they can: which points lie outside, and a feature of B that is nearly
-// the nearest. What they leave open is decided on B's own edges.
+// The nearest edge of B (section 2.2.4 of the paper), one thread a point of A's boundary. The images
+// of the raster passes settle what they can: which points lie outside, and a feature of B that is
+// nearly the nearest. What they leave open is decided on B's own edges.
 
 #include "layout.glsl"
 
@@ -31,6 +31,7 @@ layout(push_constant) uniform Push {
 
 const uint inside_flag = 1u << 31;
 const uint unique_flag = 1u << 30;
+const uint resolved_flag = 1u << 29;
 const float infinity = 1.0 / 0.0;
 
 bool crosses(vec2 p, vec2 a, vec2 b) {
@@ -174,7 +175,7 @@ uint resolve(Point point) {
     if (feature != no_feature) {
         Edge edge = list_edge(tile.nearest, feature);
         settled = distance_to_segment(vec2(cell) + 0.5, edge.a, edge.b) > tile.settled;
-        if (settled && !inside) {
+        if (settled && !inside && tile.outside == 0u) {
             return 0u;
         }
         consider_run(p, edge, nearest);
@@ -182,12 +183,12 @@ uint resolve(Point point) {
     if (!settled) {
         inside = inside_by_crossings(p, tile.crossing);
     }
-    if (!inside) {
+    if (!inside && tile.outside == 0u) {
         return 0u;
     }
     nearest = find_nearest(p, tile.nearest, nearest);
     uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
-    return inside_flag | unique | nearest.edge;
+    return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
 }
 
 void main() {

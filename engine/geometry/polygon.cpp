@@ -176,4 +176,9 @@ std::uint32_t Polygon::next(std::uint32_t i) const {
     return i + 1 == ring_end(ring) ? ring_begin(ring) : i + 1;
 }
 
+std::uint32_t Polygon::previous(std::uint32_t i) const {
+    const std::uint32_t ring = ring_of(i);
+    return i == ring_begin(ring) ? ring_end(ring) - 1 : i - 1;
+}
+
 }  // namespace nearfield::geometry

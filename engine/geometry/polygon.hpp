@@ -41,6 +41,8 @@ public:
     [[nodiscard]] std::uint32_t ring_of(std::uint32_t i) const;
     /// The vertex after vertex i on its ring.
     [[nodiscard]] std::uint32_t next(std::uint32_t i) const;
+    /// The vertex before vertex i on its ring.
+    [[nodiscard]] std::uint32_t previous(std::uint32_t i) const;
 
 private:
     Vector centre_ = Vector::Zero();

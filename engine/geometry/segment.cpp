@@ -1,5 +1,8 @@
 #include <engine/geometry/segment.hpp>
 
+#include <cmath>
+#include <limits>
+
 namespace nearfield::geometry {
 namespace {
 
@@ -39,6 +42,44 @@ bool segments_intersect(const Vector& a, const Vector& b, const Vector& c, const
         return false;
     }
     return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
+}
+
+ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Vector& c,
+                                      const Vector& d) {
+    ClosestOfSegments closest;
+    closest.squared_distance = std::numeric_limits<double>::infinity();
+    // Segments that do not cross are closest at an end of one of them.
+    const auto end_of_first = [&](const Vector& end, double parameter) {
+        const NearestOnSegment nearest = nearest_on_segment(end, c, d);
+        if (nearest.squared_distance < closest.squared_distance) {
+            closest = {end, nearest.point, parameter, nearest.parameter, nearest.squared_distance};
+        }
+    };
+    const auto end_of_second = [&](const Vector& end, double parameter) {
+        const NearestOnSegment nearest = nearest_on_segment(end, a, b);
+        if (nearest.squared_distance < closest.squared_distance) {
+            closest = {nearest.point, end, nearest.parameter, parameter, nearest.squared_distance};
+        }
+    };
+    end_of_first(a, 0.0);
+    end_of_first(b, 1.0);
+    end_of_second(c, 0.0);
+    end_of_second(d, 1.0);
+    if (closest.squared_distance > 0.0 && segments_intersect(a, b, c, d)) {
+        // The sides of c and d weigh the crossing's place on cd, those of a and b its place on ab.
+        const double c_side = std::abs(cross(b - a, c - a));
+        const double d_side = std::abs(cross(b - a, d - a));
+        const double a_side = std::abs(cross(d - c, a - c));
+        const double b_side = std::abs(cross(d - c, b - c));
+        if (a_side + b_side > 0.0 && c_side + d_side > 0.0) {
+            closest.first_parameter = a_side / (a_side + b_side);
+            closest.second_parameter = c_side / (c_side + d_side);
+            closest.first = a + closest.first_parameter * (b - a);
+            closest.second = closest.first;
+            closest.squared_distance = 0.0;
+        }
+    }
+    return closest;
 }
 
 }  // namespace nearfield::geometry

@@ -15,6 +15,21 @@ struct NearestOnSegment {
 [[nodiscard]] NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a,
                                                   const Vector& b);
 
+/// The points of two segments that are closest to each other.
+struct ClosestOfSegments {
+    Vector first;   ///< on the first segment
+    Vector second;  ///< on the second
+    double first_parameter = 0.0;
+    double second_parameter = 0.0;
+    double squared_distance = 0.0;
+};
+
+/// The closest points of segments ab and cd. Where the segments cross, the crossing, with distance
+/// 0; of several closest pairs any. Swapping the segments swaps the answer's sides and leaves its
+/// distance the same.
+[[nodiscard]] ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b,
+                                                    const Vector& c, const Vector& d);
+
 /// True where the closed segments ab and cd share a point; touching and overlapping count.
 /// Exact up to the rounding of the orientation determinants.
 [[nodiscard]] bool segments_intersect(const Vector& a, const Vector& b, const Vector& c,

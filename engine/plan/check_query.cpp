@@ -1,5 +1,6 @@
 #include <engine/plan/check_query.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,9 +13,9 @@ Status invalid(const std::string& message) {
     return {StatusCode::invalid_query, message};
 }
 
-Status check_tolerance(double tolerance) {
-    if (!(tolerance > 0.0 && tolerance <= largest_coordinate)) {
-        return invalid("the tolerance is " + number(tolerance) +
+Status check_length(double length, const std::string& what) {
+    if (!(length > 0.0 && length <= largest_coordinate)) {
+        return invalid(what + " is " + number(length) +
                        "; it must be a finite number above 0 and at most " +
                        number(largest_coordinate));
     }
@@ -56,7 +57,7 @@ Status check_rectangle(const Rectangle& rectangle) {
 
 template <class Query>
 Status check_pair(const Query& query) {
-    Status status = check_tolerance(query.tolerance);
+    Status status = check_length(query.tolerance, "the tolerance");
     if (status.ok()) {
         status = check_pose(query.a.pose, "A");
     }
@@ -81,7 +82,20 @@ Status check_query(const AnyQuery& query) {
             return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
         }
     }
+    if (const auto* contact = std::get_if<ContactQuery>(&query); contact && status.ok()) {
+        return check_length(contact->contact_distance, "the contact distance");
+    }
     return status;
+}
+
+double largest_magnitude(const geometry::Box& box) {
+    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+}
+
+double largest_magnitude(const geometry::PlacedPolygon& placed, const Pose& pose) {
+    return std::max({largest_magnitude(placed.box()),
+                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                     std::abs(pose.translation.y)});
 }
 
 Status check_resolution(double tolerance, double largest_magnitude) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/placed_polygon.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
 
@@ -9,6 +10,11 @@ namespace nearfield::plan {
 
 /// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
 [[nodiscard]] Status check_query(const AnyQuery& query);
+
+/// The largest coordinate of a box, in magnitude.
+[[nodiscard]] double largest_magnitude(const geometry::Box& box);
+/// The largest number that placing a shape in the world goes through.
+[[nodiscard]] double largest_magnitude(const geometry::PlacedPolygon& placed, const Pose& pose);
 
 /// A tolerance that double precision can resolve at these coordinates, or an error.
 [[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);

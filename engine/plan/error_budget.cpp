@@ -20,14 +20,26 @@ constexpr double field_mesh_error = 0.125;
 
 ErrorBudget penetration_budget(const PenetrationQuery& query) {
     const double d = query.tolerance;
-    ErrorBudget budget;
-    budget.cell = d * std::numbers::sqrt2;
-    budget.simplification = d;
-    budget.mesh = points_mesh_error * budget.cell;
+    ErrorBudget budget = search_budget(d);
     // Depth changes by no more than the way along the boundary, and samples are at most a cell
     // apart on it; vertices are all looked at.
     const double sampling = query.points == PenetrationPoints::boundary ? budget.cell / 2.0 : 0.0;
     budget.bound = sampling + float_rounding * d;
+    return budget;
+}
+
+ErrorBudget contact_budget(double tolerance) {
+    ErrorBudget budget = search_budget(tolerance);
+    // As for penetration: distances change by no more than the way along the boundary.
+    budget.bound = budget.cell / 2.0 + float_rounding * tolerance;
+    return budget;
+}
+
+ErrorBudget search_budget(double tolerance) {
+    ErrorBudget budget;
+    budget.cell = tolerance * std::numbers::sqrt2;
+    budget.simplification = tolerance;
+    budget.mesh = points_mesh_error * budget.cell;
     return budget;
 }
 

@@ -18,6 +18,10 @@ struct ErrorBudget {
 };
 
 [[nodiscard]] ErrorBudget penetration_budget(const PenetrationQuery& query);
+/// Points of either boundary in the field of the other, for contacts. The bound is the sampling's.
+[[nodiscard]] ErrorBudget contact_budget(double tolerance);
+/// Points that only narrow a search: the bound is left to the one who finishes it exactly.
+[[nodiscard]] ErrorBudget search_budget(double tolerance);
 [[nodiscard]] ErrorBudget intersection_budget(const IntersectionQuery& query,
                                               geometry::SubpixelGrid grid);
 [[nodiscard]] ErrorBudget field_budget(const DistanceFieldQuery& query,

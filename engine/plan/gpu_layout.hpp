@@ -28,8 +28,9 @@ struct TileData {
     EdgeListData crossing;  ///< every edge that a ray towards +x from inside the tile can cross
     float settled = 0.0F;   ///< farther than this from B's boundary, a sample's sign is its cell's
     float margin = 0.0F;    ///< two distances closer than this count as equal
+    std::uint32_t outside = 0;  ///< 1: points outside B are resolved as well
 };
-static_assert(sizeof(TileData) == 48);
+static_assert(sizeof(TileData) == 52);
 
 /// A straight edge, exact or standing for a run of B's edges.
 struct EdgeData {
@@ -49,9 +50,10 @@ struct PointData {
 };
 static_assert(sizeof(PointData) == 16);
 
-/// A resolved point, one word: B's nearest edge and two flags. Zero: outside.
+/// A resolved point, one word: B's nearest edge and three flags. Zero: outside, not resolved.
 inline constexpr std::uint32_t point_inside = 1U << 31U;
 inline constexpr std::uint32_t point_unique = 1U << 30U;
+inline constexpr std::uint32_t point_resolved = 1U << 29U;
 inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
 
 /// A sample found by an intersection.

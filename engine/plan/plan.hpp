@@ -35,6 +35,9 @@ struct Tile {
     /// Which blocks of the tile hold points, or all of them for a field. Not for overlap.
     NeededBlocks needed;
 
+    /// In cells of the tile.
+    [[nodiscard]] geometry::Vector centre() const { return {0.5 * width, 0.5 * height}; }
+    /// In the world.
     [[nodiscard]] geometry::Vector origin() const {
         return grid.origin +
                grid.cell * geometry::Vector(static_cast<double>(column), static_cast<double>(row));
@@ -47,8 +50,11 @@ struct PlannedPoint {
     std::uint32_t tile = 0;
 };
 
-/// What one query became. The polygons live in the shape store until the batch is done.
+/// What one query became, or one direction of it. The polygons live in the shape store until the
+/// batch is done.
 struct PlannedQuery {
+    static constexpr std::uint32_t none = UINT32_MAX;
+
     const AnyQuery* query = nullptr;
     const geometry::Polygon* a = nullptr;  // null where the query has none
     const geometry::Polygon* b = nullptr;
@@ -57,11 +63,16 @@ struct PlannedQuery {
     ErrorBudget budget;
     std::uint32_t first_point = 0;
     std::uint32_t point_count = 0;
+    /// Points outside B are resolved as well.
+    bool outside = false;
+    /// Where the other direction stands in Plan::queries: points of B in the field of A.
+    std::uint32_t reverse = none;
 };
 
 /// A batch as tiles: what is to be rendered, where, and for whom.
 struct Plan {
-    std::vector<PlannedQuery> queries;  ///< by position in the batch
+    /// By position in the batch; behind them the other directions of some.
+    std::vector<PlannedQuery> queries;
     std::vector<Tile> tiles;
     std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
     TileSize extent;                   ///< of the atlas

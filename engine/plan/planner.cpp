@@ -12,9 +12,8 @@ namespace {
 using geometry::Box;
 using geometry::PlacedPolygon;
 
-// What a point, a sample and a cell of a field may take on the host: planned and resolved, in the
-// result and in the buffers on the way there.
-constexpr double bytes_per_point = sizeof(PlannedPoint) + sizeof(PenetrationRecord) + 64.0;
+// What a sample and a cell of a field may take on the host: planned and resolved, in the result and
+// in the buffers on the way there.
 constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
 constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 
@@ -22,17 +21,6 @@ constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0;
 
 constexpr std::uint32_t smallest_atlas = 256;
-
-double largest_magnitude(const Box& box) {
-    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-}
-
-/// The largest number that placing a shape in the world goes through.
-double largest_magnitude(const PlacedPolygon& placed, const Pose& pose) {
-    return std::max({largest_magnitude(placed.box()),
-                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                     std::abs(pose.translation.y)});
-}
 
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
@@ -59,10 +47,16 @@ Result& reuse(AnyResult& any) {
         result.count = 0;
         result.area = 0.0;
         result.samples.clear();
-    } else {
+    } else if constexpr (std::is_same_v<Result, DistanceFieldResult>) {
         result.origin = {};
         result.width = result.height = 0;
         result.values.clear();
+    } else if constexpr (std::is_same_v<Result, ContactResult>) {
+        result.count = 0;
+        result.manifold.clear();
+        result.records.clear();
+    } else {
+        result = {};
     }
     return result;
 }
@@ -171,45 +165,6 @@ void Planner::add_regions(double cell, ResultSummary& result) {
                                   static_cast<std::uint32_t>(std::min(grid.width, most)),
                                   static_cast<std::uint32_t>(std::min(grid.height, most))});
     }
-}
-
-void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    const PlacedPolygon a(*planned.a, query.a.pose);
-    const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = penetration_budget(query);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    const Box box_b = b.box();
-    result.status = check_resolution(query.tolerance, std::max(largest_magnitude(a, query.a.pose),
-                                                               largest_magnitude(b, query.b.pose)));
-    if (!result.status.ok()) {
-        return;
-    }
-
-    const Stopwatch start;
-    chains_.clear();
-    localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
-    join_chain_boxes(box_b, 0.0);
-    localize_milliseconds_ += start.milliseconds();
-    planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
-    if (chains_.empty()) {
-        return;
-    }
-
-    samples_.clear();
-    if (query.points == PenetrationPoints::vertices) {
-        vertices_of_chains(a, chains_, samples_);
-        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
-                       1.0);
-    } else {
-        require_memory(bytes_per_point * most_samples(a, chains_, planned.budget.cell, box_b),
-                       query.tolerance, 1.0);
-        sample_chains(a, chains_, planned.budget.cell, box_b, samples_);
-    }
-    add_regions(planned.budget.cell, result);
-    point_tiles_.spread(a, samples_, box_b, boxes_, grids_, query_, *plan_);
-    planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
 void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/localize/closest.hpp>
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/point_tiles.hpp>
@@ -45,7 +46,19 @@ private:
     void add(const PenetrationQuery& query, PenetrationResult& result);
     void add(const IntersectionQuery& query, IntersectionResult& result);
     void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
+    void add(const ContactQuery& query, ContactResult& result);
+    void add(const ClosestPointQuery& query, ClosestPointResult& result);
+    void add(const SeparationQuery& query, SeparationResult& result);
 
+    void add_closest(double tolerance, bool both_ways, ResultSummary& result);
+    void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
+    void add_closest_points(std::uint32_t index, ResultSummary& result);
+
+    void require_resolution(ResultSummary& result) const;
+    std::uint32_t add_reverse();
+    void sample_boundary(const geometry::PlacedPolygon& polygon, const geometry::Box& within,
+                         const ResultSummary& result);
+    void spread_points(std::uint32_t index, const geometry::Box& within, ResultSummary& result);
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
     void cut_into_tiles(std::uint32_t region, TileKind kind);
@@ -60,6 +73,7 @@ private:
     double localize_milliseconds_ = 0.0;
 
     // Scratch.
+    localize::ClosestChains closest_;
     std::vector<localize::Chain> chains_;
     std::vector<geometry::Box> boxes_;
     std::vector<Grid> grids_;

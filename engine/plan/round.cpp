@@ -135,7 +135,12 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     boundary_.place(*query.b, shapes_.get(*query.b, budget.simplification, longest_run * cell),
                     to_cells);
     const double simplification = budget.simplification / cell;
-    const double mesh_error = budget.mesh / cell;
+    double mesh_error = budget.mesh / cell;
+    if (tile.kind == TileKind::points) {
+        // Resolve goes on from the drawn feature to the nearest one; far from the boundary a mesh
+        // that is as fine as near to it would have no end of triangles.
+        mesh_error = std::max(mesh_error, boundary_.distance(tile.centre()) / 16.0);
+    }
 
     crossing_.clear();
     crossing_edges(boundary_, tile.width, tile.height, simplification, crossing_);
@@ -165,6 +170,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
+    data.outside = query.outside ? 1 : 0;
 
     if (tile.kind == TileKind::field) {
         draw.field = true;

@@ -1,6 +1,9 @@
+#include <engine/geometry/segment.hpp>
 #include <engine/plan/tile_edges.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace nearfield::plan {
 
@@ -26,6 +29,15 @@ void TileBoundary::place(const geometry::Polygon& shape,
             ring_start = i + 1;
         }
     }
+}
+
+double TileBoundary::distance(const Vector& point) const {
+    double squared = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        squared = std::min(squared,
+                           geometry::nearest_on_segment(point, start(i), end(i)).squared_distance);
+    }
+    return std::sqrt(squared);
 }
 
 namespace {

@@ -34,6 +34,9 @@ struct TileBoundary {
     }
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(starts.size()); }
 
+    /// From a point to the simplified boundary, in cells.
+    [[nodiscard]] double distance(const geometry::Vector& point) const;
+
     /// Transforms all end points.
     void place(const geometry::Polygon& shape,
                const std::vector<geometry::SimplifiedEdge>& simplified, const ToCells& to_cells);

@@ -57,13 +57,48 @@ struct DistanceFieldQuery {
     std::optional<Rectangle> rectangle;
 };
 
+/// Where the normal of a contact comes from.
+enum class ContactNormals {
+    analytic,  ///< from the nearest feature: exact
+    gradient,  ///< the paper's: bilinear of central differences of B's signed field at cells
+};
+
+/// Contact points and normals: the points of either boundary that are close to the other boundary
+/// (the paper's section 2.2.4, "Contact Points and Normals"), inside and outside alike.
+struct ContactQuery {
+    Instance a;
+    Instance b;
+    double tolerance = 0.0;         ///< d, world units, > 0: contacts lie at most a cell apart
+    double contact_distance = 0.0;  ///< how close counts as contact, world units, > 0
+    ContactNormals normals = ContactNormals::analytic;
+    bool records = true;  ///< false: keep the summary and the manifold, leave the records out
+};
+
+/// The point of A that is closest to B (section 2.2.4, "Closest Point").
+struct ClosestPointQuery {
+    Instance a;
+    Instance b;
+    /// d, world units, > 0: half the diagonal of a cell of the grid that the search is rendered
+    /// with. The answer is exact whatever it is.
+    double tolerance = 0.0;
+};
+
+/// The least distance between two shapes, and where it is (section 2.2.4, "Separation Distance and
+/// Direction").
+struct SeparationQuery {
+    Instance a;
+    Instance b;
+    double tolerance = 0.0;  ///< as for ClosestPointQuery
+};
+
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
     std::uint32_t index = UINT32_MAX;
 };
 
-using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery>;
+using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
+                              ClosestPointQuery, SeparationQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so a batch that is filled anew each
 /// frame does not allocate. Not thread-safe; different batches are independent.

@@ -97,6 +97,80 @@ struct DistanceFieldResult : ResultSummary {
     std::vector<float> values;  ///< width * height, row by row from the lowest; negative inside B
 };
 
+/// Which of the two shapes of a query.
+enum class Side : std::uint8_t { a, b };
+
+/// A point of one boundary that is close to the other.
+struct ContactRecord {
+    Vector2 point;          ///< on the boundary of the shape `on`
+    Vector2 normal;         ///< unit normal of B's boundary there, pointing out of B
+    double distance = 0.0;  ///< from `point` to `nearest`, >= 0
+    Vector2 nearest;        ///< the nearest point of the other shape's boundary
+    Feature feature;        ///< of the other shape: where `nearest` lies
+    Side on = Side::a;
+    bool inside = false;  ///< `point` lies inside the other shape
+    bool unique = true;   ///< as PenetrationRecord::unique
+};
+
+/// A stretch of the contact between A and B, in one piece and turning by less than a right angle,
+/// told by a few points.
+struct ContactCluster {
+    /// Its two ends, points of A's boundary in the order of A's vertices: the outermost contacts
+    /// along the contact; of several within a cell of the outermost, the closest to B (or deepest
+    /// in it). The same point where there is but one.
+    Vector2 first;
+    Vector2 last;
+    Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B
+    /// The deepest contact where some are inside the other shape, else the closest; of A's contacts
+    /// and of those of B's whose nearest point lies on this stretch.
+    ContactRecord extreme;
+    /// Contacts of A's boundary; of B's where A has none on this stretch, as where a tip of B comes
+    /// close to a long edge of A between two samples.
+    std::uint32_t count = 0;
+};
+
+/// Answer to a ContactQuery.
+///
+/// Each record's numbers are computed in double precision from the vertices as given, but for the
+/// normal where ContactNormals::gradient is asked for. No record is farther from the other boundary
+/// than the contact distance; every point of either boundary no farther from the other than the
+/// contact distance less `error_bound` has a record within `error_bound` of it.
+struct ContactResult : ResultSummary {
+    std::uint32_t count = 0;               ///< contacts found, on both boundaries
+    std::vector<ContactCluster> manifold;  ///< in order along A's rings, then those of B alone
+    std::vector<ContactRecord> records;    ///< A's in order along its rings, then B's
+};
+
+/// Answer to a ClosestPointQuery. `error_bound` bounds the error of `distance`: the rounding of
+/// double precision. Shapes that intersect have distance 0, no direction, and a common point.
+struct ClosestPointResult : ResultSummary {
+    Vector2 point;          ///< of A: closest to B
+    Vector2 nearest;        ///< of B: closest to `point`
+    double distance = 0.0;  ///< from `point` to `nearest`; 0 where the shapes intersect
+    Vector2 direction;      ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
+    Feature feature_a;      ///< where `point` lies on A's boundary; meaningful at a distance > 0
+    Feature feature_b;      ///< where `nearest` lies on B's
+    /// False where the closest point is one of several: another point of A, farther from `point`
+    /// than d, is as close to B up to d/1000.
+    bool unique = true;
+    /// The least distance at the points of A that were rendered: larger than `distance` by a cell
+    /// at the most. 0 where the shapes intersect.
+    double sampled_distance = 0.0;
+};
+
+/// Answer to a SeparationQuery; the rest as in ClosestPointResult. Swapping A and B gives the same
+/// distance.
+struct SeparationResult : ResultSummary {
+    double distance = 0.0;
+    Vector2 point_a;    ///< of A
+    Vector2 point_b;    ///< of B
+    Vector2 direction;  ///< unit vector from point_a to point_b; (0, 0) at distance 0
+    Feature feature_a;
+    Feature feature_b;
+    bool unique = true;
+    double sampled_distance = 0.0;  ///< of the points of both that were rendered
+};
+
 /// Time one pass took on the device.
 struct PassTime {
     std::string name;
@@ -114,7 +188,8 @@ struct Timings {
     std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
 };
 
-using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult>;
+using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
+                               ContactResult, ClosestPointResult, SeparationResult>;
 
 template <class Query>
 struct ResultOf;
@@ -129,6 +204,19 @@ struct ResultOf<IntersectionQuery> {
 template <>
 struct ResultOf<DistanceFieldQuery> {
     using type = DistanceFieldResult;
+};
+
+template <>
+struct ResultOf<ContactQuery> {
+    using type = ContactResult;
+};
+template <>
+struct ResultOf<ClosestPointQuery> {
+    using type = ClosestPointResult;
+};
+template <>
+struct ResultOf<SeparationQuery> {
+    using type = SeparationResult;
 };
 
 /// The results of one batch, in the order of its queries. Reusing one object for every frame keeps

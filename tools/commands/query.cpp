@@ -44,6 +44,8 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     refuse_option(arguments.kind, "--kind", request, QueryType::intersection);
     refuse_option(arguments.rectangle, "--rect", request, QueryType::distance_field);
     refuse_option(arguments.field, "--field", request, QueryType::distance_field);
+    refuse_option(arguments.contact_distance, "--contact-distance", request, QueryType::contacts);
+    refuse_option(arguments.normals, "--normals", request, QueryType::contacts);
     if (!arguments.tolerance) {
         throw InputError("-d: the tolerance is required");
     }
@@ -59,6 +61,13 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     }
     if (arguments.kind) {
         request.kind = parse_kind(*arguments.kind, "--kind");
+    }
+    if (arguments.contact_distance) {
+        request.contact_distance =
+            parse_positive(*arguments.contact_distance, "--contact-distance");
+    }
+    if (arguments.normals) {
+        request.normals = parse_normals(*arguments.normals, "--normals");
     }
     if (arguments.rectangle) {
         request.rectangle = parse_rectangle(*arguments.rectangle, "--rect");
@@ -131,7 +140,8 @@ std::string draw_answer(Context& context, const Answer& answer, const PlacedOutl
     Results background;
     if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
         figure.field = field;
-    } else if (answer.request.type == QueryType::penetration) {
+    } else if (answer.request.type == QueryType::penetration ||
+               answer.request.type == QueryType::contacts) {
         Batch batch;
         const auto handle =
             batch.add(background_query(detail_rectangle(answer, figure.a, figure.b), instance_b));
@@ -150,7 +160,11 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->add_option("query", arguments.type,
                      "penetration: how deep the boundary of A is inside B, and the way out;\n"
                      "intersection: the samples of a grid that lie in both;\n"
-                     "distance-field: the signed distance to B over a grid, negative inside")
+                     "distance-field: the signed distance to B over a grid, negative inside;\n"
+                     "contacts: the points of either boundary that are close to the other, and "
+                     "the normals of B there;\n"
+                     "closest-point: the point of A that is closest to B;\n"
+                     "separation: the least distance between A and B, and where it is")
         ->required()
         ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
     command->add_option("A", arguments.file_a, "Outline A: GeoJSON or WKT file")->required();
@@ -183,6 +197,16 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->add_option("--points", arguments.points,
                      "Of penetration: boundary (samples along A's boundary, no gap wider than a "
                      "grid cell) or vertices (A's own); default boundary")
+        ->type_name("NAME");
+    command
+        ->add_option("--contact-distance", arguments.contact_distance,
+                     "Of contacts: how close counts as contact, world units, > 0; default the "
+                     "tolerance")
+        ->type_name("D");
+    command
+        ->add_option("--normals", arguments.normals,
+                     "Of contacts: analytic (from the nearest feature) or gradient (from the "
+                     "differences of the signed field); default analytic")
         ->type_name("NAME");
     command
         ->add_option("--rect", arguments.rectangle,

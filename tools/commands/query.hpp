@@ -23,6 +23,8 @@ struct QueryArguments {
     std::optional<std::string> json;
     std::optional<std::string> image;
     std::optional<std::string> field;
+    std::optional<std::string> contact_distance;
+    std::optional<std::string> normals;
 };
 
 /// Adds the command `query` to the program; parsing fills `arguments`, which must outlive it.

@@ -12,10 +12,13 @@ namespace {
 template <class Value>
 using Named = std::pair<std::string_view, Value>;
 
-constexpr std::array<Named<QueryType>, 3> query_types{{
+constexpr std::array<Named<QueryType>, 6> query_types{{
     {"penetration", QueryType::penetration},
     {"intersection", QueryType::intersection},
     {"distance-field", QueryType::distance_field},
+    {"contacts", QueryType::contacts},
+    {"closest-point", QueryType::closest_point},
+    {"separation", QueryType::separation},
 }};
 constexpr std::array<Named<PenetrationPoints>, 2> points_names{{
     {"boundary", PenetrationPoints::boundary},
@@ -25,6 +28,10 @@ constexpr std::array<Named<IntersectionKind>, 3> kinds{{
     {"boundary-boundary", IntersectionKind::boundary_boundary},
     {"boundary-volume", IntersectionKind::boundary_volume},
     {"volume-volume", IntersectionKind::volume_volume},
+}};
+constexpr std::array<Named<ContactNormals>, 2> normals_names{{
+    {"analytic", ContactNormals::analytic},
+    {"gradient", ContactNormals::gradient},
 }};
 
 template <class Value>
@@ -54,10 +61,6 @@ bool is_one_of(const std::string& name, std::initializer_list<std::string_view> 
 }  // namespace
 
 QueryType parse_query_type(const std::string& name, const std::string& what) {
-    if (is_one_of(name, {"contacts", "separation", "closest-point"})) {
-        throw InputError(what + ": this version does not answer " + name +
-                         "; it answers penetration, intersection and distance-field");
-    }
     return parse_name<QueryType>(query_types, name, what);
 }
 
@@ -67,6 +70,10 @@ PenetrationPoints parse_points(const std::string& name, const std::string& what)
 
 IntersectionKind parse_kind(const std::string& name, const std::string& what) {
     return parse_name<IntersectionKind>(kinds, name, what);
+}
+
+ContactNormals parse_normals(const std::string& name, const std::string& what) {
+    return parse_name<ContactNormals>(normals_names, name, what);
 }
 
 std::string_view name_of(QueryType type) noexcept {
@@ -107,6 +114,17 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             break;
         case QueryType::distance_field:
             batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle});
+            break;
+        case QueryType::contacts:
+            batch.add(ContactQuery{a, b, request.tolerance,
+                                   request.contact_distance.value_or(request.tolerance),
+                                   request.normals, request.records});
+            break;
+        case QueryType::closest_point:
+            batch.add(ClosestPointQuery{a, b, request.tolerance});
+            break;
+        case QueryType::separation:
+            batch.add(SeparationQuery{a, b, request.tolerance});
             break;
     }
 }

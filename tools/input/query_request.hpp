@@ -9,7 +9,14 @@
 
 namespace nearfield::tools {
 
-enum class QueryType { penetration, intersection, distance_field };
+enum class QueryType {
+    penetration,
+    intersection,
+    distance_field,
+    contacts,
+    closest_point,
+    separation
+};
 
 /// One query as a person or a scene asks for it: all but its two shapes.
 struct QueryRequest {
@@ -17,8 +24,10 @@ struct QueryRequest {
     double tolerance = 0.0;
     PenetrationPoints points = PenetrationPoints::boundary;   ///< of penetration
     IntersectionKind kind = IntersectionKind::volume_volume;  ///< of intersection
-    bool records = true;                                      ///< of both
-    std::optional<Rectangle> rectangle;                       ///< of distance-field
+    bool records = true;                     ///< of penetration, intersection and contacts
+    std::optional<Rectangle> rectangle;      ///< of distance-field
+    std::optional<double> contact_distance;  ///< of contacts; default: tolerance
+    ContactNormals normals = ContactNormals::analytic;  ///< of contacts
 };
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
@@ -26,6 +35,7 @@ struct QueryRequest {
 [[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
+[[nodiscard]] ContactNormals parse_normals(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 

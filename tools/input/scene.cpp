@@ -75,12 +75,12 @@ SceneInstance read_instance(const std::string& name, const JsonPlace& place, con
     return instance;
 }
 
-double read_tolerance(const JsonPlace& place) {
-    const double tolerance = place.number();
-    if (!(tolerance > 0.0)) {
+double read_positive(const JsonPlace& place) {
+    const double number = place.number();
+    if (!(number > 0.0)) {
         place.fail("expected a number greater than 0");
     }
-    return tolerance;
+    return number;
 }
 
 Rectangle read_rectangle(const JsonPlace& place) {
@@ -101,7 +101,7 @@ auto parse_member(const JsonPlace& place, const std::string& key, Parse parse) {
 QueryRequest read_request(const JsonPlace& place) {
     QueryRequest request;
     request.type = parse_member(place, "query", parse_query_type);
-    request.tolerance = read_tolerance(place.member("tolerance"));
+    request.tolerance = read_positive(place.member("tolerance"));
     if (place.has("technique")) {
         parse_member(place, "technique", check_technique);
     }
@@ -129,6 +129,21 @@ QueryRequest read_request(const JsonPlace& place) {
             if (place.has("rect")) {
                 request.rectangle = read_rectangle(place.member("rect"));
             }
+            break;
+        case QueryType::contacts:
+            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
+                                          "records", "contact_distance", "normals"});
+            if (place.has("contact_distance")) {
+                request.contact_distance = read_positive(place.member("contact_distance"));
+            }
+            if (place.has("normals")) {
+                request.normals = parse_member(place, "normals", parse_normals);
+            }
+            break;
+        case QueryType::closest_point:
+        case QueryType::separation:
+            require_known_members(
+                place, {"query", "a", "b", "tolerance", "technique", "strategy", "records"});
             break;
     }
     if (place.has("records")) {

@@ -1,5 +1,6 @@
 #include <tools/output/query_json.hpp>
 
+#include <utility>
 #include <variant>
 
 namespace nearfield::tools {
@@ -71,6 +72,73 @@ void write_result(JsonWriter& json, const DistanceFieldResult& result) {
     json.key("origin").value(result.origin);
     json.key("width").value(std::uint64_t{result.width});
     json.key("height").value(std::uint64_t{result.height});
+}
+
+void write_contact(JsonWriter& json, const ContactRecord& contact) {
+    json.begin_object().key("point").value(contact.point);
+    json.key("normal").value(contact.normal).key("distance").value(contact.distance);
+    json.key("nearest").value(contact.nearest).key("feature");
+    write_feature(json, contact.feature);
+    json.key("on").value(contact.on == Side::a ? "a" : "b");
+    json.key("inside").value(contact.inside).key("unique").value(contact.unique).end_object();
+}
+
+void write_result(JsonWriter& json, const ContactResult& result) {
+    json.key("count").value(std::uint64_t{result.count});
+    json.key("manifold").begin_array(JsonWriter::Layout::lines);
+    for (const ContactCluster& cluster : result.manifold) {
+        json.begin_object().key("first").value(cluster.first).key("last").value(cluster.last);
+        json.key("normal").value(cluster.normal);
+        json.key("count").value(std::uint64_t{cluster.count}).key("extreme");
+        write_contact(json, cluster.extreme);
+        json.end_object();
+    }
+    json.end_array();
+    json.key("contacts").begin_array(JsonWriter::Layout::lines);
+    for (const ContactRecord& contact : result.records) {
+        write_contact(json, contact);
+    }
+    json.end_array();
+}
+
+/// Null where the shapes intersect: there is no direction then.
+void write_direction(JsonWriter& json, double distance, Vector2 direction) {
+    json.key("direction");
+    if (distance > 0.0) {
+        json.value(direction);
+    } else {
+        json.null();
+    }
+}
+
+template <class Result>
+void write_features(JsonWriter& json, const Result& result) {
+    for (const auto& [key, feature] :
+         {std::pair{"feature_a", result.feature_a}, std::pair{"feature_b", result.feature_b}}) {
+        json.key(key);
+        if (result.distance > 0.0) {
+            write_feature(json, feature);
+        } else {
+            json.null();
+        }
+    }
+    json.key("unique").value(result.unique);
+    json.key("sampled_distance").value(result.sampled_distance);
+}
+
+void write_result(JsonWriter& json, const ClosestPointResult& result) {
+    json.key("point").value(result.point);
+    json.key("distance").value(result.distance);
+    json.key("nearest").value(result.nearest);
+    write_direction(json, result.distance, result.direction);
+    write_features(json, result);
+}
+
+void write_result(JsonWriter& json, const SeparationResult& result) {
+    json.key("distance").value(result.distance);
+    json.key("point_a").value(result.point_a).key("point_b").value(result.point_b);
+    write_direction(json, result.distance, result.direction);
+    write_features(json, result);
 }
 
 }  // namespace

@@ -57,6 +57,48 @@ void write_result(std::ostream& stream, const DistanceFieldResult& result) {
                    short_number(result.cell));
 }
 
+void write_result(std::ostream& stream, const ContactResult& result) {
+    write_item(stream, "count",
+               std::to_string(result.count) + " contact points in " +
+                   std::to_string(result.manifold.size()) + " stretches");
+    constexpr std::size_t most_shown = 8;
+    for (std::size_t index = 0; index < result.manifold.size() && index < most_shown; ++index) {
+        const ContactCluster& cluster = result.manifold[index];
+        write_item(stream, "",
+                   point_text(cluster.first) + " to " + point_text(cluster.last) + ", normal " +
+                       point_text(cluster.normal) +
+                       (cluster.extreme.inside ? ", depth " : ", distance ") +
+                       short_number(cluster.extreme.distance));
+    }
+    if (result.manifold.size() > most_shown) {
+        write_item(stream, "",
+                   "and " + std::to_string(result.manifold.size() - most_shown) + " more");
+    }
+}
+
+void write_closest(std::ostream& stream, double distance, Vector2 on_a, Vector2 on_b,
+                   Feature feature_a, Feature feature_b, bool unique) {
+    write_item(stream, "distance", short_number(distance));
+    if (distance > 0.0) {
+        write_item(stream, "point of A", point_text(on_a) + " on " + feature_text(feature_a));
+        write_item(stream, "point of B",
+                   point_text(on_b) + " on " + feature_text(feature_b) +
+                       (unique ? "" : ", one of several pairs"));
+    } else {
+        write_item(stream, "common point", point_text(on_a));
+    }
+}
+
+void write_result(std::ostream& stream, const ClosestPointResult& result) {
+    write_closest(stream, result.distance, result.point, result.nearest, result.feature_a,
+                  result.feature_b, result.unique);
+}
+
+void write_result(std::ostream& stream, const SeparationResult& result) {
+    write_closest(stream, result.distance, result.point_a, result.point_b, result.feature_a,
+                  result.feature_b, result.unique);
+}
+
 void write_regions(std::ostream& stream, const ResultSummary& summary) {
     write_item(stream, "regions", std::to_string(summary.regions.size()));
     constexpr std::size_t most_shown = 8;

@@ -27,9 +27,19 @@ constexpr Rectangle panel_beside_colors{{548.0, 172.0}, {1430.0, 1104.0}};
 constexpr Rectangle panel_alone{{548.0, 172.0}, {page_width - margin, 1104.0}};
 constexpr Rectangle color_strip{{1452.0, 172.0}, {1482.0, 1104.0}};
 
-/// Where the right panel stands: a picture of an intersection has no field and no colour bar.
+/// Where the right panel stands: beside the colour bar, where the picture has a field.
 const Rectangle& detail_panel(const Answer& answer) {
-    return answer.request.type == QueryType::intersection ? panel_alone : panel_beside_colors;
+    switch (answer.request.type) {
+        case QueryType::penetration:
+        case QueryType::distance_field:
+        case QueryType::contacts:
+            return panel_beside_colors;
+        case QueryType::intersection:
+        case QueryType::closest_point:
+        case QueryType::separation:
+            break;
+    }
+    return panel_alone;
 }
 
 using PageRings = std::vector<std::vector<Vector2>>;
@@ -51,6 +61,12 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
             return "Penetration of " + name(figure.a) + " into " + name(figure.b);
         case QueryType::intersection:
             return "Intersection of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::contacts:
+            return "Contacts of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::closest_point:
+            return "Point of " + name(figure.a) + " closest to " + name(figure.b);
+        case QueryType::separation:
+            return "Separation of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::distance_field:
             break;
     }
@@ -71,6 +87,21 @@ std::string facts_of(const IntersectionResult& result) {
 std::string facts_of(const DistanceFieldResult& result) {
     return std::to_string(result.width) + " \u00D7 " + std::to_string(result.height) +
            " cells of " + short_number(result.cell);
+}
+
+std::string facts_of(const ContactResult& result) {
+    return std::to_string(result.count) + " contact points \u00B7 " +
+           std::to_string(result.manifold.size()) + " stretches";
+}
+
+std::string facts_of(const ClosestPointResult& result) {
+    return result.distance > 0.0 ? "distance " + short_number(result.distance)
+                                 : "the shapes intersect";
+}
+
+std::string facts_of(const SeparationResult& result) {
+    return result.distance > 0.0 ? "distance " + short_number(result.distance)
+                                 : "the shapes intersect";
 }
 
 void draw_header(Canvas& canvas, const Figure& figure) {
@@ -132,22 +163,47 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
     canvas.stroke(a, {palette::shape_a, 3.0});
     if (const auto* result = std::get_if<PenetrationResult>(&figure.answer.result)) {
         draw_penetrating_points(canvas, *result, view);
+    } else if (const auto* contacts = std::get_if<ContactResult>(&figure.answer.result)) {
+        draw_contacts(canvas, *contacts, view);
+    } else if (const auto* closest = std::get_if<ClosestPointResult>(&figure.answer.result)) {
+        draw_closest_pair(canvas, view.to_page(closest->point), view.to_page(closest->nearest));
+    } else if (const auto* separation = std::get_if<SeparationResult>(&figure.answer.result)) {
+        draw_closest_pair(canvas, view.to_page(separation->point_a),
+                          view.to_page(separation->point_b));
     }
     draw_scale_bar(canvas, view);
     canvas.unclip();
     canvas.stroke(view.page(), {palette::frame, 1.5});
 }
 
+/// What is worth seeing of two closest points: both, and as much again around them; the shapes
+/// whole where they intersect.
+Rectangle around(const Rectangle& shapes, Vector2 a, Vector2 b) {
+    const double distance = std::hypot(b.x - a.x, b.y - a.y);
+    if (distance == 0.0) {
+        return shapes;
+    }
+    const Vector2 low{std::min(a.x, b.x), std::min(a.y, b.y)};
+    const Vector2 high{std::max(a.x, b.x), std::max(a.y, b.y)};
+    return {{low.x - distance, low.y - distance}, {high.x + distance, high.y + distance}};
+}
+
 }  // namespace
 
 Rectangle detail_rectangle(const Answer& answer, const FigureShape& a, const FigureShape& b) {
     const std::vector<Region>& regions = summary_of(answer.result).regions;
-    Rectangle box = united(bounding_box(a.rings), bounding_box(b.rings));
+    const Rectangle shapes = united(bounding_box(a.rings), bounding_box(b.rings));
+    Rectangle box = shapes;
     if (!regions.empty()) {
         box = {regions.front().min, regions.front().max};
         for (const Region& region : regions) {
             box = united(box, {region.min, region.max});
         }
+    }
+    if (const auto* closest = std::get_if<ClosestPointResult>(&answer.result)) {
+        box = around(shapes, closest->point, closest->nearest);
+    } else if (const auto* separation = std::get_if<SeparationResult>(&answer.result)) {
+        box = around(shapes, separation->point_a, separation->point_b);
     }
     return View(with_margin(box, 0.06), detail_panel(answer)).world();
 }

@@ -60,6 +60,24 @@ void add_entries(std::vector<LegendEntry>& entries, const IntersectionResult&) {
 
 void add_entries(std::vector<LegendEntry>&, const DistanceFieldResult&) {}
 
+void add_entries(std::vector<LegendEntry>& entries, const ContactResult& result) {
+    if (!result.records.empty()) {
+        entries.push_back({pair_mark(draw_contact_mark, true), "contact, normal of B"});
+    }
+    if (!result.manifold.empty()) {
+        entries.push_back({pair_mark(draw_stretch_mark, false), "stretch of contact, its ends"});
+    }
+}
+
+void add_entries(std::vector<LegendEntry>& entries, const ClosestPointResult&) {
+    entries.push_back(
+        {pair_mark(draw_closest_pair, false), "closest point of A, its nearest of B"});
+}
+
+void add_entries(std::vector<LegendEntry>& entries, const SeparationResult&) {
+    entries.push_back({pair_mark(draw_closest_pair, false), "closest points of A and B"});
+}
+
 }  // namespace
 
 std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field) {

@@ -84,4 +84,53 @@ void draw_penetrating_points(Canvas& canvas, const PenetrationResult& result, co
     }
 }
 
+void draw_contact_mark(Canvas& canvas, Vector2 point, Vector2 tip) {
+    canvas.arrow(point, tip, 9.0, {palette::arrow.with_alpha(0.62), 1.4});
+}
+
+void draw_stretch_mark(Canvas& canvas, Vector2 first, Vector2 last) {
+    const std::vector<Vector2> line{first, last};
+    canvas.stroke_open(std::span(&line, 1), {palette::text, 6.0});
+    canvas.stroke_open(std::span(&line, 1), {palette::highlight, 3.0});
+    for (const Vector2& end : line) {
+        canvas.dot(end, 8.5, palette::text);
+        canvas.dot(end, 6.0, palette::highlight);
+    }
+}
+
+void draw_closest_pair(Canvas& canvas, Vector2 on_a, Vector2 on_b) {
+    const std::vector<Vector2> line{on_a, on_b};
+    canvas.stroke_open(std::span(&line, 1), {palette::text, 8.0});
+    canvas.stroke_open(std::span(&line, 1), {palette::highlight, 4.5});
+    canvas.dot(on_a, 10.0, palette::text);
+    canvas.dot(on_a, 7.5, palette::shape_a);
+    canvas.dot(on_b, 10.0, palette::text);
+    canvas.dot(on_b, 7.5, palette::shape_b);
+}
+
+void draw_contacts(Canvas& canvas, const ContactResult& result, const View& view) {
+    constexpr double normal_length = 34.0;  // pixels
+    const auto tip = [&](Vector2 point, Vector2 normal, double length) {
+        return Vector2{point.x + length * normal.x, point.y - length * normal.y};
+    };
+    const std::size_t stride = arrow_stride(result.records.size());
+    for (std::size_t index = 0; index < result.records.size(); ++index) {
+        const ContactRecord& contact = result.records[index];
+        const Vector2 point = view.to_page(contact.point);
+        if (index % stride == 0) {
+            draw_contact_mark(canvas, point, tip(point, contact.normal, normal_length));
+        }
+        canvas.dot(point, 3.6, palette::page);
+        canvas.dot(point, 2.6, contact.on == Side::a ? palette::shape_a : palette::shape_b);
+    }
+    for (const ContactCluster& cluster : result.manifold) {
+        draw_stretch_mark(canvas, view.to_page(cluster.first), view.to_page(cluster.last));
+        const Vector2 point = view.to_page(cluster.extreme.point);
+        const Vector2 end = tip(point, cluster.normal, 2.0 * normal_length);
+        canvas.arrow(point, end, 20.0, {palette::text, 6.5});
+        canvas.arrow(point, tip(point, cluster.normal, 2.0 * normal_length - 4.0), 15.0,
+                     {palette::highlight, 3.5});
+    }
+}
+
 }  // namespace nearfield::tools

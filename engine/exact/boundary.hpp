@@ -1,0 +1,53 @@
+#pragma once
+
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/lazy_tree.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::exact {
+
+/// The point of a boundary nearest to some point.
+struct NearestPoint {
+    std::uint32_t edge = 0;
+    geometry::NearestOnSegment on_edge;
+};
+
+/// Exact answers about single points and one boundary, in double precision, from its hierarchy
+/// driven down to single edges: the time grows with what lies near, not with the shape. Keeps its
+/// memory from polygon to polygon.
+class Boundary {
+public:
+    /// The polygon must outlive the questions.
+    void set(const geometry::PlacedPolygon& polygon);
+
+    [[nodiscard]] const geometry::PlacedPolygon& polygon() const { return tree_.polygon(); }
+
+    /// The nearest point; of equally near ones any.
+    [[nodiscard]] NearestPoint nearest(const geometry::Vector& point);
+
+    /// False where another boundary point is as near to `point` as `nearest` up to `margin` and
+    /// farther from it than the same straight wall explains (PenetrationRecord::unique).
+    [[nodiscard]] bool is_unique(const geometry::Vector& point, const NearestPoint& nearest,
+                                 double margin);
+
+    /// By the odd-even rule; for a point on the boundary either answer may come.
+    [[nodiscard]] bool contains(const geometry::Vector& point);
+
+    /// The unit normal of an edge that points out of the polygon at the edge's middle. Where both
+    /// sides are inside, or neither is (edges that coincide), either may come. An edge of no length
+    /// gives zero.
+    [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge);
+
+private:
+    void find_nearest(std::uint32_t node, const geometry::Vector& point, NearestPoint& best);
+    [[nodiscard]] bool has_rival(std::uint32_t node, const geometry::Vector& point,
+                                 const NearestPoint& nearest, double limit);
+    [[nodiscard]] bool crossings_are_odd(std::uint32_t node, const geometry::Vector& point,
+                                         int along, std::uint32_t left_out);
+
+    localize::LazyTree tree_;
+};
+
+}  // namespace nearfield::exact

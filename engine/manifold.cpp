@@ -1,0 +1,202 @@
+#include <engine/manifold.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+namespace nearfield {
+namespace {
+
+using geometry::Polygon;
+using geometry::to_vector;
+using geometry::Vector;
+
+/// Normals farther apart than this, as the cosine, do not belong together.
+constexpr double widest_turn = std::numbers::sqrt2 / 2.0;
+
+/// Negative inside: the least is the most extreme.
+double signed_distance(const ContactRecord& contact) {
+    return contact.inside ? -contact.distance : contact.distance;
+}
+
+/// The contact's point on A's boundary.
+Vector2 point_on_a(const ContactRecord& contact) {
+    return contact.on == Side::a ? contact.point : contact.nearest;
+}
+
+/// Calls `use(contact)` for the contacts of a stretch, in order.
+template <class Stretch, class Use>
+void for_each(std::span<const PlacedContact> contacts, const Stretch& stretch, const Use& use) {
+    for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+        use(contacts[i].record);
+    }
+    for (std::size_t i = stretch.wrapped_first; i < stretch.wrapped_end; ++i) {
+        use(contacts[i].record);
+    }
+}
+
+/// One end of a stretch: the contact farthest along a direction; of those hardly less far, the
+/// closest or deepest, so that where A turns away from B the corner is the end.
+class EndFinder {
+public:
+    EndFinder(const Vector& along, double hardly) : along_(along), hardly_(hardly) {}
+
+    void look_for_farthest(const ContactRecord& contact) {
+        farthest_ = std::max(farthest_, position(contact));
+    }
+    void look_for_closest(const ContactRecord& contact, std::size_t order) {
+        if (position(contact) >= farthest_ - hardly_ && signed_distance(contact) < closest_) {
+            closest_ = signed_distance(contact);
+            point_ = point_on_a(contact);
+            order_ = order;
+        }
+    }
+
+    [[nodiscard]] Vector2 point() const { return point_; }
+    [[nodiscard]] std::size_t order() const { return order_; }
+
+private:
+    [[nodiscard]] double position(const ContactRecord& contact) const {
+        return along_.dot(to_vector(point_on_a(contact)));
+    }
+
+    Vector along_;
+    double hardly_;
+    double farthest_ = -std::numeric_limits<double>::infinity();
+    double closest_ = std::numeric_limits<double>::infinity();
+    Vector2 point_;
+    std::size_t order_ = 0;
+};
+
+bool is_before(const plan::BoundaryPoint& i, const plan::BoundaryPoint& j) {
+    return std::tie(i.edge, i.parameter) < std::tie(j.edge, j.parameter);
+}
+
+}  // namespace
+
+bool ManifoldBuilder::continues(std::span<const PlacedContact> contacts, const Stretch& stretch,
+                                const PlacedContact& next, const Vector& normal) const {
+    const Vector gap =
+        to_vector(next.record.point) - to_vector(contacts[stretch.last()].record.point);
+    return gap.norm() <= spacing_ &&
+           stretch.normals.dot(normal) >= widest_turn * stretch.normals.norm() * normal.norm();
+}
+
+void ManifoldBuilder::find_stretches(const Polygon& polygon,
+                                     std::span<const PlacedContact> contacts) {
+    stretches_.clear();
+    std::size_t ring_start = 0;  // the first stretch of the current ring
+    std::uint32_t ring = 0;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const std::uint32_t ring_of_contact = polygon.ring_of(contacts[i].place.edge);
+        if (ring_of_contact != ring) {
+            close_ring(contacts, ring_start);
+            ring_start = stretches_.size();
+            ring = ring_of_contact;
+        }
+        const Vector normal = to_vector(contacts[i].record.normal);
+        if (stretches_.size() > ring_start &&
+            continues(contacts, stretches_.back(), contacts[i], normal)) {
+            ++stretches_.back().end;
+            stretches_.back().normals += normal;
+        } else {
+            stretches_.push_back({i, i + 1, 0, 0, normal});
+        }
+    }
+    close_ring(contacts, ring_start);
+}
+
+void ManifoldBuilder::close_ring(std::span<const PlacedContact> contacts, std::size_t ring_start) {
+    if (stretches_.size() < ring_start + 2) {
+        return;
+    }
+    Stretch& front = stretches_[ring_start];
+    const Stretch& back = stretches_.back();
+    if (continues(contacts, back, contacts[front.first], front.normals)) {
+        front = {back.first, back.end, front.first, front.end, back.normals + front.normals};
+        stretches_.pop_back();
+    }
+}
+
+void ManifoldBuilder::add_cluster(std::span<const PlacedContact> contacts, const Stretch& stretch,
+                                  std::vector<ContactCluster>& manifold) const {
+    const double length = stretch.normals.norm();
+    const Vector normal = length > 0.0 ? Vector(stretch.normals / length)
+                                       : to_vector(contacts[stretch.first].record.normal);
+    const Vector along(-normal.y(), normal.x());
+    EndFinder left(along, spacing_);
+    EndFinder right(-along, spacing_);
+    for_each(contacts, stretch, [&](const ContactRecord& contact) {
+        left.look_for_farthest(contact);
+        right.look_for_farthest(contact);
+    });
+    ContactCluster& cluster = manifold.emplace_back();
+    cluster.extreme = contacts[stretch.first].record;
+    std::size_t order = 0;
+    for_each(contacts, stretch, [&](const ContactRecord& contact) {
+        left.look_for_closest(contact, order);
+        right.look_for_closest(contact, order);
+        if (signed_distance(contact) < signed_distance(cluster.extreme)) {
+            cluster.extreme = contact;
+        }
+        ++order;
+    });
+    cluster.first = (left.order() <= right.order() ? left : right).point();
+    cluster.last = (left.order() <= right.order() ? right : left).point();
+    cluster.normal = geometry::to_public(normal);
+    cluster.count = static_cast<std::uint32_t>(stretch.count());
+}
+
+void ManifoldBuilder::join_contacts_of_b(const Polygon& a, std::span<const PlacedContact> of_a,
+                                         std::span<const PlacedContact> of_b,
+                                         std::span<ContactCluster> clusters) {
+    left_over_.clear();
+    const auto lies_on = [&](const PlacedContact& contact, const Stretch& stretch) {
+        const PlacedContact& first = of_a[stretch.first];
+        const PlacedContact& last = of_a[stretch.last()];
+        if (a.ring_of(contact.on_a.edge) != a.ring_of(first.place.edge)) {
+            return false;
+        }
+        const bool after_first = !is_before(contact.on_a, first.place);
+        const bool before_last = !is_before(last.place, contact.on_a);
+        const bool wraps = is_before(last.place, first.place);
+        const Vector nearest = to_vector(contact.record.nearest);
+        return (wraps ? after_first || before_last : after_first && before_last) ||
+               (nearest - to_vector(first.record.point)).norm() <= spacing_ ||
+               (nearest - to_vector(last.record.point)).norm() <= spacing_;
+    };
+    for (const PlacedContact& contact : of_b) {
+        bool found = false;
+        for (std::size_t i = 0; i < stretches_.size() && !found; ++i) {
+            found = lies_on(contact, stretches_[i]);
+            if (found && signed_distance(contact.record) < signed_distance(clusters[i].extreme)) {
+                clusters[i].extreme = contact.record;
+            }
+        }
+        if (!found) {
+            left_over_.push_back(contact);
+        }
+    }
+}
+
+void ManifoldBuilder::build(const Polygon& a, const Polygon& b, std::span<const PlacedContact> of_a,
+                            std::span<const PlacedContact> of_b, double spacing,
+                            std::vector<ContactCluster>& manifold) {
+    // Rounding may put samples that are just as far apart a little farther.
+    spacing_ = spacing * (1.0 + 1e-6);
+    const std::size_t first = manifold.size();
+    find_stretches(a, of_a);
+    for (const Stretch& stretch : stretches_) {
+        add_cluster(of_a, stretch, manifold);
+    }
+    join_contacts_of_b(a, of_a, of_b, std::span(manifold).subspan(first));
+    // Where a sharp feature of B comes close to A between two samples of A, B alone knows.
+    find_stretches(b, left_over_);
+    for (const Stretch& stretch : stretches_) {
+        add_cluster(left_over_, stretch, manifold);
+    }
+}
+
+}  // namespace nearfield

@@ -1,0 +1,174 @@
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/planner.hpp>
+#include <engine/stopwatch.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nearfield::plan {
+
+// The part of the planner for points of one boundary in the field of the other.
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+
+namespace {
+
+// What a point may take on the host: planned and resolved, in the result and in the buffers on the
+// way there.
+constexpr double bytes_per_point =
+    sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
+
+Box grown(Box box, double by) {
+    box.min().array() -= by;
+    box.max().array() += by;
+    return box;
+}
+
+}  // namespace
+
+void Planner::require_resolution(ResultSummary& result) const {
+    const PlannedQuery& planned = plan_->queries[query_];
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    result.status = check_resolution(
+        result.tolerance,
+        std::max(largest_magnitude(a, planned.pose_a), largest_magnitude(b, planned.pose_b)));
+}
+
+void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    const PlacedPolygon a(*planned.a, query.a.pose);
+    const PlacedPolygon b(*planned.b, query.b.pose);
+    planned.budget = penetration_budget(query);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    require_resolution(result);
+    if (!result.status.ok()) {
+        return;
+    }
+
+    const Stopwatch start;
+    const Box box_b = b.box();
+    chains_.clear();
+    localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
+    join_chain_boxes(box_b, 0.0);
+    localize_milliseconds_ += start.milliseconds();
+    if (chains_.empty()) {
+        return;
+    }
+    samples_.clear();
+    if (query.points == PenetrationPoints::vertices) {
+        vertices_of_chains(a, chains_, samples_);
+        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
+                       1.0);
+    } else {
+        sample_boundary(a, box_b, result);
+    }
+    spread_points(query_, box_b, result);
+}
+
+std::uint32_t Planner::add_reverse() {
+    PlannedQuery reverse = plan_->queries[query_];
+    std::swap(reverse.a, reverse.b);
+    std::swap(reverse.pose_a, reverse.pose_b);
+    const auto index = static_cast<std::uint32_t>(plan_->queries.size());
+    plan_->queries[query_].reverse = index;
+    plan_->queries.push_back(reverse);
+    return index;
+}
+
+void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within,
+                              const ResultSummary& result) {
+    require_memory(bytes_per_point * most_samples(polygon, chains_, result.cell, within),
+                   result.tolerance, 1.0);
+    samples_.clear();
+    sample_chains(polygon, chains_, result.cell, within, samples_);
+}
+
+void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummary& result) {
+    PlannedQuery& planned = plan_->queries[index];
+    add_regions(result.cell, result);
+    planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
+    point_tiles_.spread(PlacedPolygon(*planned.a, planned.pose_a), samples_, within, boxes_, grids_,
+                        index, *plan_);
+    planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
+}
+
+void Planner::add_contact_points(std::uint32_t index, double contact_distance,
+                                 ResultSummary& result) {
+    const PlannedQuery& planned = plan_->queries[index];
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const Stopwatch start;
+    const Box within = grown(b.box(), contact_distance);
+    chains_.clear();
+    localize::chains_near_boundary(a, b, {limits_.hierarchy_height, contact_distance}, chains_);
+    join_chain_boxes(within, 0.0);
+    localize_milliseconds_ += start.milliseconds();
+    if (!chains_.empty()) {
+        sample_boundary(a, within, result);
+        spread_points(index, within, result);
+    }
+}
+
+void Planner::add(const ContactQuery& query, ContactResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    planned.budget = contact_budget(query.tolerance);
+    planned.outside = true;
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    require_resolution(result);
+    if (result.status.ok()) {
+        const std::uint32_t reverse = add_reverse();
+        add_contact_points(query_, query.contact_distance, result);
+        add_contact_points(reverse, query.contact_distance, result);
+    }
+}
+
+void Planner::add_closest_points(std::uint32_t index, ResultSummary& result) {
+    const PlannedQuery& planned = plan_->queries[index];
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const Stopwatch start;
+    // A little more than all of A, so that rounding drops no point.
+    const Box everything = grown(a.box(), result.cell);
+    chains_.clear();
+    closest_.find(a, b, limits_.hierarchy_height, chains_);
+    join_chain_boxes(everything, 0.0);
+    localize_milliseconds_ += start.milliseconds();
+    sample_boundary(a, everything, result);
+    spread_points(index, everything, result);
+}
+
+void Planner::add(const ClosestPointQuery& query, ClosestPointResult& result) {
+    add_closest(query.tolerance, false, result);
+}
+
+void Planner::add(const SeparationQuery& query, SeparationResult& result) {
+    add_closest(query.tolerance, true, result);
+}
+
+void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    planned.budget = search_budget(tolerance);
+    planned.outside = true;
+    result.cell = planned.budget.cell;
+    require_resolution(result);
+    if (!result.status.ok()) {
+        return;
+    }
+    const Stopwatch start;
+    result.intersects = localize::intersects(PlacedPolygon(*planned.a, planned.pose_a),
+                                             PlacedPolygon(*planned.b, planned.pose_b));
+    localize_milliseconds_ += start.milliseconds();
+    if (result.intersects) {
+        return;  // at distance 0: nothing to search for
+    }
+    if (both_ways) {
+        add_closest_points(add_reverse(), result);
+    }
+    add_closest_points(query_, result);
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,75 @@
+#include <engine/point_resolver.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield {
+namespace {
+
+using geometry::Vector;
+
+/// The device decides on which side of the boundary a point lies in single precision, in cells of a
+/// tile. A point nearer to the boundary than this could lie on either side: it touches.
+double touching_distance(const plan::Tile& tile) {
+    const double side = std::max({tile.width, tile.height, 64U});
+    return tile.grid.cell * std::ldexp(side, -21);
+}
+
+/// Farther than this many cells, single precision cannot tell apart what differs by a thousandth of
+/// d: which edge is nearest is decided once more, in double precision.
+constexpr double farthest_in_single_precision = 1024.0;
+
+}  // namespace
+
+Feature feature_at(const geometry::Polygon& polygon, std::uint32_t edge, double parameter) {
+    if (parameter <= 0.0) {
+        return {Feature::Kind::vertex, edge};
+    }
+    if (parameter >= 1.0) {
+        return {Feature::Kind::vertex, polygon.next(edge)};
+    }
+    return {Feature::Kind::edge, edge};
+}
+
+void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& query) {
+    plan_ = &plan;
+    query_ = &query;
+    a_.emplace(*query.a, query.pose_a);
+    b_.emplace(*query.b, query.pose_b);
+    boundary_is_set_ = false;
+}
+
+exact::Boundary& PointResolver::boundary_of_b() {
+    if (!boundary_is_set_) {
+        boundary_.set(*b_);
+        boundary_is_set_ = true;
+    }
+    return boundary_;
+}
+
+ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uint32_t word) {
+    const Vector point = position(*a_, planned.point);
+    const std::uint32_t edge = word & plan::point_edge_mask;
+    exact::NearestPoint nearest{edge,
+                                geometry::nearest_on_segment(point, b_->vertex(edge),
+                                                             b_->vertex(b_->polygon().next(edge)))};
+    bool unique = (word & plan::point_unique) != 0;
+    const double far = farthest_in_single_precision * query_->budget.cell;
+    if (nearest.on_edge.squared_distance > far * far) {
+        nearest = boundary_of_b().nearest(point);
+        const double tolerance = query_->budget.cell / std::numbers::sqrt2;
+        unique = boundary_of_b().is_unique(point, nearest, tolerance * plan::uniqueness_margin);
+    }
+    const double distance = std::sqrt(nearest.on_edge.squared_distance);
+    return {point,
+            nearest.on_edge.point,
+            distance,
+            nearest.edge,
+            nearest.on_edge.parameter,
+            feature_at(b_->polygon(), nearest.edge, nearest.on_edge.parameter),
+            (word & plan::point_inside) != 0 &&
+                distance > touching_distance(plan_->tiles[planned.tile]),
+            unique};
+}
+
+}  // namespace nearfield
