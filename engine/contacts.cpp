@@ -11,6 +11,9 @@ using geometry::Vector;
 using plan::BoundaryPoint;
 using plan::PlannedQuery;
 
+// So far from an end of an edge its sides are the edge's own, not a neighbour's.
+constexpr double just_inside = 1.0 / 1024.0;
+
 ContactRecord make_record(const ResolvedPoint& resolved, Side on, const Vector& normal) {
     return {geometry::to_public(resolved.point),
             geometry::to_public(normal),
@@ -43,7 +46,6 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
 void ContactDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
                             std::span<const std::uint32_t> words, ContactResult& result) {
     const auto& asked = std::get<ContactQuery>(*query.query);
-    normal_edge_ = UINT32_MAX;
     const geometry::PlacedPolygon a(*query.a, query.pose_a);
     const geometry::PlacedPolygon b(*query.b, query.pose_b);
     touching_ =
@@ -94,34 +96,32 @@ Vector ContactDecoder::normal_of_b_near(const ResolvedPoint& resolved) {
         return resolved.inside ? Vector(-away) : away;
     }
     return resolved.feature.kind == Feature::Kind::edge
-               ? normal_of_b(resolved.edge)
+               ? normal_of_b(resolved.edge, resolved.parameter)
                : normal_of_b_at({resolved.feature.index, 0.0});
 }
 
-Vector ContactDecoder::normal_of_b(std::uint32_t edge) {
-    if (edge != normal_edge_) {
-        const geometry::Polygon& polygon = a_in_b_.b().polygon();
-        normal_ = a_in_b_.boundary_of_b().outward_normal(edge);
-        // An edge of no length has no normal: the next one that has stands in for it.
-        for (std::uint32_t other = polygon.next(edge); normal_.isZero() && other != edge;
-             other = polygon.next(other)) {
-            normal_ = a_in_b_.boundary_of_b().outward_normal(other);
-        }
-        normal_edge_ = edge;
+Vector ContactDecoder::normal_of_b(std::uint32_t edge, double parameter) {
+    exact::Boundary& boundary = a_in_b_.boundary_of_b();
+    const geometry::Polygon& polygon = boundary.polygon().polygon();
+    Vector normal = boundary.outward_normal(edge, parameter);
+    // An edge of no length has no normal: the next one that has stands in for it.
+    for (std::uint32_t other = polygon.next(edge); normal.isZero() && other != edge;
+         other = polygon.next(other)) {
+        normal = boundary.outward_normal(other, just_inside);
     }
-    return normal_;
+    return normal;
 }
 
 Vector ContactDecoder::normal_of_b_at(const BoundaryPoint& point) {
     if (point.parameter > 0.0) {
-        return normal_of_b(point.edge);
+        return normal_of_b(point.edge, point.parameter);
     }
     // At a vertex, between the normals of its two edges; where these cancel, one of them.
     const geometry::Polygon& polygon = a_in_b_.b().polygon();
-    const std::uint32_t previous = polygon.previous(point.edge);
-    const Vector sum = normal_of_b(previous) + normal_of_b(point.edge);
+    const Vector after = normal_of_b(point.edge, just_inside);
+    const Vector sum = normal_of_b(polygon.previous(point.edge), 1.0 - just_inside) + after;
     const double length = sum.norm();
-    return length > 1e-9 ? Vector(sum / length) : normal_of_b(point.edge);
+    return length > 1e-9 ? Vector(sum / length) : after;
 }
 
 }  // namespace nearfield

@@ -25,7 +25,7 @@ private:
     void find_contacts_of_b(const plan::Plan& plan, const plan::PlannedQuery& reverse,
                             std::span<const std::uint32_t> words, double contact_distance);
     [[nodiscard]] geometry::Vector normal_of_b_near(const ResolvedPoint& resolved);
-    [[nodiscard]] geometry::Vector normal_of_b(std::uint32_t edge);
+    [[nodiscard]] geometry::Vector normal_of_b(std::uint32_t edge, double parameter);
     [[nodiscard]] geometry::Vector normal_of_b_at(const plan::BoundaryPoint& point);
 
     double touching_ = 0.0;  // nearer than this, the direction to the nearest point means little
@@ -34,8 +34,6 @@ private:
     std::vector<PlacedContact> of_a_;
     std::vector<PlacedContact> of_b_;
     ManifoldBuilder manifold_;
-    std::uint32_t normal_edge_ = UINT32_MAX;  // the last edge whose normal was asked for
-    geometry::Vector normal_ = geometry::Vector::Zero();
 };
 
 }  // namespace nearfield

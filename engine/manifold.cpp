@@ -37,18 +37,18 @@ void for_each(std::span<const PlacedContact> contacts, const Stretch& stretch, c
     }
 }
 
-/// One end of a stretch: the contact farthest along a direction; of those hardly less far, the
-/// closest or deepest, so that where A turns away from B the corner is the end.
+/// One end of a stretch: the contact farthest along a direction. A distance from B counts twice
+/// against it, so that where A turns away from B its corner is the end, and where B does, its
+/// corner's neighbourhood.
 class EndFinder {
 public:
-    EndFinder(const Vector& along, double hardly) : along_(along), hardly_(hardly) {}
+    explicit EndFinder(const Vector& along) : along_(along) {}
 
-    void look_for_farthest(const ContactRecord& contact) {
-        farthest_ = std::max(farthest_, position(contact));
-    }
-    void look_for_closest(const ContactRecord& contact, std::size_t order) {
-        if (position(contact) >= farthest_ - hardly_ && signed_distance(contact) < closest_) {
-            closest_ = signed_distance(contact);
+    void look_at(const ContactRecord& contact, std::size_t order) {
+        const double merit =
+            along_.dot(to_vector(point_on_a(contact))) - 2.0 * signed_distance(contact);
+        if (merit > merit_) {
+            merit_ = merit;
             point_ = point_on_a(contact);
             order_ = order;
         }
@@ -58,14 +58,8 @@ public:
     [[nodiscard]] std::size_t order() const { return order_; }
 
 private:
-    [[nodiscard]] double position(const ContactRecord& contact) const {
-        return along_.dot(to_vector(point_on_a(contact)));
-    }
-
     Vector along_;
-    double hardly_;
-    double farthest_ = -std::numeric_limits<double>::infinity();
-    double closest_ = std::numeric_limits<double>::infinity();
+    double merit_ = -std::numeric_limits<double>::infinity();
     Vector2 point_;
     std::size_t order_ = 0;
 };
@@ -126,18 +120,14 @@ void ManifoldBuilder::add_cluster(std::span<const PlacedContact> contacts, const
     const Vector normal = length > 0.0 ? Vector(stretch.normals / length)
                                        : to_vector(contacts[stretch.first].record.normal);
     const Vector along(-normal.y(), normal.x());
-    EndFinder left(along, spacing_);
-    EndFinder right(-along, spacing_);
-    for_each(contacts, stretch, [&](const ContactRecord& contact) {
-        left.look_for_farthest(contact);
-        right.look_for_farthest(contact);
-    });
+    EndFinder left(along);
+    EndFinder right(-along);
     ContactCluster& cluster = manifold.emplace_back();
     cluster.extreme = contacts[stretch.first].record;
     std::size_t order = 0;
     for_each(contacts, stretch, [&](const ContactRecord& contact) {
-        left.look_for_closest(contact, order);
-        right.look_for_closest(contact, order);
+        left.look_at(contact, order);
+        right.look_at(contact, order);
         if (signed_distance(contact) < signed_distance(cluster.extreme)) {
             cluster.extreme = contact;
         }

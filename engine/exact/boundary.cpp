@@ -96,7 +96,7 @@ bool Boundary::contains(const Vector& point) {
     return crossings_are_odd(localize::LazyTree::root, point, 0, no_edge);
 }
 
-Vector Boundary::outward_normal(std::uint32_t edge) {
+Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
     const Vector start = polygon().vertex(edge);
     const Vector end = polygon().vertex(polygon().polygon().next(edge));
     const Vector direction = end - start;
@@ -108,7 +108,7 @@ Vector Boundary::outward_normal(std::uint32_t edge) {
     // The ray leaves the edge across its longer extent; what lies just beyond the edge decides.
     const int along = std::abs(direction.y()) >= std::abs(direction.x()) ? 0 : 1;
     const bool inside_ahead =
-        crossings_are_odd(localize::LazyTree::root, 0.5 * (start + end), along, edge);
+        crossings_are_odd(localize::LazyTree::root, start + parameter * direction, along, edge);
     const bool left_is_ahead = left[along] > 0.0;
     return inside_ahead == left_is_ahead ? Vector(-left) : left;
 }

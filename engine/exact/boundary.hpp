@@ -35,10 +35,11 @@ public:
     /// By the odd-even rule; for a point on the boundary either answer may come.
     [[nodiscard]] bool contains(const geometry::Vector& point);
 
-    /// The unit normal of an edge that points out of the polygon at the edge's middle. Where both
-    /// sides are inside, or neither is (edges that coincide), either may come. An edge of no length
-    /// gives zero.
-    [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge);
+    /// The unit normal of an edge that points out of the polygon at a place on the edge,
+    /// `parameter` of the way along it; the side changes where the boundary crosses itself. Where
+    /// both sides are inside, or neither is (edges that coincide), either may come. An edge of no
+    /// length gives zero.
+    [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge, double parameter);
 
 private:
     void find_nearest(std::uint32_t node, const geometry::Vector& point, NearestPoint& best);

@@ -115,9 +115,9 @@ struct ContactRecord {
 /// A stretch of the contact between A and B, in one piece and turning by less than a right angle,
 /// told by a few points.
 struct ContactCluster {
-    /// Its two ends, points of A's boundary in the order of A's vertices: the outermost contacts
-    /// along the contact; of several within a cell of the outermost, the closest to B (or deepest
-    /// in it). The same point where there is but one.
+    /// Its two ends, points of A's boundary in the order of A's vertices: the contacts farthest
+    /// along the stretch, at right angles to `normal`, where a contact's distance from B (negative
+    /// inside) counts twice against it. The same point where there is but one.
     Vector2 first;
     Vector2 last;
     Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B

@@ -29,4 +29,14 @@ void check_intersection(const PlacedPair& pair, IntersectionKind kind,
 void check_field(const oracle::ShapeOracle& b, double tolerance, const DistanceFieldResult& result,
                  std::size_t most_cells = 20000);
 
+/// The distance and both points exact, the rendered samples near enough, the flag where it must be.
+void check_separation(const PlacedPair& pair, const SeparationResult& result);
+
+/// A closest point is the separation's point of A.
+void check_same(const SeparationResult& separation, const ClosestPointResult& closest);
+
+/// Records exact and complete on both boundaries, normals pointing out of B, and a manifold that
+/// stands for all of them.
+void check_contacts(const PlacedPair& pair, double contact_distance, const ContactResult& result);
+
 }  // namespace nearfield::test

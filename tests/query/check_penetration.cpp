@@ -1,6 +1,7 @@
 #include <tests/oracle/boundary.hpp>
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/check_nearest.hpp>
 #include <tests/query/point_index.hpp>
 
 #include <algorithm>
@@ -13,84 +14,16 @@ namespace {
 using oracle::Nearest;
 using oracle::ShapeOracle;
 
-/// What points and directions may differ by from exact ones: rounding, no more. Only the choice
-/// between features that are equally near within d/1000 is left to the library.
-double allowed_rounding(const PlacedPair& pair) {
-    return pair.rounding() + 1e-6 * pair.tolerance();
-}
-
-double angle_between(const Vector2& a, const Vector2& b) {
-    return std::abs(std::atan2(a.x * b.y - a.y * b.x, oracle::dot(a, b)));
-}
-
-std::string text_of(const Vector2& p) {
-    std::ostringstream text;
-    text.precision(17);
-    text << p.x << ", " << p.y;
-    return text.str();
-}
-
-double distance_to_feature(const ShapeOracle& b, const Feature& feature, const Vector2& point) {
-    if (feature.index >= b.size()) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return feature.kind == Feature::Kind::vertex ? oracle::distance(b.vertex(feature.index), point)
-                                                 : b.nearest_on_edge(feature.index, point).distance;
-}
-
-/// The flag has to be down where another local minimum of the distance is clearly within d/1000 and
-/// farther from `nearest` than twice what points of one straight wall within d/1000 could be; and
-/// up where no edge has a point within d/1000 in any other direction.
-void check_unique(Report& report, const PlacedPair& pair, const PenetrationRecord& record) {
-    const double slack = pair.tolerance() / 1000;
-    const double allowed = allowed_rounding(pair);
-    const auto about = [&](const char* what) {
-        return "record at " + text_of(record.point) + " of depth " + std::to_string(record.depth) +
-               ", nearest " + text_of(record.nearest) + ", is " + what;
-    };
-    if (record.unique) {
-        const double along_wall = std::sqrt(slack * (2 * record.depth + slack));
-        const double clearly_near = record.depth + 0.9 * slack - 2 * allowed;
-        for (const Nearest& rival : pair.b().local_minima_within(record.point, clearly_near)) {
-            report.require(
-                oracle::distance(rival.point, record.nearest) <= 2.05 * along_wall + allowed,
-                about("called unique; a rival is "), rival.distance, " away at ",
-                text_of(rival.point));
-        }
-    } else if (record.depth > slack) {
-        const auto others =
-            pair.b().edges_within(record.point, record.depth + 1.1 * slack + 2 * allowed);
-        const bool rivalled = std::any_of(others.begin(), others.end(), [&](const Nearest& other) {
-            const Vector2 direction = oracle::minus(other.point, record.point);
-            return angle_between(direction, record.direction) > 1e-6;
-        });
-        report.require(rivalled, about("called not unique and has no rival"));
-    }
-}
-
 void check_record(Report& report, const PlacedPair& pair, const PenetrationRecord& record) {
     const double d = pair.tolerance();
     const double allowed = allowed_rounding(pair);
-    const auto about = [&](const char* what, double value) {
-        std::ostringstream text;
-        text.precision(17);
-        text << "record at " << record.point.x << ", " << record.point.y << " depth "
-             << record.depth << (record.unique ? "" : " (not unique)") << ": " << what << ' '
-             << value;
-        return text.str();
-    };
+    check_nearest(report, {pair.a(), pair.b(), d, allowed},
+                  {record.point, record.depth, record.nearest, record.feature, record.unique});
     const auto require_at_most = [&](double value, double most, const char* what) {
-        report.require(value <= most, value <= most ? std::string() : about(what, value));
+        report.require(value <= most, "record at ", record.point.x, ", ", record.point.y, " depth ",
+                       record.depth, ": ", what, ' ', value);
     };
-    const double truth = pair.b().nearest(record.point).distance;
-    require_at_most(pair.a().nearest(record.point).distance, allowed,
-                    "the point is off A's boundary by");
     require_at_most(pair.b().signed_distance(record.point), 1e-3 * d, "the point is outside B by");
-    require_at_most(std::abs(record.depth - truth), 1e-3 * d + allowed, "the depth is off by");
-    require_at_most(pair.b().nearest(record.nearest).distance, allowed,
-                    "`nearest` is off B's boundary by");
-    require_at_most(distance_to_feature(pair.b(), record.feature, record.nearest), allowed,
-                    "`nearest` is off its feature by");
     require_at_most(std::abs(oracle::length(record.direction) - 1.0), 1e-9,
                     "the direction's length is off by");
     const Vector2 reached =
@@ -98,7 +31,6 @@ void check_record(Report& report, const PlacedPair& pair, const PenetrationRecor
     require_at_most(oracle::distance(reached, record.nearest), allowed,
                     "point + depth * direction misses `nearest` by");
     report.require(record.depth > 0.0, "depth ", record.depth);
-    check_unique(report, pair, record);
 }
 
 /// The lowest place along A's rings, not before `from`, where the point lies; infinity: none.

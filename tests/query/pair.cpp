@@ -71,6 +71,23 @@ IntersectionQuery PlacedPair::intersection(IntersectionKind kind) const {
     return query;
 }
 
+ContactQuery PlacedPair::contacts(double contact_distance) const {
+    ContactQuery query;
+    query.a = instance_a();
+    query.b = instance_b();
+    query.tolerance = tolerance();
+    query.contact_distance = contact_distance;
+    return query;
+}
+
+SeparationQuery PlacedPair::separation() const {
+    return {instance_a(), instance_b(), tolerance()};
+}
+
+ClosestPointQuery PlacedPair::closest_point() const {
+    return {instance_a(), instance_b(), tolerance()};
+}
+
 Pose pose_at(const Vector2& own, const Vector2& world, double angle) {
     const double cosine = std::cos(angle);
     const double sine = std::sin(angle);

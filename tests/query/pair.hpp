@@ -43,6 +43,9 @@ public:
     [[nodiscard]] PenetrationQuery penetration(
         PenetrationPoints points = PenetrationPoints::boundary) const;
     [[nodiscard]] IntersectionQuery intersection(IntersectionKind kind) const;
+    [[nodiscard]] ContactQuery contacts(double contact_distance) const;
+    [[nodiscard]] SeparationQuery separation() const;
+    [[nodiscard]] ClosestPointQuery closest_point() const;
 
 private:
     Context* context_;

@@ -1,0 +1,120 @@
+#include <tests/oracle/plane.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/outlines.hpp>
+
+#include <cmath>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 2718;
+
+/// Pairs that are more often apart than any_pair's.
+Pair any_apart_pair(Random& random) {
+    Pair pair = any_pair(random);
+    const double far = random.scale(0.1, 1000.0) * pair.tolerance * 10.0;
+    const double direction = random.between(-3.2, 3.2);
+    pair.pose_b.translation.x += far * std::cos(direction);
+    pair.pose_b.translation.y += far * std::sin(direction);
+    return pair;
+}
+
+class Closest : public QueryTest {
+protected:
+    static SeparationResult check(Pair pair) {
+        const PlacedPair placed(context(), std::move(pair));
+        SCOPED_TRACE(describe(placed.pair()));
+        const SeparationResult separation = run_alone(context(), placed.separation());
+        check_separation(placed, separation);
+        check_same(separation, run_alone(context(), placed.closest_point()));
+
+        SeparationQuery swapped = placed.separation();
+        std::swap(swapped.a, swapped.b);
+        const SeparationResult other_way = run_alone(context(), swapped);
+        EXPECT_EQ(other_way.distance, separation.distance) << "A and B swapped";
+        EXPECT_EQ(other_way.intersects, separation.intersects);
+        return separation;
+    }
+    static SeparationResult check(const Rings& a, const Rings& b, double tolerance) {
+        return check(Pair{{"A", a}, {"B", b}, {}, {}, tolerance});
+    }
+};
+
+TEST_F(Closest, HoldsForRandomPairs) {
+    const int cases = random_cases(150);
+    int apart = 0;
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + static_cast<std::uint64_t>(i));
+        apart += check(any_apart_pair(random)).intersects ? 0 : 1;
+    }
+    EXPECT_GT(apart, cases / 4);
+}
+
+TEST_F(Closest, HoldsForEveryFamily) {
+    for (Pair& pair : family_pairs(seed)) {
+        pair.pose_b.translation.x += 15.0;
+        check(std::move(pair));
+    }
+}
+
+TEST_F(Closest, ParallelEdgesAreNotUnique) {
+    const Rings left = rectangle({-2, -1}, {0, 1});
+    const SeparationResult result = check(left, rectangle({0.5, -0.4}, {2, 5}), 0.1);
+    EXPECT_EQ(result.distance, 0.5);
+    EXPECT_FALSE(result.unique);
+    EXPECT_TRUE(check(left, {{{0.5, 0}, {2, -1}, {2, 1}}}, 0.1).unique);
+}
+
+TEST_F(Closest, TiesAreNotUnique) {
+    const Rings fork{{{0, 0}, {4, 0}, {4, 2}, {3, 1}, {1, 1}, {0, 2}}};
+    EXPECT_FALSE(check(fork, rectangle({-1, 3}, {5, 4}), 0.05).unique);
+}
+
+TEST_F(Closest, ContainmentIsDistanceZero) {
+    const Rings outer = rectangle({-5, -5}, {5, 5});
+    const Rings inner = rectangle({-1, -1}, {1, 1});
+    EXPECT_TRUE(check(outer, inner, 0.1).intersects);
+    EXPECT_TRUE(check(inner, outer, 0.1).intersects);
+    // In a hole there is a distance.
+    const Rings frame{outer[0], rectangle({-3, -3}, {3, 3})[0]};
+    EXPECT_EQ(check(frame, inner, 0.1).distance, 2.0);
+    // One part of several inside.
+    const Rings parts{rectangle({10, 0}, {11, 1})[0], inner[0]};
+    EXPECT_EQ(check(parts, outer, 0.1).distance, 0.0);
+}
+
+TEST_F(Closest, OverlappingBoxesAndTouch) {
+    const Rings corner{{{0, 0}, {10, 0}, {10, 1}, {1, 1}, {1, 10}, {0, 10}}};
+    EXPECT_EQ(check(corner, rectangle({3, 4}, {9, 9}), 0.1).distance, 2.0);
+    EXPECT_EQ(check(corner, rectangle({1, 1}, {9, 9}), 0.1).distance, 0.0);
+}
+
+TEST_F(Closest, FarApartAtASmallTolerance) {
+    Random random(seed);
+    const Rings a = star(random, 40, 0.6);
+    const Rings b = star(random, 50, 0.6);
+    for (const double far : {1e2, 1e4, 1e6}) {
+        check(a, scaled_and_moved(b, 1.0, {far, far / 3}), 0.01);
+    }
+    check(scaled_and_moved(a, 1.0, {1e6, 0}), scaled_and_moved(b, 1.0, {1e6 + 7, 1}), 0.01);
+}
+
+TEST_F(Closest, OutlinesAreExact) {
+    const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        const NamedRings& other = outlines[(i + 1) % outlines.size()];
+        for (const double apart : {430.0, 700.0}) {
+            const double angle = static_cast<double>(i);
+            check(Pair{outlines[i],
+                       other,
+                       {},
+                       {{apart * std::cos(angle), apart * std::sin(angle)}, 0.4},
+                       0.5});
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test

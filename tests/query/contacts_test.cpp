@@ -1,0 +1,134 @@
+#include <tests/oracle/plane.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 577;
+
+class Contacts : public QueryTest {
+protected:
+    static ContactResult check(Pair pair, double contact_distance) {
+        const PlacedPair placed(context(), std::move(pair));
+        SCOPED_TRACE(describe(placed.pair()) + "\ncontact distance " +
+                     std::to_string(contact_distance));
+        ContactResult result = run_alone(context(), placed.contacts(contact_distance));
+        check_contacts(placed, contact_distance, result);
+        return result;
+    }
+    static ContactResult check(const Rings& a, const Rings& b, double tolerance,
+                               double contact_distance) {
+        return check(Pair{{"A", a}, {"B", b}, {}, {}, tolerance}, contact_distance);
+    }
+};
+
+void expect_near(const Vector2& value, const Vector2& expected) {
+    EXPECT_LT(oracle::distance(value, expected), 1e-12) << value.x << ", " << value.y;
+}
+
+TEST_F(Contacts, HoldForRandomPairs) {
+    const int cases = random_cases(120);
+    std::size_t found = 0;
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + static_cast<std::uint64_t>(i));
+        Pair pair = any_pair(random);
+        const double contact_distance = pair.tolerance * random.scale(0.3, 8.0);
+        found += check(std::move(pair), contact_distance).count > 0 ? 1U : 0U;
+    }
+    EXPECT_GT(found, static_cast<std::size_t>(cases) / 3);
+}
+
+TEST_F(Contacts, HoldForEveryFamily) {
+    for (const Pair& pair : family_pairs(seed)) {
+        check(pair, 0.5);
+    }
+}
+
+TEST_F(Contacts, ABoxOnAFloorHasTwoEndsAndOneNormal) {
+    const Rings box = rectangle({-1, 0.05}, {1, 2});
+    const Rings floor = rectangle({-10, -1}, {10, 0});
+    const ContactResult on_floor = check(box, floor, 0.1, 0.2);
+    ASSERT_EQ(on_floor.manifold.size(), 1U);
+    const ContactCluster& cluster = on_floor.manifold.front();
+    expect_near(cluster.first, {-1, 0.05});
+    expect_near(cluster.last, {1, 0.05});
+    expect_near(cluster.normal, {0, 1});
+    EXPECT_NEAR(cluster.extreme.distance, 0.05, 1e-12);
+    EXPECT_FALSE(cluster.extreme.inside);
+    // Sunk in a little: the corners are the deepest there is.
+    const ContactResult sunk = check(rectangle({-1, -0.05}, {1, 2}), floor, 0.1, 0.2);
+    ASSERT_GE(sunk.manifold.size(), 1U);
+    EXPECT_TRUE(sunk.manifold.front().extreme.inside);
+    EXPECT_NEAR(sunk.manifold.front().extreme.distance, 0.05, 1e-12);
+}
+
+TEST_F(Contacts, ACornerInACornerHasTwoStretches) {
+    const Rings corner{{{0, 0}, {10, 0}, {10, 1}, {1, 1}, {1, 10}, {0, 10}}};
+    const ContactResult result = check(rectangle({1.05, 1.05}, {4, 4}), corner, 0.1, 0.15);
+    ASSERT_EQ(result.manifold.size(), 2U);
+    for (const ContactCluster& cluster : result.manifold) {
+        EXPECT_NEAR(std::max(cluster.normal.x, cluster.normal.y), 1.0, 1e-3);
+    }
+}
+
+TEST_F(Contacts, ATipBetweenTwoSamplesIsFound) {
+    // Closer than a quarter of a cell to a long edge of A, half way between two samples of it.
+    const Rings edge = rectangle({0, -1}, {10, 0});
+    const ContactResult result = check(edge, {{{5.05, 0.01}, {6, 2}, {4, 2}}}, 0.2, 0.03);
+    ASSERT_EQ(result.manifold.size(), 1U);
+    EXPECT_NEAR(result.manifold.front().extreme.distance, 0.01, 1e-12);
+}
+
+TEST_F(Contacts, SharedEdgesTouchAtDistanceZero) {
+    const ContactResult result =
+        check(rectangle({-2, -1}, {0, 1}), rectangle({0, -1}, {2, 1}), 0.1, 0.05);
+    ASSERT_FALSE(result.records.empty());
+    for (const ContactRecord& contact : result.records) {
+        if (std::abs(contact.point.y) < 0.9) {
+            EXPECT_NEAR(contact.distance, 0.0, 1e-12);
+            EXPECT_FALSE(contact.inside);
+            EXPECT_NEAR(contact.normal.x, -1.0, 1e-12);
+        }
+    }
+}
+
+TEST_F(Contacts, NothingFarApart) {
+    const ContactResult result =
+        check(rectangle({0, 0}, {1, 1}), rectangle({3, 0}, {4, 1}), 0.1, 1.5);
+    EXPECT_EQ(result.count, 0U);
+    EXPECT_TRUE(result.manifold.empty());
+    EXPECT_TRUE(result.regions.empty());
+}
+
+TEST_F(Contacts, WithoutRecordsTheSummaryIsTheSame) {
+    const PlacedPair placed(
+        context(),
+        {{"A", rectangle({-1, 0.05}, {1, 2})}, {"B", rectangle({-10, -1}, {10, 0})}, {}, {}, 0.1});
+    ContactQuery query = placed.contacts(0.2);
+    const ContactResult with = run_alone(context(), query);
+    query.records = false;
+    const ContactResult without = run_alone(context(), query);
+    EXPECT_TRUE(without.records.empty());
+    EXPECT_EQ(without.count, with.count);
+    ASSERT_EQ(without.manifold.size(), with.manifold.size());
+    EXPECT_EQ(without.manifold.front().first, with.manifold.front().first);
+}
+
+TEST_F(Contacts, ABadContactDistanceIsRefused) {
+    const PlacedPair placed(
+        context(),
+        {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 0.1});
+    for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+        const ContactResult result = run_alone(context(), placed.contacts(bad));
+        EXPECT_EQ(result.status.code(), StatusCode::invalid_query);
+        EXPECT_NE(result.status.message().find("contact distance"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
