@@ -164,5 +164,73 @@ TEST_F(Laws, OfFieldsNoticeEverySpoiling) {
     }
 }
 
+TEST_F(Laws, OfContactsNoticeEverySpoiling) {
+    const PlacedPair placed(context(), pair());
+    const double near = 0.05;
+    const ContactResult good = run_alone(context(), placed.contacts(near));
+    check_contacts(placed, near, good);
+    ASSERT_GT(good.records.size(), 20U);
+    ASSERT_GT(good.manifold.size(), 1U);
+    const auto of_b = [](ContactResult& r) -> ContactRecord& { return r.records.back(); };
+    const Spoiling<ContactResult> spoilings[] = {
+        {"intersects", [](auto& r) { r.intersects = false; }},
+        {"count", [](auto& r) { ++r.count; }},
+        {"point", [](auto& r) { r.records[3].point.x += 1e-5; }},
+        {"point of B", [&](auto& r) { of_b(r).point.x += 1e-5; }},
+        {"side", [&](auto& r) { of_b(r).on = Side::a; }},
+        {"distance", [](auto& r) { r.records[3].distance += 1e-4; }},
+        {"too far", [&](auto& r) { of_b(r).distance = 1.01 * near; }},
+        {"nearest", [](auto& r) { r.records[3].nearest.y += 1e-5; }},
+        {"inside", [](auto& r) { r.records[3].inside = !r.records[3].inside; }},
+        {"normal",
+         [](auto& r) {
+             r.records[3].normal = {-r.records[3].normal.x, -r.records[3].normal.y};
+         }},
+        {"feature", [](auto& r) { r.records[3].feature.index = 1000; }},
+        {"completeness",
+         [](auto& r) {
+             r.records.erase(r.records.begin() + 2, r.records.begin() + 8);
+             r.count -= 6;
+         }},
+        {"no manifold", [](auto& r) { r.manifold.clear(); }},
+        {"an end off A", [](auto& r) { r.manifold[0].first.x += 1e-4; }},
+        {"extreme", [](auto& r) { r.manifold[0].extreme.distance = 0.0; }},
+        {"mean normal", [](auto& r) { r.manifold[0].normal = {}; }},
+    };
+    for (const auto& [what, spoil] : spoilings) {
+        SCOPED_TRACE(what);
+        ContactResult spoilt = good;
+        spoil(spoilt);
+        EXPECT_NONFATAL_FAILURE(check_contacts(placed, near, spoilt), "violations");
+    }
+}
+
+TEST_F(Laws, OfSeparationNoticeEverySpoiling) {
+    Pair apart = pair();
+    apart.pose_b.translation = {3.0, 1.0};
+    const PlacedPair placed(context(), apart);
+    const SeparationResult good = run_alone(context(), placed.separation());
+    check_separation(placed, good);
+    ASSERT_GT(good.distance, 0.5);
+    const Spoiling<SeparationResult> spoilings[] = {
+        {"intersects", [](auto& r) { r.intersects = true; }},
+        {"distance", [](auto& r) { r.distance += 1e-12; }},
+        {"point A", [](auto& r) { r.point_a.x += 1e-12; }},
+        {"point B", [](auto& r) { r.point_b.x += 1e-12; }},
+        {"direction", [](auto& r) { r.direction.x *= -1; }},
+        {"feature A", [](auto& r) { r.feature_a.index = (r.feature_a.index + 3) % 14; }},
+        {"feature B", [](auto& r) { r.feature_b.index = 1000; }},
+        {"unique", [](auto& r) { r.unique = false; }},
+        {"nothing rendered", [](auto& r) { r.sampled_distance = 1e9; }},
+        {"rendered too near", [](auto& r) { r.sampled_distance = r.distance / 2; }},
+    };
+    for (const auto& [what, spoil] : spoilings) {
+        SCOPED_TRACE(what);
+        SeparationResult spoilt = good;
+        spoil(spoilt);
+        EXPECT_NONFATAL_FAILURE(check_separation(placed, spoilt), "violations");
+    }
+}
+
 }  // namespace
 }  // namespace nearfield::test

@@ -57,7 +57,7 @@ check_tidy() {
 # runs graphs on a device is left out: drivers leak on their own account.
 # Warnings are not errors here: the sanitizers' own code sets off false ones.
 check_sanitized() {
-    local test tests=(test_geometry test_localize test_graph)
+    local test tests=(test_geometry test_localize test_exact test_graph)
     configure sanitize -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
         "-DNEARFIELD_SANITIZE=address,undefined" -DNEARFIELD_BUILD_TOOLS=OFF \
         -DNEARFIELD_WARNINGS_AS_ERRORS=OFF >/dev/null

@@ -1,0 +1,99 @@
+#include "shape_samples.hpp"
+
+#include <engine/exact/closest_pair.hpp>
+#include <engine/geometry/segment.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double brute_force_squared_distance(const PlacedPolygon& a, const PlacedPolygon& b) {
+    double least = infinity;
+    for (std::uint32_t i = 0; i < a.polygon().size(); ++i) {
+        for (std::uint32_t j = 0; j < b.polygon().size(); ++j) {
+            least = std::min(
+                least, geometry::closest_of_segments(a.vertex(i), a.vertex(a.polygon().next(i)),
+                                                     b.vertex(j), b.vertex(b.polygon().next(j)))
+                           .squared_distance);
+        }
+    }
+    return least;
+}
+
+TEST(ClosestOfSegments, NoSampleIsCloser) {
+    samples::Random random(8);
+    for (int round = 0; round < 2000; ++round) {
+        const auto point = [&] {
+            return Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        };
+        const Vector a = point();
+        const Vector b = round % 9 == 0 ? a : point();
+        const Vector c = point();
+        const Vector d = round % 5 == 0 ? Vector(c + 0.7 * (b - a)) : point();  // parallel
+        const auto closest = geometry::closest_of_segments(a, b, c, d);
+        EXPECT_LT((a + closest.first_parameter * (b - a) - closest.first).norm(), 1e-15);
+        EXPECT_LT((c + closest.second_parameter * (d - c) - closest.second).norm(), 1e-14);
+        const double distance = std::sqrt(closest.squared_distance);
+        EXPECT_NEAR((closest.first - closest.second).norm(), distance, 1e-15);
+        for (int i = 0; i <= 20; ++i) {
+            const Vector p = a + i / 20.0 * (b - a);
+            EXPECT_LE(closest.squared_distance,
+                      geometry::nearest_on_segment(p, c, d).squared_distance + 1e-15);
+        }
+        EXPECT_EQ(closest.squared_distance,
+                  geometry::closest_of_segments(c, d, a, b).squared_distance);
+    }
+}
+
+TEST(ClosestPair, IsThatOfBruteForceFarAndNear) {
+    samples::Random random(77);
+    const auto shapes = samples::assorted_shapes(random);
+    ClosestPairFinder finder;
+    for (const auto& first : shapes) {
+        for (const auto& second : shapes) {
+            SCOPED_TRACE(first.name + " and " + second.name);
+            const Polygon polygon_a = samples::polygon(first.rings);
+            const Polygon polygon_b = samples::polygon(second.rings);
+            const PlacedPolygon a(polygon_a, {{}, random.between(-3.0, 3.0)});
+            const PlacedPolygon b(polygon_b,
+                                  {{random.between(0.0, 4.0), random.between(-1.0, 1.0)}, 0.4});
+            const double truth = brute_force_squared_distance(a, b);
+            const ClosestPair pair = finder.find(a, b, infinity);
+            EXPECT_EQ(pair.squared_distance, truth);
+            EXPECT_NEAR((pair.point_a - pair.point_b).squaredNorm(), truth, 1e-15);
+            // Known bounds leave the answer as it is.
+            EXPECT_EQ(finder.find(a, b, std::sqrt(truth)).squared_distance, truth);
+            EXPECT_EQ(finder.find(a, b, 2.0 * std::sqrt(truth) + 1e-9).squared_distance, truth);
+            EXPECT_EQ(finder.find(b, a, infinity).squared_distance, truth);
+        }
+    }
+}
+
+TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
+    const Polygon wall = samples::polygon({samples::rectangle(0.0, 0.0, 10.0, 1.0)});
+    const PlacedPolygon a(wall, {});
+    ClosestPairFinder finder;
+    const auto unique = [&](const samples::Rings& rings) {
+        const Polygon polygon = samples::polygon(rings);
+        const PlacedPolygon b(polygon, {});
+        return finder.is_unique(finder.find(a, b, infinity), 1e-3, 0.5);
+    };
+    EXPECT_TRUE(unique({{{5.0, 2.0}, {6.0, 4.0}, {4.0, 4.0}}}));
+    EXPECT_FALSE(unique({samples::rectangle(2.0, 2.0, 3.0, 4.0)}));
+    EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
+    EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
+    EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
+}
+
+}  // namespace
+}  // namespace nearfield::exact
