@@ -128,9 +128,6 @@ TEST_F(Refused, NamesThatAreNotKnown) {
 }
 
 TEST_F(Refused, WhatLaterVersionsAnswer) {
-    for (const auto& query : {"contacts", "separation", "closest-point"}) {
-        expect_refused(ask(query, {"-d", "1"}), {"this version does not answer", query});
-    }
     for (const auto& technique : {"compute", "cpu"}) {
         expect_refused(ask("penetration", {"-d", "1", "--technique", technique}),
                        {"--technique", "this version", technique});
@@ -139,8 +136,6 @@ TEST_F(Refused, WhatLaterVersionsAnswer) {
         expect_refused(ask("intersection", {"-d", "1", "--strategy", strategy}),
                        {"--strategy", "this version", strategy});
     }
-    expect_refused(ask("penetration", {"-d", "1", "--contact-distance", "1"}),
-                   {"--contact-distance"});
 }
 
 TEST_F(Refused, OptionsThatBelongToAnotherQuery) {

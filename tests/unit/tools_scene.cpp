@@ -64,10 +64,12 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
     EXPECT_EQ(
         error_of_query(R"({"query": "penetration", "tolerance": 1, "rect": [], )" + ends + "}"),
         file + ": queries[0].rect: is not known here");
-    EXPECT_EQ(error_of_query(R"({"query": "separation", "tolerance": 1, )" + ends + "}"),
-              file +
-                  ": queries[0].query: this version does not answer separation; it answers "
-                  "penetration, intersection and distance-field");
+    EXPECT_EQ(error_of_query(R"({"query": "separation", "tolerance": 1, "contact_distance": 1, )" +
+                             ends + "}"),
+              file + ": queries[0].contact_distance: is not known here");
+    EXPECT_EQ(error_of_query(R"({"query": "contacts", "tolerance": 1, "contact_distance": 0, )" +
+                             ends + "}"),
+              file + ": queries[0].contact_distance: expected a number greater than 0");
     EXPECT_EQ(
         error_of_query(R"({"query": "penetration", "pairs": "all"})"),
         file + ": queries[0].pairs: this version answers single pairs only, given by a and b");
@@ -111,11 +113,9 @@ TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
 }
 
 TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
-    EXPECT_EQ(input_error([] { return parse_query_type("contacts", "query"); }),
-              "query: this version does not answer contacts; it answers penetration, intersection "
-              "and distance-field");
     EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
-              "query: \"depth\" is none of penetration, intersection, distance-field");
+              "query: \"depth\" is none of penetration, intersection, distance-field, contacts, "
+              "closest-point, separation");
     EXPECT_EQ(input_error([] { return check_technique("cpu", "--technique"), 0; }),
               "--technique: this version answers by the raster technique only, not by cpu");
     EXPECT_EQ(input_error([] { return check_strategy("blend", "--strategy"), 0; }),

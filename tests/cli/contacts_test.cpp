@@ -1,0 +1,137 @@
+#include "cli_test.hpp"
+#include "contract.hpp"
+#include "rectangle_truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace nearfield::test {
+namespace {
+
+constexpr double rounding = 1e-9;
+
+class Contacts : public CliTest {};
+
+TEST_F(Contacts, OfSquaresSideBySide) {
+    const double d = 0.02;
+    const Rectangle a = unit_square_at({0, 0});
+    const Rectangle b = unit_square_at({1.03, 0.4});
+    const Json json = answer(squares("contacts") + Arguments{"-d", "0.02", "--contact-distance",
+                                                             "0.05", "--pose-b", "1.03,0.4,0"});
+    ASSERT_TRUE(json.is_object());
+    expect_common_part(json, "contacts", d, d * std::numbers::sqrt2);
+    EXPECT_EQ(json.at("intersects"), false);
+    ASSERT_EQ(json.at("count").get<std::size_t>(), json.at("contacts").size());
+    std::size_t of_a = 0;
+    std::vector<Point> points_of_a;
+    for (const Json& contact : json.at("contacts")) {
+        const Point point = to_point(contact.at("point"));
+        const bool on_a = contact.at("on") == "a";
+        const Rectangle& own = on_a ? a : b;
+        const Rectangle& other = on_a ? b : a;
+        of_a += on_a ? 1U : 0U;
+        EXPECT_NEAR(own.signed_distance(point), 0.0, rounding) << contact;
+        EXPECT_NEAR(contact.at("distance").get<double>(), other.signed_distance(point), rounding);
+        EXPECT_LE(contact.at("distance").get<double>(), 0.05);
+        EXPECT_EQ(contact.at("inside"), false);
+        const Point normal = to_point(contact.at("normal"));
+        EXPECT_NEAR(std::hypot(normal.x, normal.y), 1.0, rounding);
+        EXPECT_LT(normal.x, 0.0) << "B is to the right: " << contact;
+        if (on_a) {
+            points_of_a.push_back(point);
+        }
+    }
+    EXPECT_GT(of_a, 0U);
+    EXPECT_LT(of_a, json.at("contacts").size());
+    for (double y = 0.4; y <= 1.0; y += 0.005) {
+        double gap = INFINITY;
+        for (const Point& point : points_of_a) {
+            gap = std::min(gap, distance(point, {1.0, y}));
+        }
+        EXPECT_LE(gap, json.at("error_bound").get<double>() + rounding) << "at height " << y;
+    }
+    ASSERT_EQ(json.at("manifold").size(), 1U);
+    const Json& cluster = json.at("manifold").front();
+    EXPECT_NEAR(to_point(cluster.at("first")).x, 1.0, rounding);
+    EXPECT_NEAR(to_point(cluster.at("last")).x, 1.0, rounding);
+    EXPECT_NEAR(cluster.at("extreme").at("distance").get<double>(), 0.03, rounding);
+    EXPECT_LT(to_point(cluster.at("normal")).x, -0.99);
+}
+
+TEST_F(Contacts, DistanceIsTheToleranceByDefault) {
+    for (const auto& [gap, any] : {std::pair{"1.04", true}, std::pair{"1.06", false}}) {
+        const Json json = answer(squares("contacts") +
+                                 Arguments{"-d", "0.05", "--pose-b", std::string(gap) + ",0.1,0"});
+        ASSERT_TRUE(json.is_object());
+        EXPECT_EQ(json.at("count").get<std::size_t>() > 0, any) << gap;
+    }
+}
+
+class ClosestPoints : public CliTest {};
+
+TEST_F(ClosestPoints, SeparationOfSquaresByACorner) {
+    const Json json = answer(squares("separation") + Arguments{"-d", "0.1", "--pose-b", "4,5,0"});
+    ASSERT_TRUE(json.is_object());
+    expect_common_part(json, "separation", 0.1, 0.1 * std::numbers::sqrt2);
+    EXPECT_EQ(json.at("intersects"), false);
+    EXPECT_DOUBLE_EQ(json.at("distance").get<double>(), 5.0);
+    EXPECT_EQ(json.at("point_a"), Json({1.0, 1.0}));
+    EXPECT_EQ(json.at("point_b"), Json({4.0, 5.0}));
+    EXPECT_NEAR(json.at("direction").at(0).get<double>(), 0.6, rounding);
+    EXPECT_NEAR(json.at("direction").at(1).get<double>(), 0.8, rounding);
+    EXPECT_EQ(json.at("feature_a").at("vertex"), 2);
+    EXPECT_EQ(json.at("feature_b").at("vertex"), 0);
+    EXPECT_EQ(json.at("unique"), true);
+    EXPECT_FALSE(json.at("regions").empty());
+}
+
+TEST_F(ClosestPoints, SeparationOfParallelSides) {
+    const Json json =
+        answer(squares("separation") + Arguments{"-d", "0.1", "--pose-b", "1.25,0.5,0"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("distance").get<double>(), 0.25);
+    EXPECT_EQ(json.at("unique"), false);
+    EXPECT_EQ(json.at("point_a").at(1), json.at("point_b").at(1));
+}
+
+TEST_F(ClosestPoints, ShapesThatIntersectAreNoDistanceApart) {
+    for (const char* pose : {"0.5,0.5,0", "1,0,0", "0,0,0"}) {
+        const Json json = answer(squares("separation") + Arguments{"-d", "0.1", "--pose-b", pose});
+        ASSERT_TRUE(json.is_object());
+        EXPECT_EQ(json.at("intersects"), true);
+        EXPECT_EQ(json.at("distance").get<double>(), 0.0);
+        EXPECT_TRUE(json.at("direction").is_null());
+        EXPECT_EQ(json.at("point_a"), json.at("point_b"));
+    }
+    const std::string large = folder_.write("large.wkt", "POLYGON ((-1 -2, 5 -2, 5 6, -1 6))");
+    for (const Arguments& pair : {Arguments{a_, large}, Arguments{large, a_}}) {
+        const Json json = answer(Arguments{"query", "closest-point"} + pair + Arguments{"-d", "1"});
+        ASSERT_TRUE(json.is_object());
+        EXPECT_EQ(json.at("intersects"), true);
+        EXPECT_EQ(json.at("distance").get<double>(), 0.0);
+        EXPECT_EQ(json.at("point"), json.at("nearest"));
+    }
+}
+
+TEST_F(ClosestPoints, ClosestPointIsThatOfA) {
+    const Json json =
+        answer(squares("closest-point") + Arguments{"-d", "0.1", "--pose-b", "4,5,0"});
+    ASSERT_TRUE(json.is_object());
+    expect_common_part(json, "closest-point", 0.1, 0.1 * std::numbers::sqrt2);
+    EXPECT_EQ(json.at("point"), Json({1.0, 1.0}));
+    EXPECT_EQ(json.at("nearest"), Json({4.0, 5.0}));
+    EXPECT_DOUBLE_EQ(json.at("distance").get<double>(), 5.0);
+}
+
+TEST_F(ClosestPoints, OptionsOfOthersAreRefused) {
+    expect_refused(squares("separation") + Arguments{"-d", "1", "--contact-distance", "1"},
+                   {"--contact-distance", "contacts", "separation"});
+    expect_refused(squares("contacts") + Arguments{"-d", "1", "--contact-distance", "-1"},
+                   {"--contact-distance", "-1"});
+    expect_refused(squares("contacts") + Arguments{"-d", "1", "--normals", "wrong"},
+                   {"--normals", "wrong", "analytic"});
+}
+
+}  // namespace
+}  // namespace nearfield::test
