@@ -3,6 +3,7 @@
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/query.hpp>
+#include <tools/commands/scene.hpp>
 #include <tools/input/input_error.hpp>
 
 #include <exception>
@@ -27,8 +28,10 @@ int run(int count, char** arguments) {
         "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
     program.require_subcommand(1);
     tools::QueryArguments query_arguments;
+    tools::SceneArguments scene_arguments;
     tools::BenchArguments bench_arguments;
     const CLI::App* const query = tools::add_query_command(program, query_arguments);
+    const CLI::App* const scene = tools::add_scene_command(program, scene_arguments);
     const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
     tools::add_info_command(program);
     try {
@@ -39,12 +42,16 @@ int run(int count, char** arguments) {
         }
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
-                                    "\" is none of query, bench, info");
+                                    "\" is none of query, scene, bench, info");
         }
         return fail(error, exit_status::bad_input);
     }
     if (query->parsed()) {
         tools::run_query(query_arguments);
+        return exit_status::done;
+    }
+    if (scene->parsed()) {
+        tools::run_scene(scene_arguments);
         return exit_status::done;
     }
     if (bench->parsed()) {

@@ -2,6 +2,7 @@
 
 #include <tools/commands/bench.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/scene_runner.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/scene.hpp>
 #include <tools/output/answer.hpp>
@@ -11,7 +12,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <iostream>
 #include <numeric>
@@ -58,61 +58,6 @@ Timings median_timings(const std::vector<Timings>& frames) {
     return result;
 }
 
-/// A scene in a context, run frame by frame.
-class SceneRunner {
-public:
-    /// `file` is for the messages.
-    SceneRunner(const Scene& scene, std::string file, Context& context)
-        : scene_(scene), file_(std::move(file)), context_(context) {
-        for (const SceneShape& shape : scene_.shapes) {
-            shapes_.push_back(take(context_.add_shape(shape.rings), place_of(shape)));
-        }
-    }
-
-    /// One whole frame: shapes (which may have deformed), poses and queries in, results out.
-    /// Returns its milliseconds.
-    double run_frame() {
-        const auto start = std::chrono::steady_clock::now();
-        for (std::size_t index = 0; index < shapes_.size(); ++index) {
-            const SceneShape& shape = scene_.shapes[index];
-            if (const Status status = context_.update_shape(shapes_[index], shape.rings);
-                !status.ok()) {
-                require(status, place_of(shape));
-            }
-        }
-        batch_.clear();
-        for (const SceneQuery& query : scene_.queries) {
-            add_query(batch_, query.request, instance(query.a), instance(query.b));
-        }
-        require(context_.run(batch_, results_), file_);
-        const auto end = std::chrono::steady_clock::now();
-        for (std::size_t index = 0; index < results_.results.size(); ++index) {
-            require(summary_of(results_.results[index]).status,
-                    file_ + ": queries[" + std::to_string(index) + "]");
-        }
-        return std::chrono::duration<double, std::milli>(end - start).count();
-    }
-
-    [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
-
-private:
-    [[nodiscard]] Instance instance(std::size_t index) const {
-        const SceneInstance& entry = scene_.instances[index];
-        return {shapes_[entry.shape], entry.pose};
-    }
-
-    [[nodiscard]] std::string place_of(const SceneShape& shape) const {
-        return file_ + ": shapes." + shape.name;
-    }
-
-    const Scene& scene_;
-    std::string file_;
-    Context& context_;
-    std::vector<ShapeHandle> shapes_;
-    Batch batch_;
-    Results results_;
-};
-
 /// What was measured.
 struct Measurement {
     std::vector<double> frames_ms;
@@ -129,6 +74,7 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
             std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
         }
         const double milliseconds = runner.run_frame();
+        runner.require_results();
         if (frame >= arguments.warm_up) {
             measurement.frames_ms.push_back(milliseconds);
             timings.push_back(runner.timings());

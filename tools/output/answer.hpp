@@ -16,6 +16,14 @@ struct Answer {
     const std::string& device;
 };
 
+/// One query of a scene and its answer. Refers to what the caller keeps.
+struct SceneAnswer {
+    const QueryRequest& request;
+    const std::string& a;  ///< names of the instances
+    const std::string& b;
+    const AnyResult& result;
+};
+
 /// The part that every kind of result has.
 [[nodiscard]] inline const ResultSummary& summary_of(const AnyResult& result) {
     return std::visit([](const auto& any) -> const ResultSummary& { return any; }, result);

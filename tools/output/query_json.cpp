@@ -155,21 +155,53 @@ void write_timings(JsonWriter& json, const Timings& timings) {
     json.end_object().end_object();
 }
 
-void write_query_json(std::ostream& stream, const Answer& answer) {
-    const ResultSummary& summary = summary_of(answer.result);
-    JsonWriter json(stream);
-    json.begin_object(JsonWriter::Layout::lines);
-    json.key("query").value(name_of(answer.request.type));
+namespace {
+
+/// What every answer begins with: the query and what all results say.
+void write_common(JsonWriter& json, const QueryRequest& request, const ResultSummary& summary) {
+    json.key("query").value(name_of(request.type));
     json.key("tolerance").value(summary.tolerance);
     json.key("error_bound").value(summary.error_bound);
     json.key("cell").value(summary.cell);
     json.key("intersects").value(summary.intersects);
+}
+
+}  // namespace
+
+void write_query_json(std::ostream& stream, const Answer& answer) {
+    const ResultSummary& summary = summary_of(answer.result);
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    write_common(json, answer.request, summary);
     json.key("device").value(std::string_view(answer.device));
     json.key("technique").value("raster");
     write_regions(json, summary);
     write_timings(json, answer.timings);
     std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);
     json.end_object();
+    stream << '\n';
+}
+
+void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers,
+                      const Timings& timings, const std::string& device) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("device").value(std::string_view(device));
+    json.key("technique").value("raster");
+    write_timings(json, timings);
+    json.key("results").begin_array(JsonWriter::Layout::lines);
+    for (const SceneAnswer& answer : answers) {
+        const ResultSummary& summary = summary_of(answer.result);
+        json.begin_object(JsonWriter::Layout::lines);
+        json.key("a").value(std::string_view(answer.a));
+        json.key("b").value(std::string_view(answer.b));
+        write_common(json, answer.request, summary);
+        json.key("technique").value("raster");
+        write_regions(json, summary);
+        std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);
+        json.end_object();
+    }
+    json.end_array().end_object();
     stream << '\n';
 }
 

@@ -6,11 +6,17 @@
 #include <tools/output/json_writer.hpp>
 
 #include <ostream>
+#include <span>
+#include <string>
 
 namespace nearfield::tools {
 
 /// Writes the JSON of one query, with a line feed at its end.
 void write_query_json(std::ostream& stream, const Answer& answer);
+
+/// Writes the JSON of a scene's answers, with a line feed at its end.
+void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers,
+                      const Timings& timings, const std::string& device);
 
 /// Writes the member `timings_ms` of an object that is open.
 void write_timings(JsonWriter& json, const Timings& timings);

@@ -154,4 +154,20 @@ void write_summary(std::ostream& stream, const Answer& answer) {
     write_timings_summary(stream, answer.timings);
 }
 
+void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
+                         const Timings& timings, const std::string& device) {
+    write_item(stream, "device", device);
+    write_item(stream, "technique", "raster");
+    write_item(stream, "queries", std::to_string(answers.size()));
+    for (const SceneAnswer& answer : answers) {
+        stream << '\n';
+        write_item(
+            stream, "query",
+            std::string(name_of(answer.request.type)) + " of " + answer.a + " and " + answer.b);
+        std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
+    }
+    stream << '\n';
+    write_timings_summary(stream, timings);
+}
+
 }  // namespace nearfield::tools

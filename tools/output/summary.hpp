@@ -5,6 +5,7 @@
 #include <tools/output/answer.hpp>
 
 #include <ostream>
+#include <span>
 #include <string>
 
 namespace nearfield::tools {
@@ -14,6 +15,10 @@ namespace nearfield::tools {
 
 /// Writes what an answer says, for people, an item a line.
 void write_summary(std::ostream& stream, const Answer& answer);
+
+/// Writes what the answers of a scene say, for people.
+void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
+                         const Timings& timings, const std::string& device);
 
 /// Writes the stages of a batch and their passes, for people, an item a line.
 void write_timings_summary(std::ostream& stream, const Timings& timings);

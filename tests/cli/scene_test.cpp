@@ -1,0 +1,77 @@
+#include "cli_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nearfield::test {
+namespace {
+
+class SceneCommand : public CliTest {
+protected:
+    /// The unit square, and again where `pose` says, with queries between the two.
+    std::string scene(const std::string& queries) const {
+        return folder_.write("scene.json", R"({"shapes": {"square": {"file": "a square.geojson"}},
+            "instances": {"A": {"shape": "square"}, "B": {"shape": "square", "pose": [0.6, 0.3, 0]},
+                          "far": {"shape": "square", "pose": [4, 5, 0]}},
+            "queries": [)" + queries + "]}");
+    }
+    Json answer_of_scene(const std::string& queries) const {
+        return answer({"scene", scene(queries)});
+    }
+};
+
+TEST_F(SceneCommand, AnswersEveryQueryAsTheQueryCommandDoes) {
+    const Json json = answer_of_scene(
+        R"({"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},
+           {"query": "contacts", "a": "A", "b": "B", "tolerance": 0.05, "contact_distance": 0.1},
+           {"query": "separation", "a": "A", "b": "far", "tolerance": 0.05},
+           {"query": "closest-point", "a": "far", "b": "B", "tolerance": 0.05},
+           {"query": "intersection", "a": "A", "b": "B", "tolerance": 0.05, "records": false},
+           {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.05})");
+    ASSERT_TRUE(json.is_object());
+    EXPECT_TRUE(json.at("device").is_string());
+    EXPECT_TRUE(json.at("timings_ms").at("total").is_number());
+    const Json& results = json.at("results");
+    ASSERT_EQ(results.size(), 6U);
+    EXPECT_EQ(results.at(2).at("a"), "A");
+    EXPECT_EQ(results.at(2).at("b"), "far");
+    EXPECT_DOUBLE_EQ(results.at(2).at("distance").get<double>(), 5.0);
+    EXPECT_TRUE(results.at(4).at("samples").empty());
+    EXPECT_GT(results.at(4).at("count").get<int>(), 0);
+    for (const char* type : {"penetration", "contacts", "distance-field"}) {
+        Arguments arguments = squares(type) + Arguments{"-d", "0.05", "--pose-b", "0.6,0.3,0"};
+        if (std::string(type) == "contacts") {
+            arguments = arguments + Arguments{"--contact-distance", "0.1"};
+        }
+        Json alone = answer(arguments);
+        ASSERT_TRUE(alone.is_object());
+        Json in_scene;
+        for (const Json& result : results) {
+            if (result.at("query") == type) {
+                in_scene = result;
+            }
+        }
+        in_scene.erase("a");
+        in_scene.erase("b");
+        for (const char* key : {"device", "timings_ms"}) {
+            alone.erase(key);
+        }
+        EXPECT_EQ(in_scene, alone);
+    }
+}
+
+TEST_F(SceneCommand, WithoutQueriesThereAreNoResults) {
+    const Json json = answer_of_scene("");
+    ASSERT_TRUE(json.is_object());
+    EXPECT_TRUE(json.at("results").empty());
+}
+
+TEST_F(SceneCommand, NamesTheQueryThatIsRefused) {
+    expect_refused({"scene", scene(R"({"query": "separation", "a": "A", "b": "B", "tolerance": 0.1},
+                        {"query": "distance-field", "a": "A", "b": "far", "tolerance": 0.1})")},
+                   {"scene.json", "queries[1]", "rectangle"});
+    expect_refused({"scene"}, {"scene is required"});
+    expect_refused({"scene", folder_.path("none.json")}, {"none.json", "cannot be opened"});
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,59 @@
+#include <nearfield/context.hpp>
+
+#include <tools/commands/library_error.hpp>
+#include <tools/commands/scene.hpp>
+#include <tools/commands/scene_runner.hpp>
+#include <tools/input/scene.hpp>
+#include <tools/output/query_json.hpp>
+#include <tools/output/report_target.hpp>
+#include <tools/output/summary.hpp>
+
+#include <cstddef>
+
+namespace nearfield::tools {
+namespace {
+
+std::vector<SceneAnswer> answers_of(const Scene& scene, const Results& results) {
+    std::vector<SceneAnswer> answers;
+    for (std::size_t index = 0; index < scene.queries.size(); ++index) {
+        const SceneQuery& query = scene.queries[index];
+        answers.push_back({query.request, scene.instances[query.a].name,
+                           scene.instances[query.b].name, results.results[index]});
+    }
+    return answers;
+}
+
+}  // namespace
+
+CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
+    CLI::App* command = program.add_subcommand(
+        "scene", "Answer the queries of a scene (shapes, instances, queries) in one batch");
+    command
+        ->add_option("scene", arguments.scene,
+                     "Scene: shapes, instances (shape and pose) and queries")
+        ->required()
+        ->type_name("FILE.json");
+    command
+        ->add_option("--json", arguments.json,
+                     "Write the answers as JSON; - for the standard output, the summary then goes "
+                     "to the standard error; default none")
+        ->type_name("FILE|-");
+    return command;
+}
+
+void run_scene(const SceneArguments& arguments) {
+    const Scene scene = read_scene(arguments.scene);
+    ReportTarget report(arguments.json);
+    Context context = take(Context::create_headless());
+    SceneRunner runner(scene, arguments.scene, context);
+    runner.run_frame();
+    runner.require_results();
+    const std::vector<SceneAnswer> answers = answers_of(scene, runner.results());
+    if (std::ostream* json = report.json()) {
+        write_scene_json(*json, answers, runner.timings(), context.device_name());
+    }
+    write_scene_summary(report.summary(), answers, runner.timings(), context.device_name());
+    report.commit();
+}
+
+}  // namespace nearfield::tools

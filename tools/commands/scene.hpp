@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+
+namespace nearfield::tools {
+
+/// What the command line says about a scene; texts are parsed when the command runs.
+struct SceneArguments {
+    std::string scene;
+    std::optional<std::string> json;
+};
+
+/// Adds the command `scene` to the program; parsing fills `arguments`, which must outlive it.
+CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments);
+
+/// Answers all queries of a scene in one batch. Throws InputError, LibraryError or
+/// std::runtime_error.
+void run_scene(const SceneArguments& arguments);
+
+}  // namespace nearfield::tools
