@@ -1,5 +1,6 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -24,6 +25,7 @@ class Closest : public QueryTest {
 protected:
     static SeparationResult check(Pair pair) {
         const PlacedPair placed(context(), std::move(pair));
+        const CorpusKeeper keeper(placed.pair(), placed.tolerance());
         SCOPED_TRACE(describe(placed.pair()));
         const SeparationResult separation = run_alone(context(), placed.separation());
         check_separation(placed, separation);
@@ -42,14 +44,11 @@ protected:
 };
 
 TEST_F(Closest, HoldsForRandomPairs) {
-    const int cases = random_cases(150);
     int apart = 0;
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
+    for_each_case(seed, 150, [&](Random& random) {
         apart += check(any_apart_pair(random)).intersects ? 0 : 1;
-    }
-    EXPECT_GT(apart, cases / 4);
+    });
+    EXPECT_GT(apart, random_cases(150) / 4);
 }
 
 TEST_F(Closest, HoldsForEveryFamily) {

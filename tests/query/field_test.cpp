@@ -44,10 +44,7 @@ protected:
 };
 
 TEST_F(Field, HoldsForRandomShapes) {
-    const int cases = random_cases(120);
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
+    for_each_case(seed, 120, [&](Random& random) {
         const Pair pair = any_pair(random);
         const Rectangle box = oracle::ShapeOracle(pair.b.rings, pair.pose_b).box();
         const double size = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
@@ -56,7 +53,7 @@ TEST_F(Field, HoldsForRandomShapes) {
         const Vector2 high{low.x + size * random.scale(0.02, 1.5),
                            low.y + size * random.scale(0.02, 1.5)};
         check(pair.b.rings, pair.pose_b, size * random.scale(0.004, 0.2), {low, high});
-    }
+    });
 }
 
 TEST_F(Field, HoldsForEveryFamily) {

@@ -1,6 +1,7 @@
 #include <tests/oracle/boundary.hpp>
 #include <tests/oracle/overlap.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 
 #include <cmath>
@@ -17,6 +18,7 @@ class Intersection : public QueryTest {
 protected:
     static void check(Pair pair) {
         const PlacedPair placed(context(), std::move(pair));
+        const CorpusKeeper keeper(placed.pair(), placed.tolerance());
         SCOPED_TRACE(describe(placed.pair()));
         for (const IntersectionKind kind : every_kind) {
             check_intersection(placed, kind, run_alone(context(), placed.intersection(kind)));
@@ -25,12 +27,7 @@ protected:
 };
 
 TEST_F(Intersection, HoldsForRandomPairs) {
-    const int cases = random_cases(80);
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
-        check(any_pair(random));
-    }
+    for_each_case(seed, 80, [&](Random& random) { check(any_pair(random)); });
 }
 
 TEST_F(Intersection, HoldsForEveryFamily) {

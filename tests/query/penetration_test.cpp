@@ -1,5 +1,6 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
+#include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 
 #include <cmath>
@@ -15,6 +16,7 @@ class Penetration : public QueryTest {
 protected:
     static void check(Pair pair) {
         const PlacedPair placed(context(), std::move(pair));
+        const CorpusKeeper keeper(placed.pair(), placed.tolerance());
         SCOPED_TRACE(describe(placed.pair()));
         for (const PenetrationPoints points : both_ways) {
             check_penetration(placed, points, run_alone(context(), placed.penetration(points)));
@@ -27,12 +29,7 @@ protected:
 };
 
 TEST_F(Penetration, HoldsForRandomPairs) {
-    const int cases = random_cases(150);
-    for (int i = 0; i < cases; ++i) {
-        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
-        Random random(seed + static_cast<std::uint64_t>(i));
-        check(any_pair(random));
-    }
+    for_each_case(seed, 150, [&](Random& random) { check(any_pair(random)); });
 }
 
 TEST_F(Penetration, HoldsForEveryFamily) {

@@ -44,6 +44,11 @@ int random_cases(int usual) {
     return asked != nullptr ? std::atoi(asked) : usual;
 }
 
+int first_case() {
+    const char* const asked = std::getenv("NEARFIELD_TEST_FIRST");
+    return asked != nullptr ? std::atoi(asked) : 0;
+}
+
 void QueryTest::SetUp() {
     ASSERT_TRUE(device().context_.has_value()) << "no context to test";
 }
