@@ -2,6 +2,8 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
+#include <engine/localize/broad_phase.hpp>
+#include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
@@ -62,6 +64,8 @@ public:
     Expected<ShapeHandle> add_shape(std::span<const Ring> rings);
     Status update_shape(ShapeHandle handle, std::span<const Ring> rings);
     Status remove_shape(ShapeHandle handle);
+    Status find_pairs(std::span<const Instance> instances, double reach,
+                      std::vector<InstancePair>& pairs);
     Status run(const Batch& batch, Results& results);
 
     [[nodiscard]] const gpu::Device& device() const { return device_; }
@@ -82,6 +86,9 @@ private:
     gpu::Device device_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_slots_;
+    localize::BroadPhase broad_phase_;
+    std::vector<geometry::Box> boxes_;
+    std::vector<localize::BroadPhase::Pair> box_pairs_;
     plan::Planner planner_;
     plan::RoundBuilder builder_;
     Renderer renderer_;
@@ -134,6 +141,32 @@ Status Context::Implementation::remove_shape(ShapeHandle handle) {
     Slot& slot = slots_[handle.index];
     slot.alive = false;
     ++slot.generation;
+    return {};
+}
+
+Status Context::Implementation::find_pairs(std::span<const Instance> instances, double reach,
+                                           std::vector<InstancePair>& pairs) {
+    if (!(reach >= 0.0 && reach <= largest_coordinate)) {
+        return {StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
+                                               "; it must be a finite number of at least 0"};
+    }
+    boxes_.clear();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const geometry::Polygon* const polygon = find(instances[i].shape);
+        Status status = polygon == nullptr
+                            ? Status(StatusCode::unknown_shape, "its shape is none of this context")
+                            : plan::check_pose(instances[i].pose, "the instance");
+        if (!status.ok()) {
+            return {status.code(),
+                    "find_pairs: instance " + std::to_string(i) + ": " + status.message()};
+        }
+        boxes_.push_back(geometry::PlacedPolygon(*polygon, instances[i].pose).box());
+    }
+    broad_phase_.find(boxes_, reach, box_pairs_);
+    pairs.clear();
+    for (const auto& [first, second] : box_pairs_) {
+        pairs.push_back({first, second});
+    }
     return {};
 }
 
@@ -224,6 +257,13 @@ Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings) {
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
     Status status = guarded([&] { result = implementation_->remove_shape(shape); });
+    return status.ok() ? result : status;
+}
+
+Status Context::find_pairs(std::span<const Instance> instances, double reach,
+                           std::vector<InstancePair>& pairs) {
+    Status result;
+    Status status = guarded([&] { result = implementation_->find_pairs(instances, reach, pairs); });
     return status.ok() ? result : status;
 }
 

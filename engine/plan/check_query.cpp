@@ -30,15 +30,6 @@ Status check_coordinate(double value, const std::string& what) {
     return {};
 }
 
-Status check_pose(const Pose& pose, const std::string& whose) {
-    if (!std::isfinite(pose.angle)) {
-        return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
-    }
-    Status status = check_coordinate(pose.translation.x, "the x of " + whose + "'s pose");
-    return status.ok() ? check_coordinate(pose.translation.y, "the y of " + whose + "'s pose")
-                       : status;
-}
-
 Status check_rectangle(const Rectangle& rectangle) {
     for (const double value :
          {rectangle.min.x, rectangle.min.y, rectangle.max.x, rectangle.max.y}) {
@@ -54,6 +45,19 @@ Status check_rectangle(const Rectangle& rectangle) {
     }
     return {};
 }
+
+}  // namespace
+
+Status check_pose(const Pose& pose, const std::string& whose) {
+    if (!std::isfinite(pose.angle)) {
+        return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
+    }
+    Status status = check_coordinate(pose.translation.x, "the x of " + whose + "'s pose");
+    return status.ok() ? check_coordinate(pose.translation.y, "the y of " + whose + "'s pose")
+                       : status;
+}
+
+namespace {
 
 template <class Query>
 Status check_pair(const Query& query) {

@@ -11,6 +11,9 @@ namespace nearfield::plan {
 /// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
 [[nodiscard]] Status check_query(const AnyQuery& query);
 
+/// A pose that can be used, or an error; `whose` it is, for the message.
+[[nodiscard]] Status check_pose(const Pose& pose, const std::string& whose);
+
 /// The largest coordinate of a box, in magnitude.
 [[nodiscard]] double largest_magnitude(const geometry::Box& box);
 /// The largest number that placing a shape in the world goes through.

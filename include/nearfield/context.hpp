@@ -75,6 +75,12 @@ public:
     /// Forgets a shape. Its handle stays unknown for good.
     Status remove_shape(ShapeHandle shape);
 
+    /// Finds the pairs of instances worth a query: those whose bounding boxes are at most `reach`
+    /// apart along both axes (world units, >= 0; 0: the closed boxes meet). Replaces `pairs`, in
+    /// ascending order. The time grows with the instances and with the pairs found.
+    Status find_pairs(std::span<const Instance> instances, double reach,
+                      std::vector<InstancePair>& pairs);
+
     /// Answers a batch; returns when all results are there. An error of the batch as a whole
     /// is the returned status: too_large (more memory than the limit, or than one buffer of the
     /// device holds), out_of_memory, device_lost, device_error; the results are then undefined.

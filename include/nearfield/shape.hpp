@@ -52,6 +52,14 @@ struct Instance {
     Pose pose;
 };
 
+/// Two of a list of instances, by their positions in it.
+struct InstancePair {
+    std::uint32_t first = 0;
+    std::uint32_t second = 0;  ///< > first
+
+    friend bool operator==(const InstancePair&, const InstancePair&) = default;
+};
+
 /// An axis-aligned rectangle in world coordinates.
 struct Rectangle {
     Vector2 min;

@@ -90,8 +90,6 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
 }
 
 TEST_F(Bench, RefusesWhatLaterVersionsAnswer) {
-    expect_bad_scene("\"a\": \"A\", \"b\": \"B\"", "\"pairs\": \"all\"",
-                     {"queries[0].pairs", "this version"});
     expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2].technique", "this version"});
     const std::string scene = folder_.write("scene.json", good_scene);
     expect_refused({"bench", "--scene", scene, "--technique", "compute"},

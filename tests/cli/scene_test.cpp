@@ -59,6 +59,22 @@ TEST_F(SceneCommand, AnswersEveryQueryAsTheQueryCommandDoes) {
     }
 }
 
+TEST_F(SceneCommand, AllPairsAreThoseWhoseBoxesMeet) {
+    const Json json = answer_of_scene(
+        R"({"query": "penetration", "pairs": "all", "tolerance": 0.05, "records": false},
+           {"query": "separation", "pairs": "all", "tolerance": 0.05, "reach": 4.5})");
+    ASSERT_TRUE(json.is_object());
+    std::vector<std::string> pairs;
+    for (const Json& result : json.at("results")) {
+        pairs.push_back(result.at("query").get<std::string>() + " " +
+                        result.at("a").get<std::string>() + " " +
+                        result.at("b").get<std::string>());
+    }
+    // A and `far` are 5 apart, and their boxes no more than 4 along either axis.
+    EXPECT_EQ(pairs, (std::vector<std::string>{"penetration A B", "penetration B A",
+                                               "separation A B", "separation B far"}));
+}
+
 TEST_F(SceneCommand, WithoutQueriesThereAreNoResults) {
     const Json json = answer_of_scene("");
     ASSERT_TRUE(json.is_object());
@@ -69,6 +85,13 @@ TEST_F(SceneCommand, NamesTheQueryThatIsRefused) {
     expect_refused({"scene", scene(R"({"query": "separation", "a": "A", "b": "B", "tolerance": 0.1},
                         {"query": "distance-field", "a": "A", "b": "far", "tolerance": 0.1})")},
                    {"scene.json", "queries[1]", "rectangle"});
+    expect_refused({"scene", scene(R"({"query": "penetration", "pairs": "some", "tolerance": 1})")},
+                   {"queries[0].pairs", "some", "all"});
+    expect_refused({"scene", scene(R"({"query": "separation", "pairs": "all", "tolerance": 1})")},
+                   {"queries[0]", "reach"});
+    expect_refused(
+        {"scene", scene(R"({"query": "contacts", "pairs": "all", "reach": 1, "tolerance": 1})")},
+        {"queries[0].reach"});
     expect_refused({"scene"}, {"scene is required"});
     expect_refused({"scene", folder_.path("none.json")}, {"none.json", "cannot be opened"});
 }

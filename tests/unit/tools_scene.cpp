@@ -71,8 +71,8 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
                              ends + "}"),
               file + ": queries[0].contact_distance: expected a number greater than 0");
     EXPECT_EQ(
-        error_of_query(R"({"query": "penetration", "pairs": "all"})"),
-        file + ": queries[0].pairs: this version answers single pairs only, given by a and b");
+        error_of_query(R"({"query": "penetration", "tolerance": 1, "pairs": "all", )" + ends + "}"),
+        file + ": queries[0].a: stands beside \"pairs\"");
     EXPECT_EQ(error_of_query("7"), file + ": queries[0]: not an object but a number");
     folder.write("s.json",
                  R"({"shapes": {"x": {"file": "none.wkt"}}, "instances": {}, "queries": []})");

@@ -8,23 +8,9 @@
 #include <tools/output/report_target.hpp>
 #include <tools/output/summary.hpp>
 
-#include <cstddef>
+#include <vector>
 
 namespace nearfield::tools {
-namespace {
-
-std::vector<SceneAnswer> answers_of(const Scene& scene, const Results& results) {
-    std::vector<SceneAnswer> answers;
-    for (std::size_t index = 0; index < scene.queries.size(); ++index) {
-        const SceneQuery& query = scene.queries[index];
-        answers.push_back({query.request, scene.instances[query.a].name,
-                           scene.instances[query.b].name, results.results[index]});
-    }
-    return answers;
-}
-
-}  // namespace
-
 CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
     CLI::App* command = program.add_subcommand(
         "scene", "Answer the queries of a scene (shapes, instances, queries) in one batch");
@@ -48,7 +34,7 @@ void run_scene(const SceneArguments& arguments) {
     SceneRunner runner(scene, arguments.scene, context);
     runner.run_frame();
     runner.require_results();
-    const std::vector<SceneAnswer> answers = answers_of(scene, runner.results());
+    const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {
         write_scene_json(*json, answers, runner.timings(), context.device_name());
     }

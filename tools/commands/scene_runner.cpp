@@ -14,6 +14,9 @@ SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
     for (const SceneShape& shape : scene_.shapes) {
         shapes_.push_back(take(context_.add_shape(shape.rings), place_of(shape)));
     }
+    for (const SceneInstance& instance : scene_.instances) {
+        instances_.push_back({shapes_[instance.shape], instance.pose});
+    }
 }
 
 double SceneRunner::run_frame() {
@@ -26,24 +29,60 @@ double SceneRunner::run_frame() {
         }
     }
     batch_.clear();
-    for (const SceneQuery& query : scene_.queries) {
-        add_query(batch_, query.request, instance(query.a), instance(query.b));
+    entries_.clear();
+    for (std::size_t query = 0; query < scene_.queries.size(); ++query) {
+        if (scene_.queries[query].all_pairs) {
+            add_all_pairs(query);
+        } else {
+            add(query, scene_.queries[query].a, scene_.queries[query].b);
+        }
     }
     require(context_.run(batch_, results_), file_);
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-void SceneRunner::require_results() const {
-    for (std::size_t index = 0; index < results_.results.size(); ++index) {
-        require(summary_of(results_.results[index]).status,
-                file_ + ": queries[" + std::to_string(index) + "]");
+void SceneRunner::add(std::size_t query, std::size_t a, std::size_t b) {
+    add_query(batch_, scene_.queries[query].request, instances_[a], instances_[b]);
+    entries_.push_back({query, a, b});
+}
+
+void SceneRunner::add_all_pairs(std::size_t query) {
+    const SceneQuery& all = scene_.queries[query];
+    const QueryRequest& request = all.request;
+    const double reach = request.type == QueryType::contacts
+                             ? request.contact_distance.value_or(request.tolerance)
+                             : all.reach;
+    require(context_.find_pairs(instances_, reach, pairs_), file_);
+    for (const InstancePair& pair : pairs_) {
+        add(query, pair.first, pair.second);
+        if (request.type != QueryType::separation) {
+            add(query, pair.second, pair.first);
+        }
     }
 }
 
-Instance SceneRunner::instance(std::size_t index) const {
-    const SceneInstance& entry = scene_.instances[index];
-    return {shapes_[entry.shape], entry.pose};
+void SceneRunner::require_results() const {
+    for (std::size_t index = 0; index < results_.results.size(); ++index) {
+        require(summary_of(results_.results[index]).status,
+                file_ + ": queries[" + std::to_string(entries_[index].query) + "]");
+    }
+}
+
+std::vector<SceneAnswer> SceneRunner::answers() const {
+    std::vector<SceneAnswer> answers;
+    for (std::size_t index = 0; index < entries_.size(); ++index) {
+        const Entry& entry = entries_[index];
+        const SceneQuery& query = scene_.queries[entry.query];
+        // Boxes within reach of each other may hold shapes that are not.
+        const auto* const separation = std::get_if<SeparationResult>(&results_.results[index]);
+        if (query.all_pairs && separation != nullptr && separation->distance > query.reach) {
+            continue;
+        }
+        answers.push_back({query.request, scene_.instances[entry.a].name,
+                           scene_.instances[entry.b].name, results_.results[index]});
+    }
+    return answers;
 }
 
 std::string SceneRunner::place_of(const SceneShape& shape) const {

@@ -3,6 +3,7 @@
 #include <nearfield/context.hpp>
 
 #include <tools/input/scene.hpp>
+#include <tools/output/answer.hpp>
 
 #include <string>
 #include <vector>
@@ -22,18 +23,30 @@ public:
     /// Throws LibraryError where a query of the last frame was refused.
     void require_results() const;
 
-    /// Of the last frame, in the order of the scene's queries.
-    [[nodiscard]] const Results& results() const noexcept { return results_; }
+    /// The answers of the last frame in the order of the scene's queries, and where one asks for
+    /// all pairs in the order of its pairs. Valid until the next frame.
+    [[nodiscard]] std::vector<SceneAnswer> answers() const;
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
 
 private:
-    [[nodiscard]] Instance instance(std::size_t index) const;
+    /// A query of the batch: which of the scene's, between which instances.
+    struct Entry {
+        std::size_t query = 0;
+        std::size_t a = 0;
+        std::size_t b = 0;
+    };
+
+    void add(std::size_t query, std::size_t a, std::size_t b);
+    void add_all_pairs(std::size_t query);
     [[nodiscard]] std::string place_of(const SceneShape& shape) const;
 
     const Scene& scene_;
     std::string file_;
     Context& context_;
     std::vector<ShapeHandle> shapes_;
+    std::vector<Instance> instances_;
+    std::vector<InstancePair> pairs_;
+    std::vector<Entry> entries_;
     Batch batch_;
     Results results_;
 };

@@ -108,31 +108,35 @@ QueryRequest read_request(const JsonPlace& place) {
     if (place.has("strategy")) {
         parse_member(place, "strategy", check_strategy);
     }
+    if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
+        place.member("reach").fail("belongs to the separation of all pairs");
+    }
     switch (request.type) {
         case QueryType::penetration:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "points"});
+            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
+                                          "technique", "strategy", "records", "points"});
             if (place.has("points")) {
                 request.points = parse_member(place, "points", parse_points);
             }
             break;
         case QueryType::intersection:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "kind"});
+            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
+                                          "technique", "strategy", "records", "kind"});
             if (place.has("kind")) {
                 request.kind = parse_member(place, "kind", parse_kind);
             }
             break;
         case QueryType::distance_field:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "rect"});
+            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
+                                          "technique", "strategy", "records", "rect"});
             if (place.has("rect")) {
                 request.rectangle = read_rectangle(place.member("rect"));
             }
             break;
         case QueryType::contacts:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "contact_distance", "normals"});
+            require_known_members(
+                place, {"query", "a", "b", "tolerance", "pairs", "reach", "technique", "strategy",
+                        "records", "contact_distance", "normals"});
             if (place.has("contact_distance")) {
                 request.contact_distance = read_positive(place.member("contact_distance"));
             }
@@ -142,8 +146,8 @@ QueryRequest read_request(const JsonPlace& place) {
             break;
         case QueryType::closest_point:
         case QueryType::separation:
-            require_known_members(
-                place, {"query", "a", "b", "tolerance", "technique", "strategy", "records"});
+            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
+                                          "technique", "strategy", "records"});
             break;
     }
     if (place.has("records")) {
@@ -152,12 +156,30 @@ QueryRequest read_request(const JsonPlace& place) {
     return request;
 }
 
-SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
-    if (place.require_object().has("pairs")) {
-        place.member("pairs").fail("this version answers single pairs only, given by a and b");
+/// "pairs": "all" in place of two instances.
+void read_pairs(const JsonPlace& place, SceneQuery& query) {
+    const JsonPlace pairs = place.member("pairs");
+    if (pairs.string() != "all") {
+        pairs.fail("\"" + pairs.string() + "\" is not all");
     }
+    for (const char* key : {"a", "b"}) {
+        if (place.has(key)) {
+            place.member(key).fail("stands beside \"pairs\"");
+        }
+    }
+    query.all_pairs = true;
+    if (query.request.type == QueryType::separation) {
+        query.reach = read_positive(place.member("reach"));
+    }
+}
+
+SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
     SceneQuery query;
-    query.request = read_request(place);
+    query.request = read_request(place.require_object());
+    if (place.has("pairs")) {
+        read_pairs(place, query);
+        return query;
+    }
     query.a = find_entry(scene.instances, place.member("a"), "instance");
     query.b = find_entry(scene.instances, place.member("b"), "instance");
     return query;

@@ -23,11 +23,15 @@ struct SceneInstance {
     Pose pose;
 };
 
-/// A query of a scene between two of its instances.
+/// A query of a scene between two of its instances, or between all that are near each other.
 struct SceneQuery {
     QueryRequest request;
     std::size_t a = 0;  ///< index into Scene::instances
     std::size_t b = 0;  ///< index into Scene::instances
+    /// In place of a and b: every ordered pair whose boxes meet (for contacts: come within the
+    /// contact distance; for separation: every unordered pair within `reach`).
+    bool all_pairs = false;
+    double reach = 0.0;  ///< of separation of all pairs, world units
 };
 
 /// Many shapes, poses and queries: what one batch is made of.
