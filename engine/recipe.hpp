@@ -11,10 +11,12 @@
 #include <passes/fill.hpp>
 #include <passes/frame.hpp>
 #include <passes/intersect.hpp>
+#include <passes/intersection_strategies.hpp>
 #include <passes/resolve_field.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/stencil_pipelines.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -24,7 +26,7 @@ namespace nearfield {
 struct Needs {
     bool points = false;
     bool field = false;
-    bool overlap = false;
+    std::array<bool, intersection_strategies> overlap{};  ///< by strategy
 
     friend bool operator==(const Needs&, const Needs&) = default;
 };
@@ -41,6 +43,7 @@ private:
     gpu::Owned<VkRenderPass> distance_render_pass_;
     gpu::Owned<VkPipelineLayout> draw_layout_;
     passes::StencilPipelines stencil_;
+    passes::IntersectionStrategies strategies_;
 
 public:
     passes::Fill fill;
@@ -82,7 +85,7 @@ private:
     graph::Handle samples_;
     graph::Handle features_;
     graph::Handle sign_;
-    graph::Handle hits_;
+    std::array<graph::Handle, intersection_strategies> hits_;
     std::unique_ptr<graph::Executor> executor_;
 };
 

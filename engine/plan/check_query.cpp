@@ -81,6 +81,13 @@ Status check_query(const AnyQuery& query) {
             return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
         }
     }
+    if (const auto* intersection = std::get_if<IntersectionQuery>(&query);
+        intersection && status.ok()) {
+        const auto strategy = static_cast<std::size_t>(intersection->strategy);
+        if (strategy >= intersection_strategies) {
+            return invalid("the strategy is no enumerator: " + std::to_string(strategy));
+        }
+    }
     return status;
 }
 

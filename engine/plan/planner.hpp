@@ -5,8 +5,10 @@
 #include <engine/plan/point_tiles.hpp>
 #include <nearfield/result.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace nearfield::plan {
@@ -21,6 +23,8 @@ struct PlanLimits {
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
     std::uint32_t hierarchy_height = 8;
+    /// By strategy: what it needs and the device lacks.
+    std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
 };
 
 /// Finds a shape's polygon, or null.
@@ -48,6 +52,7 @@ private:
 
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
+    [[nodiscard]] double bytes_of_tiles() const;
     void cut_into_tiles(std::uint32_t region, TileKind kind);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();

@@ -118,8 +118,8 @@ TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
               "query: \"depth\" is none of penetration, intersection, distance-field");
     EXPECT_EQ(input_error([] { return check_technique("cpu", "--technique"), 0; }),
               "--technique: this version answers by the raster technique only, not by cpu");
-    EXPECT_EQ(input_error([] { return check_strategy("blend", "--strategy"), 0; }),
-              "--strategy: this version intersects by the stencil strategy only, not by blend");
+    EXPECT_EQ(input_error([] { return parse_strategy("blending", "--strategy"); }),
+              "--strategy: \"blending\" is none of stencil, blend, logic-op, depth");
     EXPECT_EQ(input_error([] { return check_technique("automatic", "--technique"), 0; }),
               "no error");
 }

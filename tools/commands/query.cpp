@@ -42,6 +42,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     request.type = parse_query_type(arguments.type, "query");
     refuse_option(arguments.points, "--points", request, QueryType::penetration);
     refuse_option(arguments.kind, "--kind", request, QueryType::intersection);
+    refuse_option(arguments.strategy, "--strategy", request, QueryType::intersection);
     refuse_option(arguments.rectangle, "--rect", request, QueryType::distance_field);
     refuse_option(arguments.field, "--field", request, QueryType::distance_field);
     if (!arguments.tolerance) {
@@ -52,7 +53,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
         check_technique(*arguments.technique, "--technique");
     }
     if (arguments.strategy) {
-        check_strategy(*arguments.strategy, "--strategy");
+        request.strategy = parse_strategy(*arguments.strategy, "--strategy");
     }
     if (arguments.points) {
         request.points = parse_points(*arguments.points, "--points");
@@ -172,7 +173,9 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,
-                     "How masks are intersected: stencil, the default")
+                     "Of intersection: the buffer that finds the samples, stencil, blend, logic-op "
+                     "or depth; all find the same; nearfield info says which the device has; "
+                     "default stencil")
         ->type_name("NAME");
     command
         ->add_option("--kind", arguments.kind,

@@ -15,10 +15,11 @@ enum class QueryType { penetration, intersection, distance_field };
 struct QueryRequest {
     QueryType type = QueryType::penetration;
     double tolerance = 0.0;
-    PenetrationPoints points = PenetrationPoints::boundary;   ///< of penetration
-    IntersectionKind kind = IntersectionKind::volume_volume;  ///< of intersection
-    bool records = true;                                      ///< of both
-    std::optional<Rectangle> rectangle;                       ///< of distance-field
+    PenetrationPoints points = PenetrationPoints::boundary;         ///< of penetration
+    IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
+    bool records = true;                 ///< of penetration and intersection
+    std::optional<Rectangle> rectangle;  ///< of distance-field
 };
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
@@ -26,12 +27,13 @@ struct QueryRequest {
 [[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
+[[nodiscard]] IntersectionStrategy parse_strategy(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
 
-/// Throw InputError for a technique or strategy this version does not have.
+/// Throws InputError for a technique this version does not have.
 void check_technique(const std::string& name, const std::string& what);
-void check_strategy(const std::string& name, const std::string& what);
 
 /// Adds a request between two instances; its result stands at the same place among the results as
 /// the query in the batch.

@@ -105,13 +105,10 @@ QueryRequest read_request(const JsonPlace& place) {
     if (place.has("technique")) {
         parse_member(place, "technique", check_technique);
     }
-    if (place.has("strategy")) {
-        parse_member(place, "strategy", check_strategy);
-    }
     switch (request.type) {
         case QueryType::penetration:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "points"});
+            require_known_members(
+                place, {"query", "a", "b", "tolerance", "technique", "records", "points"});
             if (place.has("points")) {
                 request.points = parse_member(place, "points", parse_points);
             }
@@ -122,10 +119,13 @@ QueryRequest read_request(const JsonPlace& place) {
             if (place.has("kind")) {
                 request.kind = parse_member(place, "kind", parse_kind);
             }
+            if (place.has("strategy")) {
+                request.strategy = parse_member(place, "strategy", parse_strategy);
+            }
             break;
         case QueryType::distance_field:
-            require_known_members(place, {"query", "a", "b", "tolerance", "technique", "strategy",
-                                          "records", "rect"});
+            require_known_members(place,
+                                  {"query", "a", "b", "tolerance", "technique", "records", "rect"});
             if (place.has("rect")) {
                 request.rectangle = read_rectangle(place.member("rect"));
             }
