@@ -36,7 +36,8 @@ Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
       strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
       fill(device, draw_layout_.get(), stencil_, frame),
       cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), frame),
-      intersect(device, draw_layout_.get(), strategies_, frame),
+      early_out(device, frame),
+      intersect(device, draw_layout_.get(), strategies_, early_out, frame),
       resolve_points(device, layout, frame),
       resolve_field(device, layout, frame),
       collect(device, layout, frame) {}
@@ -64,6 +65,10 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
             const auto strategy = static_cast<IntersectionStrategy>(i);
             if (needs.overlap[i]) {
                 hits_[i] = passes.intersect.declare(graph_, mesh_, extent, strategy);
+                if (strategy == IntersectionStrategy::stencil ||
+                    strategy == IntersectionStrategy::depth) {
+                    collected = passes.early_out.declare(graph_, collected, strategy);
+                }
                 collected = passes.collect.declare(graph_, input_, hits_[i], collected, strategy);
             }
         }

@@ -8,6 +8,7 @@
 #include <passes/collect.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/cone_mesh.hpp>
+#include <passes/early_out.hpp>
 #include <passes/fill.hpp>
 #include <passes/frame.hpp>
 #include <passes/intersect.hpp>
@@ -48,6 +49,7 @@ private:
 public:
     passes::Fill fill;
     passes::ConeMesh cone_mesh;
+    passes::EarlyOut early_out;
     passes::Intersect intersect;
     passes::ResolvePoints resolve_points;
     passes::ResolveField resolve_field;

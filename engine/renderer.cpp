@@ -8,8 +8,8 @@
 namespace nearfield {
 namespace {
 
-// Fill, cone mesh, two that resolve, and two for each strategy.
-constexpr std::uint32_t most_passes = 4 + 2 * intersection_strategies;
+// Fill, cone mesh, two that resolve, and three for each strategy.
+constexpr std::uint32_t most_passes = 4 + 3 * intersection_strategies;
 constexpr std::size_t most_recipes = 8;
 constexpr std::uint32_t smallest_atlas = 256;
 
@@ -38,8 +38,8 @@ Renderer::Renderer(const gpu::Device& device)
       timestamps_(device, most_passes),
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
-      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-                 "nearfield read-back") {
+      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 gpu::Direction::readback, "nearfield read-back") {
     frame_.points = layout_.set(0);
     frame_.field = layout_.set(1);
     for (std::uint32_t i = 0; i < intersection_strategies; ++i) {
@@ -127,6 +127,8 @@ void Renderer::lay_out_output(const plan::Round& round) {
                     sizeof(empty));
     }
     read_back_.flush();
+    frame_.read_back = read_back_.handle();
+    frame_.summaries_offset = output_.summaries;
 }
 
 void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputParts& input) {
@@ -195,6 +197,7 @@ void Renderer::submit_and_wait(const Recipe& recipe, Timings& timings) {
     const Stopwatch start;
     const VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
+    passes_.early_out.reset(commands);
     recipe.execute(commands, timestamps_);
     timings.record += start.milliseconds();
 

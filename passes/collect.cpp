@@ -5,6 +5,13 @@
 #include <shaders/collect_comp.hpp>
 
 namespace nearfield::passes {
+namespace {
+
+// A group of the shader has 16 x 4 threads with a strip of 8 cells each.
+constexpr std::uint32_t group_width = 16;
+constexpr std::uint32_t group_height = 32;
+
+}  // namespace
 
 Collect::Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
     : device_(&device),
@@ -40,7 +47,8 @@ void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) co
         const std::uint32_t push[2] = {tile.tile, tile.list ? frame_->sample_capacity : 0};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
-        dispatch_tile(functions, commands, tile);
+        functions.vkCmdDispatch(commands, (tile.width + group_width - 1) / group_width,
+                                (tile.height + group_height - 1) / group_height, 1);
     }
 }
 

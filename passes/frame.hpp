@@ -17,6 +17,8 @@ struct Frame {
     VkDescriptorSet points = VK_NULL_HANDLE;
     VkDescriptorSet field = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
+    VkBuffer read_back = VK_NULL_HANDLE;
+    VkDeviceSize summaries_offset = 0;  ///< of the summaries in the read-back, in bytes
     std::uint32_t sample_capacity = 0;  ///< samples that the read-back has room for
 };
 

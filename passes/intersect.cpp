@@ -40,7 +40,7 @@ void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) 
     // Draws one of the shapes into every tile, where the stencil has counted to `count`.
     const auto draw = [&](VkPipeline pipeline, Part TileDraw::*part,
                           plan::DrawRange TileDraw::*mesh, std::uint32_t parity,
-                          std::uint32_t count, float depth, std::uint32_t value) {
+                          std::uint32_t count, auto&& draw_one) {
         renderer.bind(steps.parity);
         renderer.stencil(all, parity, 0);
         for (const TileDraw& tile : tiles) {
@@ -52,19 +52,26 @@ void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) 
         renderer.stencil(parity | counter, counter, parity | count);
         for (const TileDraw& tile : tiles) {
             if (tile.*part == Part::volume) {
-                renderer.draw(tile, tile.rectangle, depth, value);
+                draw_one(tile, tile.rectangle);
             }
         }
         renderer.stencil(counter, counter, count);
         for (const TileDraw& tile : tiles) {
             if (tile.*part == Part::boundary) {
-                renderer.draw(tile, tile.*mesh, depth, value);
+                draw_one(tile, tile.*mesh);
             }
         }
     };
-    draw(steps.b, &TileDraw::part_b, &TileDraw::b, parity_b, 0, steps.depth_b, steps.value_b);
-    draw(steps.a, &TileDraw::part_a, &TileDraw::a, parity_a, steps.count_b, steps.depth_a,
-         steps.value_a);
+    draw(steps.b, &TileDraw::part_b, &TileDraw::b, parity_b, 0,
+         [&](const TileDraw& tile, plan::DrawRange range) {
+             renderer.draw(tile, range, steps.depth_b, steps.value_b);
+         });
+    draw(steps.a, &TileDraw::part_a, &TileDraw::a, parity_a, steps.count_b,
+         [&](const TileDraw& tile, plan::DrawRange range) {
+             early_out_->begin(commands, tile);
+             renderer.draw(tile, range, steps.depth_a, steps.value_a);
+             early_out_->end(commands, tile);
+         });
 }
 
 }  // namespace nearfield::passes

@@ -2,6 +2,7 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/graph/graph.hpp>
+#include <passes/early_out.hpp>
 #include <passes/frame.hpp>
 #include <passes/intersection_strategies.hpp>
 
@@ -15,8 +16,13 @@ namespace nearfield::passes {
 class Intersect {
 public:
     Intersect(const gpu::Device& device, VkPipelineLayout layout,
-              const IntersectionStrategies& strategies, const Frame& frame)
-        : device_(&device), layout_(layout), strategies_(&strategies), frame_(&frame) {}
+              const IntersectionStrategies& strategies, const EarlyOut& early_out,
+              const Frame& frame)
+        : device_(&device),
+          layout_(layout),
+          strategies_(&strategies),
+          early_out_(&early_out),
+          frame_(&frame) {}
 
     /// Adds the pass that draws every overlap tile of one strategy. Reads the mesh; returns the hit
     /// image: a colour (plan::white: an intersection) and, where A takes part by its boundary, the
@@ -30,6 +36,7 @@ private:
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const IntersectionStrategies* strategies_;
+    const EarlyOut* early_out_;
     const Frame* frame_;
 };
 

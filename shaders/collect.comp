@@ -5,7 +5,7 @@
 
 #include "layout.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 16, local_size_y = 4) in;
 
 layout(set = 0, binding = 4) uniform usampler2D hit_image;
 

@@ -1,5 +1,6 @@
 // Searches a tile of a hit image for the samples that an intersection found, sums them up, and
-// lists them where a list is asked for. A work group reserves room for all its samples at once.
+// lists them where a list is asked for. A thread looks at a strip of cells and reserves room for all
+// its samples at once; groups without barriers and shared memory are what suits a CPU.
 // Counting goes on past the end of the room, so the host sees how much was needed.
 //
 // The including shader defines hit_at(texel): the number in the hit image.
@@ -13,6 +14,7 @@ struct Summary {
     uint low_row;
     uint high_column;
     uint high_row;
+    uint passed;  // 0: an occlusion query saw that there is nothing here
 };
 
 layout(std430, set = 0, binding = 2) buffer Summaries {
@@ -29,50 +31,44 @@ layout(push_constant) uniform Push {
     uint capacity;  // samples there is room for; 0: none are to be listed
 } push;
 
-shared uint group_count;
-shared uint group_first;
-shared uvec2 group_low;
-shared uvec2 group_high;
+// Cells that a thread looks at, one above the other; as in passes/collect.cpp.
+const uint strip = 8u;
 
 void main() {
     Tile tile = tiles[push.tile];
-    uvec2 cell = gl_GlobalInvocationID.xy;
-    uint hit = 0u;
-    if (cell.x < tile.width && cell.y < tile.height) {
-        hit = hit_at(ivec2(uvec2(tile.atlas_x, tile.atlas_y) + cell));
+    uint column = gl_GlobalInvocationID.x;
+    uint first_row = gl_GlobalInvocationID.y * strip;
+    if (summaries[push.tile].passed == 0u || column >= tile.width || first_row >= tile.height) {
+        return;
     }
-    bool found = (hit & 255u) == white;
-
-    if (gl_LocalInvocationIndex == 0u) {
-        group_count = 0u;
-        group_low = uvec2(0xffffffffu);
-        group_high = uvec2(0u);
-    }
-    barrier();
-    uint place = 0u;
-    if (found) {
-        place = atomicAdd(group_count, 1u);
-        atomicMin(group_low.x, cell.x);
-        atomicMin(group_low.y, cell.y);
-        atomicMax(group_high.x, cell.x);
-        atomicMax(group_high.y, cell.y);
-    }
-    barrier();
-    if (gl_LocalInvocationIndex == 0u && group_count > 0u) {
-        atomicAdd(summaries[push.tile].count, group_count);
-        atomicMin(summaries[push.tile].low_column, group_low.x);
-        atomicMin(summaries[push.tile].low_row, group_low.y);
-        atomicMax(summaries[push.tile].high_column, group_high.x);
-        atomicMax(summaries[push.tile].high_row, group_high.y);
-        if (push.capacity > 0u) {
-            group_first = atomicAdd(samples.count, group_count);
+    uint rows = min(strip, tile.height - first_row);
+    ivec2 corner = ivec2(tile.atlas_x + column, tile.atlas_y + first_row);
+    uint found = 0u;
+    for (uint i = 0u; i < rows; ++i) {
+        if ((hit_at(corner + ivec2(0, i)) & 255u) == white) {
+            found |= 1u << i;
         }
     }
-    barrier();
-    if (found && push.capacity > 0u && group_first + place < push.capacity) {
-        uint word = (group_first + place) * 3u;
-        samples.words[word] = cell.x | (cell.y << 16);
-        samples.words[word + 1u] = push.tile;
-        samples.words[word + 2u] = hit >> run_shift;
+    if (found == 0u) {
+        return;
+    }
+    uint count = uint(bitCount(found));
+    atomicAdd(summaries[push.tile].count, count);
+    atomicMin(summaries[push.tile].low_column, column);
+    atomicMin(summaries[push.tile].low_row, first_row + uint(findLSB(found)));
+    atomicMax(summaries[push.tile].high_column, column);
+    atomicMax(summaries[push.tile].high_row, first_row + uint(findMSB(found)));
+    if (push.capacity == 0u) {
+        return;
+    }
+    uint place = atomicAdd(samples.count, count);
+    for (uint i = 0u; i < rows; ++i) {
+        if ((found & (1u << i)) != 0u && place < push.capacity) {
+            uint word = place * 3u;
+            samples.words[word] = column | ((first_row + i) << 16);
+            samples.words[word + 1u] = push.tile;
+            samples.words[word + 2u] = hit_at(corner + ivec2(0, i)) >> run_shift;
+            ++place;
+        }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace nearfield::plan {
@@ -66,8 +67,11 @@ struct TileSummary {
     std::uint32_t count = 0;
     std::uint32_t low_column = UINT32_MAX, low_row = UINT32_MAX;
     std::uint32_t high_column = 0, high_row = 0;
+    /// 0: the occlusion query saw no sample pass, so there is nothing to search for. Stays 1 where
+    /// none watches.
+    std::uint32_t passed = 1;
 };
-static_assert(sizeof(TileSummary) == 20);
+static_assert(sizeof(TileSummary) == 24 && offsetof(TileSummary, passed) == 20);
 
 /// A sample found by an intersection.
 struct SampleData {

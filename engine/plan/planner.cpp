@@ -274,16 +274,10 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     double cells = 0.0;
     for (const Grid& grid : grids_) {
         cells += grid.cells();
-        if (std::max(grid.width, grid.height) > UINT32_MAX) {
-            throw Failure({StatusCode::too_large,
-                           "query " + std::to_string(query_) + " with tolerance " +
-                               number(query.tolerance) + " has a region of " +
-                               std::to_string(grid.width) + " x " + std::to_string(grid.height) +
-                               " cells; a side has at most " + std::to_string(UINT32_MAX)});
-        }
     }
     require_memory(query.records ? bytes_per_sample * cells : bytes_of_tiles(), query.tolerance,
                    2.0);
+    require_sides(query.tolerance);
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
         cut_into_tiles(region, TileKind::overlap);
     }
@@ -326,6 +320,19 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.height = static_cast<std::uint32_t>(grid.height);
     result.values.resize(grid.width * grid.height);
     cut_into_tiles(0, TileKind::field);
+}
+
+/// A side that a Region cannot state is an error.
+void Planner::require_sides(double tolerance) const {
+    for (const Grid& grid : grids_) {
+        if (std::max(grid.width, grid.height) > UINT32_MAX) {
+            throw Failure({StatusCode::too_large,
+                           "query " + std::to_string(query_) + " with tolerance " +
+                               number(tolerance) + " has a region of " +
+                               std::to_string(grid.width) + " x " + std::to_string(grid.height) +
+                               " cells; a side has at most " + std::to_string(UINT32_MAX)});
+        }
+    }
 }
 
 /// What the tiles of the query's grids take themselves, where nothing is kept for their cells.

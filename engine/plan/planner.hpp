@@ -52,6 +52,7 @@ private:
 
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
+    void require_sides(double tolerance) const;
     [[nodiscard]] double bytes_of_tiles() const;
     void cut_into_tiles(std::uint32_t region, TileKind kind);
     void require_memory(double bytes, double tolerance, double growth);

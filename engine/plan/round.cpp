@@ -20,6 +20,17 @@ using geometry::Vector;
 // what is left has coordinates that a float can tell apart.
 constexpr double longest_run = 64.0;
 
+// An occlusion query costs about as much as searching this many samples (docs/performance.md), and
+// gains nothing where some pass.
+constexpr std::uint32_t smallest_watched = 128U * 128U;
+
+/// What passes when A is drawn is an intersection where the stencil or the depth decides. Where the
+/// colour does it is all of A, which says too little.
+bool worth_watching(IntersectionStrategy strategy, const Tile& tile) {
+    return (strategy == IntersectionStrategy::stencil || strategy == IntersectionStrategy::depth) &&
+           tile.width * tile.height >= smallest_watched;
+}
+
 DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
     const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
     const auto right = static_cast<float>(width);
@@ -60,6 +71,7 @@ void Round::clear() {
     }
     tile_index.clear();
     runs.clear();
+    watched = 0;
     field_values = 0;
     listed_cells = 0;
 }
@@ -221,6 +233,9 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
     };
     draw.b = add(*query.b, query.pose_b, draw.part_b, false);
     draw.a = add(*query.a, query.pose_a, draw.part_a, true);
+    if (round.watched < most_watched && worth_watching(asked.strategy, tile)) {
+        draw.watch = round.watched++;
+    }
     draw.list = asked.records;
     round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
     round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);

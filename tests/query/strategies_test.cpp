@@ -239,6 +239,26 @@ TEST_F(Strategies, FindOneSampleAndNone) {
     }
 }
 
+/// Tiles so large that an occlusion query decides whether they are searched at all.
+TEST_F(Strategies, SearchLargeTilesWhereverASamplePasses) {
+    const Rings lower{{{0, 0}, {1, 0}, {0, 1}}};
+    // Its long side is beside A's, and a spike from it reaches A, or almost.
+    const auto upper = [](double tip) {
+        return Rings{
+            {{1.05, 1.05}, {0.03, 1.05}, {0.53, 0.55}, {tip, tip}, {0.55, 0.53}, {1.05, 0.03}}};
+    };
+    const double d = 0.004;
+    for (const double tip : {0.52, 0.4999, 0.497, 0.49, 0.3}) {
+        SCOPED_TRACE(tip);
+        const PlacedPair pair(*context_, {{"A", lower}, {"B", upper(tip)}, {}, {}, d});
+        check(pair, *context_);
+        const auto result = run_alone(*context_, pair.intersection(every_kind[2]));
+        ASSERT_EQ(result.regions.size(), 1U);
+        EXPECT_GE(result.regions[0].width * result.regions[0].height, 128U * 128U);
+        EXPECT_EQ(result.count == 0, tip > 0.499) << result.count;
+    }
+}
+
 class MissingStrategies : public QueryTest {};
 
 TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
