@@ -46,6 +46,10 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        limits.missing_for_strategy[i] =
+            gpu::missing_for(static_cast<IntersectionStrategy>(i), device.strategy_support());
+    }
     return limits;
 }
 
@@ -203,6 +207,7 @@ void Context::Implementation::run_batch(const Batch& batch, Results& results) {
         const Stopwatch decode_start;
         decoder_.add_points(round_, renderer_.points());
         decoder_.add_field_values(plan_, round_, renderer_.field_values(), results.results);
+        ResultDecoder::add_summaries(plan_, round_, renderer_.summaries(), results.results);
         decoder_.add_samples(plan_, round_, renderer_.samples());
         timings.decode += decode_start.milliseconds();
     }

@@ -1,7 +1,10 @@
 #include <engine/failure.hpp>
 #include <engine/graph/print.hpp>
 #include <engine/recipe.hpp>
+#include <passes/prototype.hpp>
 #include <passes/tile_renderer.hpp>
+
+#include <shaders/number_frag.hpp>
 
 #include <utility>
 
@@ -19,32 +22,22 @@ graph::BakedGraph baked_form(const graph::Graph& graph) {
     return std::move(*baked);
 }
 
-/// A render pass with one number image and one depth-stencil image.
-gpu::Owned<VkRenderPass> make_prototype(const gpu::Device& device, VkFormat depth_stencil) {
-    graph::Graph graph;
-    const Handle color = graph.create_image({"prototype colour", passes::number_format, {1, 1}});
-    const Handle depth = graph.create_image({"prototype depth", depth_stencil, {1, 1}});
-    graph.add_pass(
-        "prototype", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            static_cast<void>(pass.write(color, graph::Access::color_attachment));
-            static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
-        },
-        [](VkCommandBuffer) {});
-    return graph::make_render_pass(device, graph, baked_form(graph).passes.front());
-}
-
 }  // namespace
 
 Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
                const passes::Frame& frame)
-    : stencil_render_pass_(make_prototype(device, device.stencil_format())),
-      distance_render_pass_(make_prototype(device, passes::distance_depth_format)),
+    : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
+                                                  device.stencil_format(), "stencil")),
+      distance_render_pass_(passes::make_prototype(device, passes::number_format,
+                                                   passes::distance_depth_format, "distance")),
       draw_layout_(passes::make_draw_layout(device)),
-      stencil_(device, draw_layout_.get(), stencil_render_pass_.get()),
+      stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
+               "stencil"),
+      strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
       fill(device, draw_layout_.get(), stencil_, frame),
       cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), frame),
-      intersect(device, draw_layout_.get(), stencil_, frame),
+      early_out(device, frame),
+      intersect(device, draw_layout_.get(), strategies_, early_out, frame),
       resolve_points(device, layout, frame),
       resolve_field(device, layout, frame),
       collect(device, layout, frame) {}
@@ -65,10 +58,20 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
         values_ = graph_.import_buffer({"field values", false, true});
         passes.resolve_field.declare(graph_, input_, features_, sign_, values_);
     }
-    if (needs.overlap) {
-        hits_ = passes.intersect.declare(graph_, mesh_, extent);
+    if (needs.overlap != Needs{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
-        passes.collect.declare(graph_, input_, hits_, samples_);
+        Handle collected = samples_;
+        for (std::size_t i = 0; i < intersection_strategies; ++i) {
+            const auto strategy = static_cast<IntersectionStrategy>(i);
+            if (needs.overlap[i]) {
+                hits_[i] = passes.intersect.declare(graph_, mesh_, extent, strategy);
+                if (strategy == IntersectionStrategy::stencil ||
+                    strategy == IntersectionStrategy::depth) {
+                    collected = passes.early_out.declare(graph_, collected, strategy);
+                }
+                collected = passes.collect.declare(graph_, input_, hits_[i], collected, strategy);
+            }
+        }
     }
     executor_ = std::make_unique<graph::Executor>(device, graph_, baked_form(graph_));
 }
@@ -92,8 +95,10 @@ void Recipe::bind_images(const passes::ComputeLayout& layout, const passes::Fram
             layout.write_image(set, Layout::sign_image, executor_->sampled_view(sign_));
         }
     }
-    if (needs_.overlap) {
-        layout.write_image(frame.samples, Layout::image, executor_->sampled_view(hits_));
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        if (needs_.overlap[i]) {
+            layout.write_image(frame.samples[i], Layout::image, executor_->sampled_view(hits_[i]));
+        }
     }
 }
 

@@ -8,13 +8,16 @@
 #include <passes/collect.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/cone_mesh.hpp>
+#include <passes/early_out.hpp>
 #include <passes/fill.hpp>
 #include <passes/frame.hpp>
 #include <passes/intersect.hpp>
+#include <passes/intersection_strategies.hpp>
 #include <passes/resolve_field.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/stencil_pipelines.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -24,7 +27,7 @@ namespace nearfield {
 struct Needs {
     bool points = false;
     bool field = false;
-    bool overlap = false;
+    std::array<bool, intersection_strategies> overlap{};  ///< by strategy
 
     friend bool operator==(const Needs&, const Needs&) = default;
 };
@@ -41,10 +44,12 @@ private:
     gpu::Owned<VkRenderPass> distance_render_pass_;
     gpu::Owned<VkPipelineLayout> draw_layout_;
     passes::StencilPipelines stencil_;
+    passes::IntersectionStrategies strategies_;
 
 public:
     passes::Fill fill;
     passes::ConeMesh cone_mesh;
+    passes::EarlyOut early_out;
     passes::Intersect intersect;
     passes::ResolvePoints resolve_points;
     passes::ResolveField resolve_field;
@@ -82,7 +87,7 @@ private:
     graph::Handle samples_;
     graph::Handle features_;
     graph::Handle sign_;
-    graph::Handle hits_;
+    std::array<graph::Handle, intersection_strategies> hits_;
     std::unique_ptr<graph::Executor> executor_;
 };
 

@@ -8,7 +8,9 @@
 namespace nearfield {
 namespace {
 
-constexpr std::uint32_t most_passes = 8;
+// Fill, cone mesh, two that resolve, and three for each strategy.
+constexpr std::uint32_t most_passes = 4 + 3 * intersection_strategies;
+constexpr std::size_t most_recipes = 8;
 constexpr std::uint32_t smallest_atlas = 256;
 
 // Every part of a buffer that is bound has at least these bytes, its last one too.
@@ -36,11 +38,13 @@ Renderer::Renderer(const gpu::Device& device)
       timestamps_(device, most_passes),
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
-      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
-                 "nearfield read-back") {
+      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 gpu::Direction::readback, "nearfield read-back") {
     frame_.points = layout_.set(0);
     frame_.field = layout_.set(1);
-    frame_.samples = layout_.set(2);
+    for (std::uint32_t i = 0; i < intersection_strategies; ++i) {
+        frame_.samples[i] = layout_.set(2 + i);
+    }
 }
 
 std::uint64_t Renderer::align(std::uint64_t offset) const {
@@ -77,6 +81,9 @@ Recipe& Renderer::recipe_for(Needs needs, plan::TileSize extent) {
     }
     last_recipe_ = nullptr;
     std::erase_if(recipes_, [&](const auto& recipe) { return recipe->needs() == needs; });
+    if (recipes_.size() == most_recipes) {
+        recipes_.erase(recipes_.begin());
+    }
     recipes_.push_back(std::make_unique<Recipe>(*device_, passes_, needs, atlas));
     return *recipes_.back();
 }
@@ -106,12 +113,22 @@ void Renderer::lay_out_output(const plan::Round& round) {
     const std::uint64_t sample_bytes =
         sizeof(std::uint32_t) + frame_.sample_capacity * sizeof(plan::SampleData);
     output_.values = align(point_bytes);
-    output_.samples = align(output_.values + value_bytes);
+    const std::uint64_t summary_bytes = round.tiles.size() * sizeof(plan::TileSummary);
+    output_.summaries = align(output_.values + value_bytes);
+    output_.samples = align(output_.summaries + summary_bytes);
     output_.end = output_.samples + sample_bytes;
-    require_range(std::max({point_bytes, value_bytes, sample_bytes}), "the results of one round");
+    require_range(std::max({point_bytes, value_bytes, summary_bytes, sample_bytes}),
+                  "the results of one round");
     read_back_.reserve(output_.end + smallest_range);
     std::memset(read_back_.data() + output_.samples, 0, sizeof(std::uint32_t));
+    const plan::TileSummary empty;
+    for (std::size_t i = 0; i < round.tiles.size(); ++i) {
+        std::memcpy(read_back_.data() + output_.summaries + i * sizeof(empty), &empty,
+                    sizeof(empty));
+    }
     read_back_.flush();
+    frame_.read_back = read_back_.handle();
+    frame_.summaries_offset = output_.summaries;
 }
 
 void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputParts& input) {
@@ -134,26 +151,32 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     }
     if (recipe.needs().field) {
         write_tiles(frame_.field);
-        write(frame_.field, Layout::output, read_back_, output_.values, output_.samples);
+        write(frame_.field, Layout::output, read_back_, output_.values, output_.summaries);
     }
-    if (recipe.needs().overlap) {
-        write_tiles(frame_.samples);
-        write(frame_.samples, Layout::output, read_back_, output_.samples, output_.end);
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        if (recipe.needs().overlap[i]) {
+            write_tiles(frame_.samples[i]);
+            write(frame_.samples[i], Layout::summaries, read_back_, output_.summaries,
+                  output_.samples);
+            write(frame_.samples[i], Layout::output, read_back_, output_.samples, output_.end);
+        }
     }
     recipe.bind_images(layout_, frame_);
 }
 
 void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
     const Stopwatch start;
-    const Needs needs{!round.points.empty(), round.field_values > 0, !round.overlap_draws.empty()};
+    Needs needs{!round.points.empty(), round.field_values > 0, {}};
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        needs.overlap[i] = !round.overlap_draws[i].empty();
+    }
     Recipe& recipe = recipe_for(needs, extent);
     last_recipe_ = &recipe;
     const InputParts input = upload(round);
     frame_.round = &round;
     frame_.mesh = mesh_.handle();
     frame_.sample_capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-        round.overlap_cells,
-        std::max<std::uint64_t>(most_samples_, 4096 + round.overlap_cells / 8)));
+        round.listed_cells, std::max<std::uint64_t>(most_samples_, 4096 + round.listed_cells / 8)));
     timings.plan += start.milliseconds();
 
     for (;;) {
@@ -174,6 +197,7 @@ void Renderer::submit_and_wait(const Recipe& recipe, Timings& timings) {
     const Stopwatch start;
     const VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
+    passes_.early_out.reset(commands);
     recipe.execute(commands, timestamps_);
     timings.record += start.milliseconds();
 
@@ -199,6 +223,11 @@ std::span<const plan::SampleData> Renderer::samples() const {
     return {reinterpret_cast<const plan::SampleData*>(read_back_.data() + output_.samples +
                                                       sizeof(std::uint32_t)),
             sample_count_};
+}
+
+std::span<const plan::TileSummary> Renderer::summaries() const {
+    return {reinterpret_cast<const plan::TileSummary*>(read_back_.data() + output_.summaries),
+            frame_.round->tiles.size()};
 }
 
 std::string Renderer::print(GraphFormat format) const {

@@ -45,6 +45,13 @@ std::uint32_t nearest_edge(const PlannedQuery& query, plan::EdgeRun run, const V
     return nearest;
 }
 
+/// The centre of a cell of a tile, in the world.
+Vector centre_of_cell(const Tile& tile, std::uint32_t column, std::uint32_t row) {
+    return tile.grid.origin +
+           tile.grid.cell * Vector(static_cast<double>(tile.column + column) + 0.5,
+                                   static_cast<double>(tile.row + row) + 0.5);
+}
+
 bool shapes_intersect(const PlannedQuery& query) {
     return localize::intersects(PlacedPolygon(*query.a, query.pose_a),
                                 PlacedPolygon(*query.b, query.pose_b));
@@ -82,13 +89,38 @@ void ResultDecoder::add_field_values(const plan::Plan& plan, const plan::Round& 
     }
 }
 
+void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::Round& round,
+                                  std::span<const plan::TileSummary> summaries,
+                                  std::vector<AnyResult>& results) {
+    for (std::size_t i = 0; i < summaries.size(); ++i) {
+        const plan::TileSummary& summary = summaries[i];
+        const Tile& tile = plan.tiles[round.tile_index[i]];
+        if (tile.kind != plan::TileKind::overlap || summary.count == 0) {
+            continue;
+        }
+        auto& result = std::get<IntersectionResult>(results[tile.query]);
+        const Vector2 low =
+            geometry::to_public(centre_of_cell(tile, summary.low_column, summary.low_row));
+        const Vector2 high =
+            geometry::to_public(centre_of_cell(tile, summary.high_column, summary.high_row));
+        Rectangle& box = result.box;
+        if (result.count == 0) {
+            box = {low, high};
+        }
+        box.min = {std::min(box.min.x, low.x), std::min(box.min.y, low.y)};
+        box.max = {std::max(box.max.x, high.x), std::max(box.max.y, high.y)};
+        result.count += summary.count;
+    }
+}
+
 void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round,
                                 std::span<const plan::SampleData> samples) {
     for (const plan::SampleData& sample : samples) {
         const std::uint32_t index = round.tile_index[sample.tile];
         const Tile& tile = plan.tiles[index];
         samples_.push_back({tile.query, tile.region, tile.row + (sample.cell >> 16U),
-                            tile.column + (sample.cell & 0xffffU), index,
+                            tile.column + (sample.cell & 0xffffU),
+                            centre_of_cell(tile, sample.cell & 0xffffU, sample.cell >> 16U),
                             round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run]});
     }
 }
@@ -127,18 +159,11 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
     for (const FoundSample& sample : samples_) {
         const auto& query = std::get<IntersectionQuery>(*plan.queries[sample.query].query);
         auto& result = std::get<IntersectionResult>(results[sample.query]);
-        ++result.count;
-        if (query.records) {
-            const plan::Grid& grid = plan.tiles[sample.tile].grid;
-            const Vector centre(static_cast<double>(sample.column) + 0.5,
-                                static_cast<double>(sample.row) + 0.5);
-            const Vector point = grid.origin + grid.cell * centre;
-            const bool by_edge = query.kind != IntersectionKind::volume_volume;
-            result.samples.push_back(
-                {geometry::to_public(point),
-                 by_edge ? nearest_edge(plan.queries[sample.query], sample.run, point)
-                         : IntersectionSample::no_edge});
-        }
+        const bool by_edge = query.kind != IntersectionKind::volume_volume;
+        result.samples.push_back(
+            {geometry::to_public(sample.point),
+             by_edge ? nearest_edge(plan.queries[sample.query], sample.run, sample.point)
+                     : IntersectionSample::no_edge});
     }
 }
 

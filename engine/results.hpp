@@ -22,6 +22,9 @@ public:
     void add_points(const plan::Round& round, std::span<const std::uint32_t> words);
     void add_field_values(const plan::Plan& plan, const plan::Round& round,
                           std::span<const float> values, std::vector<AnyResult>& results) const;
+    static void add_summaries(const plan::Plan& plan, const plan::Round& round,
+                              std::span<const plan::TileSummary> summaries,
+                              std::vector<AnyResult>& results);
     void add_samples(const plan::Plan& plan, const plan::Round& round,
                      std::span<const plan::SampleData> samples);
 
@@ -34,7 +37,7 @@ private:
         std::uint32_t region = 0;
         std::uint64_t row = 0;
         std::uint64_t column = 0;
-        std::uint32_t tile = 0;
+        geometry::Vector point = geometry::Vector::Zero();
         plan::EdgeRun run;  // of A's edges, where A takes part by its boundary
     };
 

@@ -1,39 +1,54 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/collect.hpp>
 
+#include <shaders/collect_colors_comp.hpp>
 #include <shaders/collect_comp.hpp>
 
 namespace nearfield::passes {
+namespace {
+
+// A group of the shader has 16 x 4 threads with a strip of 8 cells each.
+constexpr std::uint32_t group_width = 16;
+constexpr std::uint32_t group_height = 32;
+
+}  // namespace
 
 Collect::Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
     : device_(&device),
       layout_(layout.pipeline_layout()),
       frame_(&frame),
-      pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::collect_comp,
-                                           "nearfield collect")) {}
+      numbers_(gpu::make_compute_pipeline(device, layout_, shaders::collect_comp,
+                                          "nearfield collect numbers")),
+      colors_(gpu::make_compute_pipeline(device, layout_, shaders::collect_colors_comp,
+                                         "nearfield collect colours")) {}
 
-void Collect::declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
-                      graph::Handle samples) const {
+graph::Handle Collect::declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
+                               graph::Handle samples, IntersectionStrategy strategy) const {
     graph.add_pass(
         "collect", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(input, graph::Access::storage_read_in_compute);
             pass.read(hits, graph::Access::sampled_in_compute);
-            static_cast<void>(pass.write(samples, graph::Access::storage_write_in_compute));
+            samples = pass.write(samples, graph::Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { record(commands); });
+        [this, strategy](VkCommandBuffer commands) { record(commands, strategy); });
+    return samples;
 }
 
-void Collect::record(VkCommandBuffer commands) const {
+void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
     const gpu::Functions& functions = device_->functions();
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    const auto index = static_cast<std::size_t>(strategy);
+    const bool colors = strategy == IntersectionStrategy::blend;
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+                                colors ? colors_.get() : numbers_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->samples, 0, nullptr);
-    for (const plan::TileDraw& tile : frame_->round->overlap_draws) {
-        const std::uint32_t push[2] = {tile.tile, frame_->sample_capacity};
+                                      &frame_->samples[index], 0, nullptr);
+    for (const plan::TileDraw& tile : frame_->round->overlap_draws[index]) {
+        const std::uint32_t push[2] = {tile.tile, tile.list ? frame_->sample_capacity : 0};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
-        dispatch_tile(functions, commands, tile);
+        functions.vkCmdDispatch(commands, (tile.width + group_width - 1) / group_width,
+                                (tile.height + group_height - 1) / group_height, 1);
     }
 }
 

@@ -98,7 +98,9 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
     gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_),
                "vkAllocateDescriptorSets", "compute passes");
     constexpr std::array<const char*, set_count> names{
-        "nearfield resolve points set", "nearfield resolve field set", "nearfield collect set"};
+        "nearfield resolve points set",    "nearfield resolve field set",
+        "nearfield collect set, stencil",  "nearfield collect set, blend",
+        "nearfield collect set, logic op", "nearfield collect set, depth"};
     for (std::uint32_t i = 0; i < set_count; ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }

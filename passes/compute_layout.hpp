@@ -3,6 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/plan/round.hpp>
+#include <nearfield/query.hpp>
 
 #include <cstdint>
 
@@ -12,8 +13,16 @@ namespace nearfield::passes {
 /// read and write. Bindings as in the shaders.
 class ComputeLayout {
 public:
-    enum Binding : std::uint32_t { tiles, geometry, points, output, image, sign_image };
-    static constexpr std::uint32_t set_count = 3;
+    enum Binding : std::uint32_t {
+        tiles,
+        geometry,
+        points,
+        output,
+        image,
+        sign_image,
+        summaries = points,  ///< of the collect passes
+    };
+    static constexpr std::uint32_t set_count = 2 + intersection_strategies;
     static constexpr std::uint32_t push_bytes = 8;
 
     explicit ComputeLayout(const gpu::Device& device);

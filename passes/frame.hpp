@@ -4,6 +4,7 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <array>
 #include <cstdint>
 
 namespace nearfield::passes {
@@ -15,7 +16,9 @@ struct Frame {
     VkBuffer mesh = VK_NULL_HANDLE;  ///< the round's mesh, at offset 0
     VkDescriptorSet points = VK_NULL_HANDLE;
     VkDescriptorSet field = VK_NULL_HANDLE;
-    VkDescriptorSet samples = VK_NULL_HANDLE;
+    std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
+    VkBuffer read_back = VK_NULL_HANDLE;
+    VkDeviceSize summaries_offset = 0;  ///< of the summaries in the read-back, in bytes
     std::uint32_t sample_capacity = 0;  ///< samples that the read-back has room for
 };
 

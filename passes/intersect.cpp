@@ -1,58 +1,77 @@
 #include <passes/intersect.hpp>
 #include <passes/tile_renderer.hpp>
 
+#include <string>
+
 namespace nearfield::passes {
 
 using plan::Part;
 using plan::TileDraw;
 
-graph::Handle Intersect::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    graph::Handle hits = graph.create_image({"hits", number_format, extent});
-    const graph::Handle stencil =
-        graph.create_image({"intersection stencil", device_->stencil_format(), extent});
+graph::Handle Intersect::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent,
+                                 IntersectionStrategy strategy) const {
+    const StrategySteps& steps = strategies_->steps(strategy);
+    const std::string name = to_string(strategy);
+    graph::Handle hits = graph.create_image({name + " hits", steps.color_format, extent});
+    const graph::Handle depth_stencil =
+        graph.create_image({name + " depth and stencil", device_->stencil_format(), extent});
     graph.add_pass(
-        "intersect", graph::PassKind::graphics,
+        steps.pass_name, graph::PassKind::graphics,
         [&](graph::PassBuilder& pass) {
             pass.read(mesh, graph::Access::vertex_buffer);
             hits = pass.write(hits, graph::Access::color_attachment);
-            static_cast<void>(pass.write(stencil, graph::Access::depth_stencil_attachment));
+            static_cast<void>(pass.write(depth_stencil, graph::Access::depth_stencil_attachment));
         },
-        [this](VkCommandBuffer commands) { record(commands); });
+        [this, strategy](VkCommandBuffer commands) { record(commands, strategy); });
     return hits;
 }
 
-void Intersect::record(VkCommandBuffer commands) const {
+void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
     using namespace stencil_bits;
+    const StrategySteps& steps = strategies_->steps(strategy);
     const TileRenderer renderer(*device_, layout_, commands, *frame_);
-    // Draws one step into every tile it applies to.
-    const auto step = [&](const gpu::Owned<VkPipeline>& pipeline, std::uint32_t compare_mask,
-                          std::uint32_t write_mask, std::uint32_t reference, auto&& applies,
-                          plan::DrawRange TileDraw::*range, std::uint32_t value) {
-        renderer.bind(pipeline.get());
-        renderer.stencil(compare_mask, write_mask, reference);
-        for (const TileDraw& tile : frame_->round->overlap_draws) {
-            if (applies(tile)) {
-                renderer.draw(tile, tile.*range, 1.0F, value);
+    const auto& tiles = frame_->round->overlap_draws[static_cast<std::size_t>(strategy)];
+
+    renderer.bind(steps.clear);
+    renderer.stencil(all, all, 0);
+    for (const TileDraw& tile : tiles) {
+        renderer.draw(tile, tile.rectangle, 1.0F, 0);
+    }
+    // Draws one of the shapes into every tile, where the stencil has counted to `count`.
+    const auto draw = [&](VkPipeline pipeline, Part TileDraw::*part,
+                          plan::DrawRange TileDraw::*mesh, std::uint32_t parity,
+                          std::uint32_t count, auto&& draw_one) {
+        renderer.bind(steps.parity);
+        renderer.stencil(all, parity, 0);
+        for (const TileDraw& tile : tiles) {
+            if (tile.*part == Part::volume) {
+                renderer.draw(tile, tile.*mesh, 1.0F, 0);
+            }
+        }
+        renderer.bind(pipeline);
+        renderer.stencil(parity | counter, counter, parity | count);
+        for (const TileDraw& tile : tiles) {
+            if (tile.*part == Part::volume) {
+                draw_one(tile, tile.rectangle);
+            }
+        }
+        renderer.stencil(counter, counter, count);
+        for (const TileDraw& tile : tiles) {
+            if (tile.*part == Part::boundary) {
+                draw_one(tile, tile.*mesh);
             }
         }
     };
-    const auto always = [](const TileDraw&) { return true; };
-    const auto volume_a = [](const TileDraw& tile) { return tile.part_a == Part::volume; };
-    const auto volume_b = [](const TileDraw& tile) { return tile.part_b == Part::volume; };
-    const auto boundary_a = [](const TileDraw& tile) { return tile.part_a == Part::boundary; };
-    const auto boundary_b = [](const TileDraw& tile) { return tile.part_b == Part::boundary; };
-    const StencilPipelines& p = *pipelines_;
-
-    step(p.clear, all, all, 0, always, &TileDraw::rectangle, plan::no_feature);
-    // B: 0 becomes 1.
-    step(p.parity, all, parity_b, 0, volume_b, &TileDraw::b, 0);
-    step(p.count, parity_b, counter, parity_b, volume_b, &TileDraw::rectangle, 0);
-    step(p.set, all, counter, 1, boundary_b, &TileDraw::b, 0);
-    // A: 1 becomes 2. A boundary says at once which of its edges made it 2.
-    step(p.hit, counter, counter, 1, boundary_a, &TileDraw::a, 0);
-    step(p.parity, all, parity_a, 0, volume_a, &TileDraw::a, 0);
-    step(p.count, parity_a | counter, counter, parity_a | 1U, volume_a, &TileDraw::rectangle, 0);
-    step(p.mark, counter, 0, 2, volume_a, &TileDraw::rectangle, 0);
+    draw(steps.b, &TileDraw::part_b, &TileDraw::b, parity_b, 0,
+         [&](const TileDraw& tile, plan::DrawRange range) {
+             renderer.draw(tile, range, steps.depth_b, steps.value_b);
+         });
+    draw(steps.a, &TileDraw::part_a, &TileDraw::a, parity_a, steps.count_b,
+         [&](const TileDraw& tile, plan::DrawRange range) {
+             early_out_->begin(commands, tile);
+             renderer.draw(tile, range, steps.depth_a, steps.value_a);
+             early_out_->end(commands, tile);
+         });
 }
 
 }  // namespace nearfield::passes

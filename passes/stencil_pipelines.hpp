@@ -2,23 +2,25 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
+#include <engine/gpu/pipeline.hpp>
+
+#include <string>
 
 namespace nearfield::passes {
 
 /// The format of an image that passes write unsigned numbers into: signs, edges, features.
 inline constexpr VkFormat number_format = VK_FORMAT_R32_UINT;
 
-/// The steps that polygon fill and the stencil method of the paper's Table 1 are made of. Stencil
-/// bits: the low ones count, the two high ones hold the parity of a fill in progress.
+/// The steps that polygon fill is made of. Stencil bits: the low ones count, the two high ones hold
+/// the parity of a fill in progress.
 struct StencilPipelines {
-    StencilPipelines(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
+    /// `fragment_shader` writes the colour; `colors` names it.
+    StencilPipelines(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+                     gpu::Spirv fragment_shader, const std::string& colors);
 
     gpu::Owned<VkPipeline> clear;   ///< stencil := reference, colour := value
     gpu::Owned<VkPipeline> parity;  ///< invert the written bits
-    gpu::Owned<VkPipeline> set;     ///< stencil := reference
-    gpu::Owned<VkPipeline> count;   ///< where the compared bits equal the reference: add 1
-    gpu::Owned<VkPipeline> mark;    ///< where they equal it: colour := value
-    gpu::Owned<VkPipeline> hit;     ///< where they equal it: add 1 and colour := the mesh's id
+    gpu::Owned<VkPipeline> mark;  ///< where the compared bits equal the reference: colour := value
 };
 
 namespace stencil_bits {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/gpu/functions.hpp>
+#include <engine/gpu/strategies.hpp>
 #include <nearfield/host.hpp>
 
 #include <cstdint>
@@ -25,6 +26,7 @@ public:
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     /// A combined depth-stencil format that can be an attachment; only its stencil is used.
     [[nodiscard]] VkFormat stencil_format() const { return stencil_format_; }
+    [[nodiscard]] const StrategySupport& strategy_support() const { return strategy_support_; }
     /// 0 where the queue family has no timestamps.
     [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -55,6 +57,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     std::string name_;
     VkFormat stencil_format_ = VK_FORMAT_UNDEFINED;
+    StrategySupport strategy_support_;
     std::uint32_t timestamp_bits_ = 0;
 };
 

@@ -20,12 +20,15 @@
     X(vkBeginCommandBuffer)           \
     X(vkBindBufferMemory)             \
     X(vkBindImageMemory)              \
+    X(vkCmdBeginQuery)                \
     X(vkCmdBeginRenderPass)           \
     X(vkCmdBindDescriptorSets)        \
     X(vkCmdBindPipeline)              \
     X(vkCmdBindVertexBuffers)         \
+    X(vkCmdCopyQueryPoolResults)      \
     X(vkCmdDispatch)                  \
     X(vkCmdDraw)                      \
+    X(vkCmdEndQuery)                  \
     X(vkCmdEndRenderPass)             \
     X(vkCmdPipelineBarrier)           \
     X(vkCmdPushConstants)             \

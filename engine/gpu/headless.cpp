@@ -64,10 +64,13 @@ VkResult create_device(const Instance& instance, const Candidate& candidate, VkD
     queue.queueFamilyIndex = candidate.queue_family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    VkPhysicalDeviceFeatures features{};
+    features.logicOp = candidate.support.logic_op ? VK_TRUE : VK_FALSE;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &features;
     return instance.function<PFN_vkCreateDevice>("vkCreateDevice")(candidate.handle, &info, nullptr,
                                                                    &device);
 }
@@ -93,6 +96,7 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
         host_.queue_family = candidate.queue_family;
         host_.get_instance_proc_addr = instance_.get_instance_proc_addr();
         host_.debug_utils = instance_.debug_utils();
+        host_.logic_op = candidate.support.logic_op;
         instance_.function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(
             host_.device, host_.queue_family, 0, &host_.queue);
         return;

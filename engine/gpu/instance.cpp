@@ -112,6 +112,10 @@ std::vector<Candidate> Instance::candidates() const {
         function<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties");
     const auto get_families = function<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
         "vkGetPhysicalDeviceQueueFamilyProperties");
+    const auto get_formats =
+        function<PFN_vkGetPhysicalDeviceFormatProperties>("vkGetPhysicalDeviceFormatProperties");
+    const auto get_features =
+        function<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures");
     std::uint32_t count = 0;
     const VkResult result = enumerate(handle_, &count, nullptr);
     if (result == VK_ERROR_INITIALIZATION_FAILED) {
@@ -129,6 +133,9 @@ std::vector<Candidate> Instance::candidates() const {
         get_properties(handle, &candidate.properties);
         candidate.queue_family = choose_queue_family(get_families, handle);
         candidate.missing = missing_requirements(get_, handle_, handle, candidate.queue_family);
+        VkPhysicalDeviceFeatures features{};
+        get_features(handle, &features);
+        candidate.support = strategy_support(get_formats, handle, features.logicOp == VK_TRUE);
     }
     return candidates;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/gpu/strategies.hpp>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -15,6 +17,7 @@ struct Candidate {
     VkPhysicalDeviceProperties properties{};
     std::uint32_t queue_family = 0;
     std::vector<std::string> missing;  ///< as missing_requirements() says it
+    StrategySupport support;           ///< of a device with every feature enabled that there is
 };
 
 /// The Vulkan loader, opened at run time, and an instance with no layer but those the environment

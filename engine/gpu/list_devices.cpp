@@ -39,6 +39,11 @@ Expected<std::vector<DeviceReport>> list_devices() {
             report.driver = driver_text(candidate.properties);
             report.usable = candidate.missing.empty();
             report.missing = std::move(candidate.missing);
+            for (std::size_t i = 0; i < intersection_strategies; ++i) {
+                const auto strategy = static_cast<IntersectionStrategy>(i);
+                report.strategies.push_back(
+                    {strategy, gpu::missing_for(strategy, candidate.support)});
+            }
         }
         return reports;
     } catch (const Failure& failure) {

@@ -149,15 +149,19 @@ VkPipelineDynamicStateCreateInfo dynamic_state() {
     return info;
 }
 
-// All alike, as a device without the feature independentBlend demands.
-std::vector<VkPipelineColorBlendAttachmentState> color_attachments(
-    const GraphicsPipelineDescription& what) {
+VkPipelineColorBlendAttachmentState color_attachment(const GraphicsPipelineDescription& what) {
     VkPipelineColorBlendAttachmentState state{};
     if (!what.fragment_shader.empty()) {
         state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     }
-    return {what.color_attachments, state};
+    if (what.color == ColorOperation::add) {
+        state.blendEnable = VK_TRUE;
+        state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+        state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
+    }
+    return state;
 }
 
 }  // namespace
@@ -196,11 +200,13 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
     const auto multisample = one_sample();
     const auto depth_stencil = depth_stencil_state(what);
     const auto dynamic = dynamic_state();
-    const auto blending = color_attachments(what);
+    const auto blending = color_attachment(what);
     VkPipelineColorBlendStateCreateInfo color_blend{};
     color_blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    color_blend.attachmentCount = what.color_attachments;
-    color_blend.pAttachments = blending.data();
+    color_blend.logicOpEnable = what.color == ColorOperation::bit_or ? VK_TRUE : VK_FALSE;
+    color_blend.logicOp = VK_LOGIC_OP_OR;
+    color_blend.attachmentCount = 1;
+    color_blend.pAttachments = &blending;
 
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

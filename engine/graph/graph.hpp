@@ -18,6 +18,7 @@ enum class Access : std::uint8_t {
     storage_read_in_compute,   ///< buffer, read in a compute shader
     storage_write_in_compute,  ///< buffer, written (or read and written) in a compute shader
     vertex_buffer,             ///< buffer, read as vertex input
+    transfer_write,            ///< buffer, a part of it written by a copy
 };
 
 /// A resource at one version. Writing gives a new version and makes the old one invalid: who reads
@@ -45,6 +46,7 @@ struct BufferDescription {
     bool read_by_host = false;     ///< its last version is made visible to the host at the end
 };
 
+/// A compute pass runs outside any render pass; it may copy too.
 enum class PassKind : std::uint8_t { graphics, compute };
 
 /// One use of a resource by a pass.

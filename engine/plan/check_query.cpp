@@ -89,6 +89,13 @@ Status check_query(const AnyQuery& query) {
     if (const auto* contact = std::get_if<ContactQuery>(&query); contact && status.ok()) {
         return check_length(contact->contact_distance, "the contact distance");
     }
+    if (const auto* intersection = std::get_if<IntersectionQuery>(&query);
+        intersection && status.ok()) {
+        const auto strategy = static_cast<std::size_t>(intersection->strategy);
+        if (strategy >= intersection_strategies) {
+            return invalid("the strategy is no enumerator: " + std::to_string(strategy));
+        }
+    }
     return status;
 }
 

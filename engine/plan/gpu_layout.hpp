@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace nearfield::plan {
@@ -55,6 +56,24 @@ inline constexpr std::uint32_t point_inside = 1U << 31U;
 inline constexpr std::uint32_t point_unique = 1U << 30U;
 inline constexpr std::uint32_t point_resolved = 1U << 29U;
 inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
+
+/// The numbers of an intersection's image: Table 1's colour in the low byte, where white says that
+/// both shapes cover the sample; above it, where A takes part by its boundary, a run of A's edges.
+inline constexpr std::uint32_t white = 0xff;
+inline constexpr std::uint32_t run_shift = 8;
+inline constexpr std::uint32_t most_runs = 1U << (32U - run_shift);
+
+/// What an intersection found in a tile: how many samples, and the box of their cells, both corners
+/// included; meaningful where count > 0.
+struct TileSummary {
+    std::uint32_t count = 0;
+    std::uint32_t low_column = UINT32_MAX, low_row = UINT32_MAX;
+    std::uint32_t high_column = 0, high_row = 0;
+    /// 0: the occlusion query saw no sample pass, so there is nothing to search for. Stays 1 where
+    /// none watches.
+    std::uint32_t passed = 1;
+};
+static_assert(sizeof(TileSummary) == 24 && offsetof(TileSummary, passed) == 20);
 
 /// A sample found by an intersection.
 struct SampleData {

@@ -1,5 +1,6 @@
 #include <engine/failure.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -15,6 +16,7 @@ using geometry::PlacedPolygon;
 // What a sample and a cell of a field may take on the host: planned and resolved, in the result and
 // in the buffers on the way there.
 constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
+constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 
 // Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth).
@@ -46,6 +48,7 @@ Result& reuse(AnyResult& any) {
     } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
         result.count = 0;
         result.area = 0.0;
+        result.box = {};
         result.samples.clear();
     } else if constexpr (std::is_same_v<Result, DistanceFieldResult>) {
         result.origin = {};
@@ -175,6 +178,15 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     result.kind = query.kind;
+    result.strategy = query.strategy;
+    const auto& missing = limits_.missing_for_strategy[static_cast<std::size_t>(query.strategy)];
+    if (!missing.empty()) {
+        result.status = {StatusCode::unsupported_strategy,
+                         std::string("the device lacks what the intersection strategy ") +
+                             to_string(query.strategy) + " needs; each reason names one thing",
+                         missing};
+        return;
+    }
     const Box box_a = a.box();
     const Box box_b = b.box();
     result.status = check_resolution(query.tolerance,
@@ -218,7 +230,9 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     for (const Grid& grid : grids_) {
         cells += grid.cells();
     }
-    require_memory(bytes_per_sample * cells, query.tolerance, 2.0);
+    require_memory(query.records ? bytes_per_sample * cells : bytes_of_tiles(), query.tolerance,
+                   2.0);
+    require_sides(query.tolerance);
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
         cut_into_tiles(region, TileKind::overlap);
     }
@@ -261,6 +275,30 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.height = static_cast<std::uint32_t>(grid.height);
     result.values.resize(grid.width * grid.height);
     cut_into_tiles(0, TileKind::field);
+}
+
+/// A side that a Region cannot state is an error.
+void Planner::require_sides(double tolerance) const {
+    for (const Grid& grid : grids_) {
+        if (std::max(grid.width, grid.height) > UINT32_MAX) {
+            throw Failure({StatusCode::too_large,
+                           "query " + std::to_string(query_) + " with tolerance " +
+                               number(tolerance) + " has a region of " +
+                               std::to_string(grid.width) + " x " + std::to_string(grid.height) +
+                               " cells; a side has at most " + std::to_string(UINT32_MAX)});
+        }
+    }
+}
+
+/// What the tiles of the query's grids take themselves, where nothing is kept for their cells.
+double Planner::bytes_of_tiles() const {
+    double tiles = 0.0;
+    for (const Grid& grid : grids_) {
+        const double side = limits_.largest_tile;
+        tiles += std::ceil(static_cast<double>(grid.width) / side) *
+                 std::ceil(static_cast<double>(grid.height) / side);
+    }
+    return tiles * bytes_per_tile;
 }
 
 void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {

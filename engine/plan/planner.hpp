@@ -6,8 +6,10 @@
 #include <engine/plan/point_tiles.hpp>
 #include <nearfield/result.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace nearfield::plan {
@@ -22,6 +24,8 @@ struct PlanLimits {
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
     std::uint32_t hierarchy_height = 8;
+    /// By strategy: what it needs and the device lacks.
+    std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
 };
 
 /// Finds a shape's polygon, or null.
@@ -61,6 +65,8 @@ private:
     void spread_points(std::uint32_t index, const geometry::Box& within, ResultSummary& result);
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
+    void require_sides(double tolerance) const;
+    [[nodiscard]] double bytes_of_tiles() const;
     void cut_into_tiles(std::uint32_t region, TileKind kind);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();

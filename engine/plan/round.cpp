@@ -1,3 +1,4 @@
+#include <engine/failure.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace nearfield::plan {
 namespace {
@@ -17,6 +19,17 @@ using geometry::Vector;
 // Edges longer than this, in cells, stand for themselves: their far ends may be cut off, so that
 // what is left has coordinates that a float can tell apart.
 constexpr double longest_run = 64.0;
+
+// An occlusion query costs about as much as searching this many samples (docs/performance.md), and
+// gains nothing where some pass.
+constexpr std::uint32_t smallest_watched = 128U * 128U;
+
+/// What passes when A is drawn is an intersection where the stencil or the depth decides. Where the
+/// colour does it is all of A, which says too little.
+bool worth_watching(IntersectionStrategy strategy, const Tile& tile) {
+    return (strategy == IntersectionStrategy::stencil || strategy == IntersectionStrategy::depth) &&
+           tile.width * tile.height >= smallest_watched;
+}
 
 DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
     const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
@@ -53,11 +66,14 @@ void Round::clear() {
     points.clear();
     point_index.clear();
     distance_draws.clear();
-    overlap_draws.clear();
+    for (std::vector<TileDraw>& draws : overlap_draws) {
+        draws.clear();
+    }
     tile_index.clear();
     runs.clear();
+    watched = 0;
     field_values = 0;
-    overlap_cells = 0;
+    listed_cells = 0;
 }
 
 void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
@@ -180,14 +196,20 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     round.distance_draws.push_back(draw);
 }
 
-DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, Round& round) const {
+DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, bool with_runs,
+                                     Round& round) const {
     const std::size_t first = round.mesh.size();
     for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
         const std::size_t before = round.mesh.size();
-        const auto run = static_cast<std::uint32_t>(round.runs.size());
+        const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
+        if (run == most_runs) {
+            throw Failure({StatusCode::too_large, "the boundaries of one round have more than " +
+                                                      std::to_string(most_runs) +
+                                                      " edges; use a larger tolerance"});
+        }
         geometry::append_offset_polygon(boundary_.start(i), boundary_.end(i), offset, tile.width,
-                                        tile.height, grid_, run, round.mesh);
-        if (round.mesh.size() > before) {
+                                        tile.height, grid_, run << run_shift, round.mesh);
+        if (with_runs && round.mesh.size() > before) {
             const geometry::SimplifiedEdge& edge = (*boundary_.edges)[i];
             round.runs.push_back({edge.first, edge.count});
         }
@@ -197,26 +219,32 @@ DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, Round& rou
 
 void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                                     Round& round) {
-    const auto kind = std::get<IntersectionQuery>(*query.query).kind;
+    const auto& asked = std::get<IntersectionQuery>(*query.query);
+    const IntersectionKind kind = asked.kind;
     draw.part_a = kind == IntersectionKind::volume_volume ? Part::volume : Part::boundary;
     draw.part_b = kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
     const double cell = tile.grid.cell;
     const double simplification = query.budget.simplification;
-    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part) {
+    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
+                         bool with_runs) {
         const ToCells to_cells(PlacedPolygon(polygon, pose), tile.origin(), cell);
         boundary_.place(polygon, shapes_.get(polygon, simplification, longest_run * cell),
                         to_cells);
         if (part == Part::boundary) {
-            return add_boundary(tile, query.budget.offset / cell, round);
+            return add_boundary(tile, query.budget.offset / cell, with_runs, round);
         }
         crossing_.clear();
         crossing_edges(boundary_, tile.width, tile.height, simplification / cell, crossing_);
         return add_fill(crossing_, tile, round.mesh);
     };
-    draw.b = add(*query.b, query.pose_b, draw.part_b);
-    draw.a = add(*query.a, query.pose_a, draw.part_a);
-    round.overlap_cells += std::uint64_t{tile.width} * tile.height;
-    round.overlap_draws.push_back(draw);
+    draw.b = add(*query.b, query.pose_b, draw.part_b, false);
+    draw.a = add(*query.a, query.pose_a, draw.part_a, true);
+    if (round.watched < most_watched && worth_watching(asked.strategy, tile)) {
+        draw.watch = round.watched++;
+    }
+    draw.list = asked.records;
+    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
+    round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
 }
 
 void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& round) {

@@ -9,6 +9,7 @@
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct EdgeRun {
 /// How a shape is drawn into an overlap tile.
 enum class Part : std::uint8_t { volume, boundary };
 
+/// The occlusion query of a tile that none watches.
+inline constexpr std::uint32_t no_watch = UINT32_MAX;
+/// Occlusion queries that a round may use.
+inline constexpr std::uint32_t most_watched = 256;
+
 /// What is drawn into one tile.
 struct TileDraw {
     std::uint32_t tile = 0;  ///< in Round::tiles
@@ -43,8 +49,10 @@ struct TileDraw {
     float depth_scale = 1.0F;  ///< from cells to depth below 1, for the distance mesh
     Part part_a = Part::volume;
     Part part_b = Part::volume;
-    bool field = false;             ///< a value is asked for at every cell
-    std::uint32_t first_value = 0;  ///< field tiles: where its values start in the read-back
+    bool list = false;               ///< overlap tiles: the samples are listed, not counted only
+    std::uint32_t watch = no_watch;  ///< overlap tiles: the occlusion query around A, if any
+    bool field = false;              ///< a value is asked for at every cell
+    std::uint32_t first_value = 0;   ///< field tiles: where its values start in the read-back
 };
 
 /// One filling of the atlas, in the form the device takes.
@@ -55,11 +63,12 @@ struct Round {
     std::vector<PointData> points;
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
     std::vector<TileDraw> distance_draws;
-    std::vector<TileDraw> overlap_draws;
+    std::array<std::vector<TileDraw>, intersection_strategies> overlap_draws;  ///< by strategy
     std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
     std::vector<EdgeRun> runs;              ///< of A's edges: what ids of offset polygons stand for
+    std::uint32_t watched = 0;              ///< overlap tiles with an occlusion query
     std::uint32_t field_values = 0;         ///< values of all field tiles together
-    std::uint64_t overlap_cells = 0;        ///< cells of all overlap tiles together
+    std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
 
     void clear();
 };
@@ -80,7 +89,8 @@ private:
     void add_points(const Plan& plan, std::uint32_t number, Round& round);
     [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                      geometry::Mesh& mesh) const;
-    [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset, Round& round) const;
+    [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset, bool with_runs,
+                                         Round& round) const;
     [[nodiscard]] DrawRange add_distance_mesh(const Tile& tile,
                                               const geometry::DistanceMeshOptions& options,
                                               geometry::Mesh& mesh);

@@ -18,6 +18,8 @@ const char* to_string(StatusCode code) noexcept {
             return "no_device";
         case StatusCode::unsupported_device:
             return "unsupported_device";
+        case StatusCode::unsupported_strategy:
+            return "unsupported_strategy";
         case StatusCode::out_of_memory:
             return "out_of_memory";
         case StatusCode::device_lost:

@@ -28,12 +28,20 @@ struct Settings {
     std::uint32_t hierarchy_height = 8;
 };
 
+/// What an intersection strategy would need of a device and the device lacks.
+struct StrategyReport {
+    IntersectionStrategy strategy{};
+    std::vector<std::string> missing;  ///< empty: the strategy is available
+};
+
 /// One Vulkan device that can be used, and every reason why not where it cannot.
 struct DeviceReport {
     std::string name;
     std::string driver;  ///< driver version and Vulkan version
     bool usable = false;
     std::vector<std::string> missing;  ///< what the base needs and the device lacks
+    /// Every strategy, for a headless context, which enables the features there are.
+    std::vector<StrategyReport> strategies;
 };
 
 /// Every device of every installed driver, looked at without creating a device on any. An error
@@ -84,8 +92,8 @@ public:
     /// Answers a batch; returns when all results are there. An error of the batch as a whole
     /// is the returned status: too_large (more memory than the limit, or than one buffer of the
     /// device holds), out_of_memory, device_lost, device_error; the results are then undefined.
-    /// What is wrong with one query alone (invalid_query, unknown_shape) stands in that query's
-    /// result, and the other queries are answered.
+    /// What is wrong with one query alone (invalid_query, unknown_shape, unsupported_strategy)
+    /// stands in that query's result, and the other queries are answered.
     Status run(const Batch& batch, Results& results);
 
     /// The device's name as its driver gives it.

@@ -27,6 +27,9 @@ struct HostDevice {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     /// The instance was created with VK_EXT_debug_utils: objects are named, passes are labelled.
     bool debug_utils = false;
+    /// The device was created with the feature logicOp enabled: IntersectionStrategy::logic_op may
+    /// be used. What the physical device could do says nothing about the device, so the host does.
+    bool logic_op = false;
 };
 
 /// Which device a headless context takes.

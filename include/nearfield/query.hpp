@@ -2,6 +2,7 @@
 
 #include <nearfield/shape.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,13 +37,43 @@ enum class IntersectionKind {
     volume_volume,      ///< the interior of A and the interior of B
 };
 
+/// Which buffer of the raster finds the samples that both shapes cover: the rows of the paper's
+/// Table 1. Each clears its region by a drawn rectangle, draws B, then A, each shape's coverage
+/// counted once a sample. All give the same samples, bit for bit, and the same edges; they differ
+/// in what Vulkan has to offer and in time.
+///
+/// A query whose strategy the device lacks is refused in its own result
+/// (StatusCode::unsupported_strategy); the reasons name each missing feature or format.
+enum class IntersectionStrategy {
+    /// Stencil: cleared to 0, B increments, A increments where it is 1; found where it is 2. Needs
+    /// nothing but the base.
+    stencil,
+    /// Colour: cleared to 0, B sets 128, A adds 127 by blending; found where it is 255. Needs
+    /// VK_FORMAT_R8G8B8A8_UNORM as a colour attachment that blends and can be sampled, which the
+    /// specification promises on every device.
+    blend,
+    /// Colour: cleared to 0, B sets 127, A combines 128 by the logic operation OR; found where it
+    /// is 255. Needs the feature logicOp, enabled on the device (HostDevice::logic_op).
+    logic_op,
+    /// Colour and depth: cleared to 0 and 1, B sets depth 0, A sets colour 255 where the depth
+    /// equals 0; found where the colour is 255. Needs nothing but the base.
+    depth,
+};
+inline constexpr std::size_t intersection_strategies = 4;
+
+/// The name of a strategy as it stands in the enumeration ("logic_op").
+[[nodiscard]] const char* to_string(IntersectionStrategy strategy) noexcept;
+
 /// The samples of a grid that lie in both shapes (section 2.2.1, Table 1).
 struct IntersectionQuery {
     Instance a;
     Instance b;
     double tolerance = 0.0;  ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;
-    bool records = true;  ///< false: keep the summary (count, area) and leave the samples out
+    /// False: keep the summary (count, area, box) and leave the samples out. The device then lists
+    /// none, so memory does not grow with the grid.
+    bool records = true;
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;
 };
 
 /// The signed distance field of B (section 2.2.2): distance to B's boundary at the centres of a

@@ -83,8 +83,10 @@ struct IntersectionSample {
 /// in both (or, by its boundary, lies on it) has a sample within it.
 struct IntersectionResult : ResultSummary {
     IntersectionKind kind = IntersectionKind::volume_volume;
-    std::uint64_t count = 0;                  ///< samples found
-    double area = 0.0;                        ///< count times the area of a cell
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;
+    std::uint64_t count = 0;  ///< samples found
+    double area = 0.0;        ///< count times the area of a cell
+    Rectangle box;  ///< the smallest that holds every sample's point; meaningful where count > 0
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 

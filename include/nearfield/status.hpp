@@ -20,9 +20,10 @@ enum class StatusCode {
     too_large,      ///< the answer would need more memory than the stated limit
     no_device,      ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
-    out_of_memory,       ///< host or device memory ran out
-    device_lost,         ///< the device was lost; the context can only be destroyed
-    device_error,        ///< any other Vulkan call failed; the message names the call and result
+    unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
+    out_of_memory,         ///< host or device memory ran out
+    device_lost,           ///< the device was lost; the context can only be destroyed
+    device_error,          ///< any other Vulkan call failed; the message names the call and result
 };
 
 /// The name of a code as it stands in the enumeration ("invalid_shape").

@@ -16,7 +16,7 @@ constexpr auto good_scene = R"({
 "queries": [{"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},
             {"query": "penetration", "a": "B", "b": "far", "tolerance": 0.05, "records": false},
             {"query": "intersection", "a": "B", "b": "A", "tolerance": 0.05,
-             "kind": "boundary-volume", "technique": "raster", "strategy": "stencil"},
+             "kind": "boundary-volume", "technique": "raster", "strategy": "logic-op"},
             {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.1,
              "rect": [-1, -1, 2, 2]}]
 })";

@@ -105,6 +105,42 @@ TEST_F(Intersection, TheKindLeftOutIsVolumeVolume) {
     EXPECT_EQ(left_out, json_);
 }
 
+TEST_F(Intersection, EveryStrategyGivesTheSameAnswer) {
+    const auto ask_by = [&](const std::string& strategy, const std::string& kind) {
+        Json json =
+            answer(squares("intersection") + Arguments{"-d", "0.02", "--pose-b", "0.6,0.3,12",
+                                                       "--kind", kind, "--strategy", strategy});
+        if (json.is_object()) {
+            EXPECT_EQ(json.at("strategy"), strategy);
+            json.erase("strategy");
+            json.erase("timings_ms");
+        }
+        return json;
+    };
+    for (const auto& kind : {"boundary-boundary", "boundary-volume", "volume-volume"}) {
+        const Json expected = ask_by("stencil", kind);
+        ASSERT_TRUE(expected.is_object());
+        EXPECT_GT(expected.at("count").get<int>(), 0);
+        for (const auto& strategy : {"blend", "logic-op", "depth"}) {
+            EXPECT_EQ(ask_by(strategy, kind), expected) << strategy << ", " << kind;
+        }
+    }
+}
+
+TEST_F(Intersection, TheBoxHoldsTheSamplesAndNoMore) {
+    const std::vector<Point> samples = ask("boundary-volume");
+    ASSERT_FALSE(samples.empty());
+    EXPECT_EQ(json_.at("strategy"), "stencil");
+    Point low = samples.front();
+    Point high = samples.front();
+    for (const Point& sample : samples) {
+        low = {std::min(low.x, sample.x), std::min(low.y, sample.y)};
+        high = {std::max(high.x, sample.x), std::max(high.y, sample.y)};
+    }
+    EXPECT_EQ(json_.at("box").at("min"), Json::array({low.x, low.y}));
+    EXPECT_EQ(json_.at("box").at("max"), Json::array({high.x, high.y}));
+}
+
 TEST_F(Intersection, AShapeInAHoleDoesNotIntersect) {
     const std::string frame = folder_.write(
         "frame.wkt", "POLYGON ((-2 -2, 4 -2, 4 4, -2 4, -2 -2), (-1 -1, 3 -1, 3 3, -1 3, -1 -1))");
@@ -113,6 +149,7 @@ TEST_F(Intersection, AShapeInAHoleDoesNotIntersect) {
     EXPECT_EQ(json.at("intersects"), false);
     EXPECT_EQ(json.at("count"), 0);
     EXPECT_EQ(json.at("area"), 0.0);
+    EXPECT_TRUE(json.at("box").is_null());
 }
 
 }  // namespace

@@ -61,6 +61,8 @@ void expect_same(const PenetrationResult& a, const PenetrationResult& b) {
 void expect_same(const IntersectionResult& a, const IntersectionResult& b) {
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.area, b.area);
+    EXPECT_EQ(a.box.min, b.box.min);
+    EXPECT_EQ(a.box.max, b.box.max);
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (std::size_t i = 0; i < a.samples.size() && !testing::Test::HasFailure(); ++i) {
         EXPECT_EQ(a.samples[i].point, b.samples[i].point) << "sample " << i;

@@ -37,13 +37,13 @@ Function VulkanHost::function(const char* name) const {
     return found;
 }
 
-VulkanHost::VulkanHost() {
+VulkanHost::VulkanHost(const VkPhysicalDeviceFeatures& features) {
     try {
         open_loader();
         require_layer();
         create_instance();
         choose_physical_device();
-        create_device();
+        create_device(features);
     } catch (...) {
         destroy();
         throw;
@@ -173,7 +173,7 @@ void VulkanHost::choose_physical_device() {
          "mesa-vulkan-drivers has one that needs no graphics card)");
 }
 
-void VulkanHost::create_device() {
+void VulkanHost::create_device(const VkPhysicalDeviceFeatures& features) {
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -184,11 +184,13 @@ void VulkanHost::create_device() {
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.pEnabledFeatures = &features;
     require(function<PFN_vkCreateDevice>("vkCreateDevice")(device_.physical_device, &info, nullptr,
                                                            &device_.device),
             "vkCreateDevice");
     function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device_.device, device_.queue_family, 0,
                                                        &device_.queue);
+    device_.logic_op = features.logicOp == VK_TRUE;
 }
 
 void VulkanHost::destroy() {

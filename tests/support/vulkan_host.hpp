@@ -9,13 +9,15 @@
 
 namespace nearfield::test_support {
 
-/// A renderer in small: a Vulkan 1.1 device with no feature and no extension enabled, under the
-/// Khronos validation layer with synchronisation validation. What the layer says is collected.
+/// A renderer in small: a Vulkan 1.1 device with no extension and, unless asked for, no feature
+/// enabled, under the Khronos validation layer with synchronisation validation. What the layer says
+/// is collected.
 class VulkanHost {
 public:
     /// Throws std::runtime_error where the loader, the layer or a device is missing, so that a test
     /// without validation fails rather than passes.
-    VulkanHost();
+    VulkanHost() : VulkanHost(VkPhysicalDeviceFeatures{}) {}
+    explicit VulkanHost(const VkPhysicalDeviceFeatures& features);
     ~VulkanHost();
     VulkanHost(const VulkanHost&) = delete;
     VulkanHost& operator=(const VulkanHost&) = delete;
@@ -46,7 +48,7 @@ private:
     void require_layer() const;
     void create_instance();
     void choose_physical_device();
-    void create_device();
+    void create_device(const VkPhysicalDeviceFeatures& features);
     void destroy();
 
     mutable std::mutex mutex_;  // the layer may speak from any thread

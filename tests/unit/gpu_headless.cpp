@@ -102,6 +102,8 @@ TEST(GpuHeadless, ListsDevicesWithoutMakingAny) {
         EXPECT_FALSE(report.name.empty());
         EXPECT_NE(report.driver.find("Vulkan 1."), std::string::npos) << report.driver;
         EXPECT_EQ(report.usable, report.missing.empty());
+        ASSERT_EQ(report.strategies.size(), intersection_strategies);
+        EXPECT_TRUE(report.strategies[0].missing.empty());
     }
 }
 

@@ -234,5 +234,36 @@ TEST_F(GpuRequirements, NullHandlesAreNamed) {
     EXPECT_EQ(status_of(HostDevice{}).reasons().size(), cases.size());
 }
 
+TEST_F(GpuRequirements, EachStrategyNamesWhatItLacks) {
+    using S = IntersectionStrategy;
+    const gpu::StrategySupport nothing{};
+    for (const S strategy : {S::stencil, S::depth}) {
+        EXPECT_TRUE(gpu::missing_for(strategy, nothing).empty());
+    }
+    EXPECT_EQ(gpu::missing_for(S::blend, nothing).size(), 3U);
+    for (const std::string& reason : gpu::missing_for(S::blend, nothing)) {
+        EXPECT_EQ(reason.find("format VK_FORMAT_R8G8B8A8_UNORM: "), 0U) << reason;
+    }
+    ASSERT_EQ(gpu::missing_for(S::logic_op, nothing).size(), 1U);
+    EXPECT_EQ(gpu::missing_for(S::logic_op, nothing)[0].find("feature logicOp: "), 0U);
+    EXPECT_TRUE(gpu::missing_for(S::logic_op, {true, 0}).empty());
+}
+
+TEST_F(GpuRequirements, ADeviceHasTheFeatureThatItsHostSaysAndNoOther) {
+    HostDevice host = host_.device();
+    EXPECT_FALSE(gpu::Device(host).strategy_support().logic_op);
+    host.logic_op = true;
+    EXPECT_TRUE(gpu::Device(host).strategy_support().logic_op);
+}
+
+TEST_F(GpuRequirements, AFormatThatDoesNotBlendCostsOneStrategyOnly) {
+    const FakeLoader fake(host_.device(), without(VK_FORMAT_R8G8B8A8_UNORM,
+                                                  VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT));
+    const gpu::Device device(fake.host());
+    const auto missing = gpu::missing_for(IntersectionStrategy::blend, device.strategy_support());
+    ASSERT_EQ(missing.size(), 1U);
+    EXPECT_NE(missing[0].find("VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace nearfield

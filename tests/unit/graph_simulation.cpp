@@ -40,6 +40,9 @@ Need need(Access access) {
         case Access::vertex_buffer:
             return {VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT, 0,
                     VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::transfer_write:
+            return {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                    VK_ACCESS_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
     }
     return {};
 }

@@ -144,7 +144,8 @@ private:
     void use_buffers(Pass& pass) {
         for (Handle& handle : buffers_) {
             if (pass.kind == PassKind::compute && chance(30)) {
-                pass.uses.push_back(writes(handle, Access::storage_write_in_compute));
+                pass.uses.push_back(writes(handle, chance(70) ? Access::storage_write_in_compute
+                                                              : Access::transfer_write));
                 handle = next(handle);
             } else if (readable(handle) && chance(50)) {
                 const bool graphics = pass.kind == PassKind::graphics;

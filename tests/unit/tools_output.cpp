@@ -78,18 +78,24 @@ TEST(ToolsJson, IntersectionNamesEdgesOnlyWhereABoundaryTakesPart) {
     fill_summary(result);
     result.count = 2;
     result.area = 0.04;
+    result.strategy = IntersectionStrategy::logic_op;
+    result.box = {{0.5, 1}, {0.75, 1}};
     result.samples = {{{0.5, 1}, 3}, {{0.75, 1}, IntersectionSample::no_edge}};
     json answer = written(request, result);
     EXPECT_EQ(answer["query"], "intersection");
     EXPECT_EQ(answer["kind"], "volume-volume");
     EXPECT_EQ(answer["count"], 2);
     EXPECT_EQ(answer["area"], 0.04);
+    EXPECT_EQ(answer["strategy"], "logic-op");
+    EXPECT_EQ(answer["box"], json::parse(R"({"min": [0.5, 1], "max": [0.75, 1]})"));
     EXPECT_EQ(answer["samples"], json::parse("[[0.5, 1], [0.75, 1]]"));
     EXPECT_FALSE(answer.contains("edges"));
     result.kind = IntersectionKind::boundary_volume;
     answer = written(request, result);
     EXPECT_EQ(answer["kind"], "boundary-volume");
     EXPECT_EQ(answer["edges"], json::parse("[3, null]"));
+    result.count = 0;
+    EXPECT_TRUE(written(request, result)["box"].is_null());
 }
 
 TEST(ToolsJson, DistanceFieldSaysWhereItsGridLies) {

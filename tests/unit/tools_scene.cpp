@@ -25,7 +25,7 @@ TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
     const Scene scene = read_scene(folder.write(
         "s.json", scene_text(R"({"query": "penetration", "a": "one", "b": "two", "tolerance": 0.5,
                        "points": "vertices", "records": false},
-                      {"query": "intersection", "a": "two", "b": "one", "tolerance": 1,
+                      {"query": "intersection", "a": "two", "b": "one", "tolerance": 1, "strategy": "depth",
                        "kind": "boundary-volume", "technique": "raster"},
                       {"query": "distance-field", "a": "two", "b": "two", "tolerance": 2,
                        "rect": [0, 1, 2, 3]})")));
@@ -42,6 +42,7 @@ TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
     EXPECT_EQ(scene.queries[0].request.points, PenetrationPoints::vertices);
     EXPECT_FALSE(scene.queries[0].request.records);
     EXPECT_EQ(scene.queries[1].request.kind, IntersectionKind::boundary_volume);
+    EXPECT_EQ(scene.queries[1].request.strategy, IntersectionStrategy::depth);
     ASSERT_TRUE(scene.queries[2].request.rectangle.has_value());
     EXPECT_EQ(scene.queries[2].request.rectangle->max, (Vector2{2, 3}));
 }
@@ -118,8 +119,8 @@ TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
               "closest-point, separation");
     EXPECT_EQ(input_error([] { return check_technique("cpu", "--technique"), 0; }),
               "--technique: this version answers by the raster technique only, not by cpu");
-    EXPECT_EQ(input_error([] { return check_strategy("blend", "--strategy"), 0; }),
-              "--strategy: this version intersects by the stencil strategy only, not by blend");
+    EXPECT_EQ(input_error([] { return parse_strategy("blending", "--strategy"); }),
+              "--strategy: \"blending\" is none of stencil, blend, logic-op, depth");
     EXPECT_EQ(input_error([] { return check_technique("automatic", "--technique"), 0; }),
               "no error");
 }

@@ -2,6 +2,7 @@
 
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/input/query_request.hpp>
 
 #include <iostream>
 #include <vector>
@@ -10,7 +11,9 @@ namespace nearfield::tools {
 
 CLI::App* add_info_command(CLI::App& program) {
     return program.add_subcommand(
-        "info", "Print the version and the devices: usable, or what each of them lacks");
+        "info",
+        "Print the version and the devices: usable or not, the intersection strategies each "
+        "has, and what it lacks");
 }
 
 int run_info() {
@@ -22,6 +25,13 @@ int run_info() {
                   << (device.usable ? "usable" : "not usable") << '\n';
         for (const std::string& reason : device.missing) {
             std::cout << "  missing: " << reason << '\n';
+        }
+        for (const StrategyReport& report : device.strategies) {
+            std::cout << "  strategy " << name_of(report.strategy) << ": "
+                      << (report.missing.empty() ? "available" : "not available") << '\n';
+            for (const std::string& reason : report.missing) {
+                std::cout << "    missing: " << reason << '\n';
+            }
         }
         any_usable = any_usable || device.usable;
     }

@@ -54,7 +54,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
         check_technique(*arguments.technique, "--technique");
     }
     if (arguments.strategy) {
-        check_strategy(*arguments.strategy, "--strategy");
+        request.strategy = parse_strategy(*arguments.strategy, "--strategy");
     }
     if (arguments.points) {
         request.points = parse_points(*arguments.points, "--points");
@@ -186,7 +186,9 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,
-                     "How masks are intersected: stencil, the default")
+                     "Of intersection: the buffer that finds the samples, stencil, blend, logic-op "
+                     "or depth; all find the same; nearfield info says which the device has; "
+                     "default stencil")
         ->type_name("NAME");
     command
         ->add_option("--kind", arguments.kind,

@@ -34,6 +34,13 @@ constexpr std::array<Named<ContactNormals>, 2> normals_names{{
     {"gradient", ContactNormals::gradient},
 }};
 
+constexpr std::array<Named<IntersectionStrategy>, intersection_strategies> strategies{{
+    {"stencil", IntersectionStrategy::stencil},
+    {"blend", IntersectionStrategy::blend},
+    {"logic-op", IntersectionStrategy::logic_op},
+    {"depth", IntersectionStrategy::depth},
+}};
+
 template <class Value>
 Value parse_name(std::span<const Named<Value>> table, const std::string& name,
                  const std::string& what) {
@@ -76,12 +83,20 @@ ContactNormals parse_normals(const std::string& name, const std::string& what) {
     return parse_name<ContactNormals>(normals_names, name, what);
 }
 
+IntersectionStrategy parse_strategy(const std::string& name, const std::string& what) {
+    return parse_name<IntersectionStrategy>(strategies, name, what);
+}
+
 std::string_view name_of(QueryType type) noexcept {
     return find_name<QueryType>(query_types, type);
 }
 
 std::string_view name_of(IntersectionKind kind) noexcept {
     return find_name<IntersectionKind>(kinds, kind);
+}
+
+std::string_view name_of(IntersectionStrategy strategy) noexcept {
+    return find_name<IntersectionStrategy>(strategies, strategy);
 }
 
 void check_technique(const std::string& name, const std::string& what) {
@@ -94,23 +109,14 @@ void check_technique(const std::string& name, const std::string& what) {
     }
 }
 
-void check_strategy(const std::string& name, const std::string& what) {
-    if (is_one_of(name, {"blend", "logic-op", "depth"})) {
-        throw InputError(what + ": this version intersects by the stencil strategy only, not by " +
-                         name);
-    }
-    if (name != "stencil") {
-        throw InputError(what + ": \"" + name + "\" is not stencil");
-    }
-}
-
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b) {
     switch (request.type) {
         case QueryType::penetration:
             batch.add(PenetrationQuery{a, b, request.tolerance, request.points, request.records});
             break;
         case QueryType::intersection:
-            batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records});
+            batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records,
+                                        request.strategy});
             break;
         case QueryType::distance_field:
             batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle});

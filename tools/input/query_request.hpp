@@ -22,8 +22,9 @@ enum class QueryType {
 struct QueryRequest {
     QueryType type = QueryType::penetration;
     double tolerance = 0.0;
-    PenetrationPoints points = PenetrationPoints::boundary;   ///< of penetration
-    IntersectionKind kind = IntersectionKind::volume_volume;  ///< of intersection
+    PenetrationPoints points = PenetrationPoints::boundary;         ///< of penetration
+    IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
     bool records = true;                     ///< of penetration, intersection and contacts
     std::optional<Rectangle> rectangle;      ///< of distance-field
     std::optional<double> contact_distance;  ///< of contacts; default: tolerance
@@ -36,12 +37,13 @@ struct QueryRequest {
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
 [[nodiscard]] ContactNormals parse_normals(const std::string& name, const std::string& what);
+[[nodiscard]] IntersectionStrategy parse_strategy(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
+[[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
 
-/// Throw InputError for a technique or strategy this version does not have.
+/// Throws InputError for a technique this version does not have.
 void check_technique(const std::string& name, const std::string& what);
-void check_strategy(const std::string& name, const std::string& what);
 
 /// Adds a request between two instances; its result stands at the same place among the results as
 /// the query in the batch.

@@ -106,7 +106,7 @@ QueryRequest read_request(const JsonPlace& place) {
         parse_member(place, "technique", check_technique);
     }
     if (place.has("strategy")) {
-        parse_member(place, "strategy", check_strategy);
+        request.strategy = parse_member(place, "strategy", parse_strategy);
     }
     if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
         place.member("reach").fail("belongs to the separation of all pairs");

@@ -47,8 +47,16 @@ void write_result(JsonWriter& json, const PenetrationResult& result) {
 
 void write_result(JsonWriter& json, const IntersectionResult& result) {
     json.key("kind").value(name_of(result.kind));
+    json.key("strategy").value(name_of(result.strategy));
     json.key("count").value(result.count);
     json.key("area").value(result.area);
+    json.key("box");
+    if (result.count == 0) {
+        json.null();
+    } else {
+        json.begin_object().key("min").value(result.box.min);
+        json.key("max").value(result.box.max).end_object();
+    }
     json.key("samples").begin_array(JsonWriter::Layout::lines);
     for (const IntersectionSample& sample : result.samples) {
         json.value(sample.point);

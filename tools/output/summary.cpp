@@ -46,8 +46,12 @@ void write_result(std::ostream& stream, const PenetrationResult& result) {
 
 void write_result(std::ostream& stream, const IntersectionResult& result) {
     write_item(stream, "kind", std::string(name_of(result.kind)));
+    write_item(stream, "strategy", std::string(name_of(result.strategy)));
     write_item(stream, "count", std::to_string(result.count) + " samples");
     write_item(stream, "area", short_number(result.area));
+    if (result.count > 0) {
+        write_item(stream, "box", point_text(result.box.min) + " to " + point_text(result.box.max));
+    }
 }
 
 void write_result(std::ostream& stream, const DistanceFieldResult& result) {

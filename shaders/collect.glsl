@@ -1,0 +1,74 @@
+// Searches a tile of a hit image for the samples that an intersection found, sums them up, and
+// lists them where a list is asked for. A thread looks at a strip of cells and reserves room for all
+// its samples at once; groups without barriers and shared memory are what suits a CPU.
+// Counting goes on past the end of the room, so the host sees how much was needed.
+//
+// The including shader defines hit_at(texel): the number in the hit image.
+
+const uint white = 255u;
+const uint run_shift = 8u;
+
+struct Summary {
+    uint count;
+    uint low_column;
+    uint low_row;
+    uint high_column;
+    uint high_row;
+    uint passed;  // 0: an occlusion query saw that there is nothing here
+};
+
+layout(std430, set = 0, binding = 2) buffer Summaries {
+    Summary summaries[];  // by tile
+};
+
+layout(std430, set = 0, binding = 3) buffer Samples {
+    uint count;
+    uint words[];  // plan::SampleData: three words a sample
+} samples;
+
+layout(push_constant) uniform Push {
+    uint tile;
+    uint capacity;  // samples there is room for; 0: none are to be listed
+} push;
+
+// Cells that a thread looks at, one above the other; as in passes/collect.cpp.
+const uint strip = 8u;
+
+void main() {
+    Tile tile = tiles[push.tile];
+    uint column = gl_GlobalInvocationID.x;
+    uint first_row = gl_GlobalInvocationID.y * strip;
+    if (summaries[push.tile].passed == 0u || column >= tile.width || first_row >= tile.height) {
+        return;
+    }
+    uint rows = min(strip, tile.height - first_row);
+    ivec2 corner = ivec2(tile.atlas_x + column, tile.atlas_y + first_row);
+    uint found = 0u;
+    for (uint i = 0u; i < rows; ++i) {
+        if ((hit_at(corner + ivec2(0, i)) & 255u) == white) {
+            found |= 1u << i;
+        }
+    }
+    if (found == 0u) {
+        return;
+    }
+    uint count = uint(bitCount(found));
+    atomicAdd(summaries[push.tile].count, count);
+    atomicMin(summaries[push.tile].low_column, column);
+    atomicMin(summaries[push.tile].low_row, first_row + uint(findLSB(found)));
+    atomicMax(summaries[push.tile].high_column, column);
+    atomicMax(summaries[push.tile].high_row, first_row + uint(findMSB(found)));
+    if (push.capacity == 0u) {
+        return;
+    }
+    uint place = atomicAdd(samples.count, count);
+    for (uint i = 0u; i < rows; ++i) {
+        if ((found & (1u << i)) != 0u && place < push.capacity) {
+            uint word = place * 3u;
+            samples.words[word] = column | ((first_row + i) << 16);
+            samples.words[word + 1u] = push.tile;
+            samples.words[word + 2u] = hit_at(corner + ivec2(0, i)) >> run_shift;
+            ++place;
+        }
+    }
+}

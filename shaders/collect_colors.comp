@@ -1,0 +1,16 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// Collects from a hit image of colours, four bytes in [0, 1].
+
+#include "layout.glsl"
+
+layout(local_size_x = 16, local_size_y = 4) in;
+
+layout(set = 0, binding = 4) uniform sampler2D hit_image;
+
+uint hit_at(ivec2 texel) {
+    return packUnorm4x8(texelFetch(hit_image, texel, 0));
+}
+
+#include "collect.glsl"

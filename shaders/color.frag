@@ -1,0 +1,12 @@
+#version 450
+
+// As number.frag, for an attachment of four bytes in [0, 1]. A byte need not be rounded to the
+// nearest when it is stored, so a quarter on top keeps it; sums of two stay below the next byte.
+
+layout(location = 0) flat in uint number;
+layout(location = 0) out vec4 color;
+
+void main() {
+    uvec4 bytes = (uvec4(number) >> uvec4(0u, 8u, 16u, 24u)) & 255u;
+    color = (vec4(bytes) + 0.25) / 255.0;
+}

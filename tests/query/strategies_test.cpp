@@ -1,0 +1,314 @@
+#include <tests/oracle/overlap.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/query/scanline_reference.hpp>
+#include <tests/support/outlines.hpp>
+#include <tests/support/vulkan_host.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <deque>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 4711;
+constexpr std::array every_strategy{IntersectionStrategy::stencil, IntersectionStrategy::blend,
+                                    IntersectionStrategy::logic_op, IntersectionStrategy::depth};
+constexpr std::array every_kind{IntersectionKind::boundary_boundary,
+                                IntersectionKind::boundary_volume, IntersectionKind::volume_volume};
+
+/// A device with the feature logicOp, validated, and contexts on it.
+class Strategies : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        VkPhysicalDeviceFeatures features{};
+        features.logicOp = VK_TRUE;
+        host_ = new test_support::VulkanHost(features);
+        context_ = new Context(make({}));
+    }
+    static void TearDownTestSuite() {
+        delete context_;
+        EXPECT_EQ(host_->close(), std::vector<std::string>{});
+        delete host_;
+    }
+    void TearDown() override {
+        EXPECT_EQ(host_->messages(), std::vector<std::string>{});
+        host_->clear_messages();
+    }
+    static Context make(const Settings& settings) {
+        Expected<Context> made = Context::create(host_->device(), settings);
+        EXPECT_TRUE(made.ok()) << made.status().text();
+        return std::move(*made);
+    }
+
+    /// All strategies and kinds in one batch and alone: the same samples as the CPU's.
+    static void check(const PlacedPair& pair, Context& context, const Settings& settings = {});
+
+    static test_support::VulkanHost* host_;
+    static Context* context_;
+};
+test_support::VulkanHost* Strategies::host_ = nullptr;
+Context* Strategies::context_ = nullptr;
+
+Rectangle box_of(const std::vector<IntersectionSample>& samples) {
+    Rectangle box{samples.front().point, samples.front().point};
+    for (const IntersectionSample& sample : samples) {
+        box.min = {std::min(box.min.x, sample.point.x), std::min(box.min.y, sample.point.y)};
+        box.max = {std::max(box.max.x, sample.point.x), std::max(box.max.y, sample.point.y)};
+    }
+    return box;
+}
+
+void expect_same(const std::vector<ReferenceSample>& expected, const IntersectionResult& result) {
+    ASSERT_TRUE(result.status.ok()) << result.status.text();
+    ASSERT_EQ(result.count, expected.size());
+    ASSERT_EQ(result.samples.size(), expected.size());
+    EXPECT_EQ(result.area, static_cast<double>(result.count) * result.cell * result.cell);
+    Report report("samples against the scanline");
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const IntersectionSample& sample = result.samples[i];
+        report.require(sample.point == expected[i].point, "sample ", i, " at ", sample.point.x,
+                       ", ", sample.point.y);
+        const bool right_edge = expected[i].edge_count == 0
+                                    ? sample.edge == IntersectionSample::no_edge
+                                    : sample.edge - expected[i].first_edge < expected[i].edge_count;
+        report.require(right_edge, "sample ", i, " names edge ", sample.edge, ", not one of ",
+                       expected[i].edge_count, " from ", expected[i].first_edge, " on");
+    }
+    if (result.count > 0) {
+        const Rectangle box = box_of(result.samples);
+        EXPECT_EQ(result.box.min, box.min);
+        EXPECT_EQ(result.box.max, box.max);
+    }
+}
+
+void expect_same_edges(const IntersectionResult& a, const IntersectionResult& b) {
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    Report report(std::string("edges by ") + to_string(a.strategy) + " and " +
+                  to_string(b.strategy));
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+        report.require(a.samples[i].edge == b.samples[i].edge, "sample ", i, ": ",
+                       a.samples[i].edge, " and ", b.samples[i].edge);
+    }
+}
+
+void Strategies::check(const PlacedPair& pair, Context& context, const Settings& settings) {
+    SCOPED_TRACE(describe(pair.pair()));
+    for (const IntersectionKind kind : every_kind) {
+        SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)));
+        IntersectionQuery query = pair.intersection(kind);
+        const auto expected = scan_intersection(host_->device(), pair, query, settings);
+        IntersectionResult first;
+        for (const IntersectionStrategy strategy : every_strategy) {
+            SCOPED_TRACE(to_string(strategy));
+            query.strategy = strategy;
+            query.records = true;
+            const IntersectionResult result = run_alone(context, query);
+            EXPECT_EQ(result.strategy, strategy);
+            expect_same(expected, result);
+            if (strategy == every_strategy.front()) {
+                first = result;
+            }
+            expect_same_edges(first, result);
+            query.records = false;
+            const IntersectionResult counted = run_alone(context, query);
+            EXPECT_EQ(counted.count, result.count);
+            EXPECT_EQ(counted.area, result.area);
+            EXPECT_EQ(counted.box.min, result.box.min);
+            EXPECT_EQ(counted.box.max, result.box.max);
+            EXPECT_TRUE(counted.samples.empty());
+        }
+    }
+}
+
+TEST_F(Strategies, AgreeOnRandomPairs) {
+    const int cases = random_cases(12);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + static_cast<std::uint64_t>(i));
+        check(PlacedPair(*context_, any_pair(random)), *context_);
+    }
+}
+
+TEST_F(Strategies, AgreeOnEveryFamily) {
+    for (Pair& pair : family_pairs(seed)) {
+        check(PlacedPair(*context_, std::move(pair)), *context_);
+    }
+}
+
+/// All outlines of a folder by every share of overlap, `cells` along the longer side of what they
+/// share. The folder NEARFIELD_TEST_OUTLINES takes the place of the usual one.
+TEST_F(Strategies, AgreeOnOutlines) {
+    const char* const folder = std::getenv("NEARFIELD_TEST_OUTLINES");
+    const auto outlines = read_outlines(folder != nullptr ? folder : NEARFIELD_TEST_DATA);
+    const double cells = 64;
+    int checked = 0;
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        const NamedRings& other = outlines[(i + 1) % outlines.size()];
+        const oracle::ShapeOracle a(outlines[i].rings);
+        for (const double share : {0.01, 0.1, 0.5}) {
+            const auto pose = oracle::pose_for_overlap(a, other.rings, 0.8, {1.0, 0.35}, share);
+            if (!pose) {
+                continue;
+            }
+            const Rectangle common =
+                oracle::overlap(a, oracle::ShapeOracle(other.rings, *pose)).box;
+            const double side = std::max(common.max.x - common.min.x, common.max.y - common.min.y);
+            check(PlacedPair(*context_, {outlines[i], other, {}, *pose, side / cells}), *context_);
+            ++checked;
+        }
+    }
+    EXPECT_GE(checked, 12);
+}
+
+TEST_F(Strategies, AgreeOverManyTilesAndRounds) {
+    // So little memory that an atlas holds 256 x 256 cells: four tiles, a round each.
+    Settings settings;
+    settings.memory_limit = 12U << 20U;
+    Context context = make(settings);
+    Random random(seed);
+    const Rings a = scaled_and_moved(with_holes(random, 5), 10.0, {});
+    const Rings b = scaled_and_moved(star(random, 40, 0.6), 10.0, {});
+    const PlacedPair pair(context, {{"A", a}, {"B", b}, {}, {{1.0, 0.5}, 0.2}, 0.05});
+    check(pair, context, settings);
+    const auto result = run_alone(context, pair.intersection(IntersectionKind::volume_volume));
+    ASSERT_EQ(result.regions.size(), 1U);
+    EXPECT_GT(result.regions[0].width, 256U);
+}
+
+TEST_F(Strategies, MixInOneBatch) {
+    std::deque<PlacedPair> pairs;
+    Batch batch;
+    std::vector<QueryHandle<IntersectionQuery>> handles;
+    std::vector<IntersectionResult> alone;
+    for (Pair& pair : family_pairs(seed + 1)) {
+        const PlacedPair& placed = pairs.emplace_back(*context_, std::move(pair));
+        IntersectionQuery query = placed.intersection(every_kind[handles.size() % 3]);
+        query.strategy = every_strategy[(handles.size() / 3) % 4];
+        query.records = handles.size() % 2 == 0;
+        handles.push_back(batch.add(query));
+        batch.add(placed.penetration());
+        alone.push_back(run_alone(*context_, query));
+    }
+    Results results;
+    const Status status = context_->run(batch, results);
+    ASSERT_TRUE(status.ok()) << status.text();
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        const IntersectionResult& result = results[handles[i]];
+        SCOPED_TRACE("query " + std::to_string(i));
+        EXPECT_EQ(result.count, alone[i].count);
+        EXPECT_EQ(result.box.min, alone[i].box.min);
+        EXPECT_EQ(result.box.max, alone[i].box.max);
+        ASSERT_EQ(result.samples.size(), alone[i].samples.size());
+        for (std::size_t j = 0; j < result.samples.size(); ++j) {
+            ASSERT_EQ(result.samples[j].point, alone[i].samples[j].point);
+            ASSERT_EQ(result.samples[j].edge, alone[i].samples[j].edge);
+        }
+    }
+}
+
+TEST_F(Strategies, FindOneSampleAndNone) {
+    const double d = 0.05;
+    const Rings small = rectangle({0, 0}, {1, 1});
+    struct Case {
+        Rings b;
+        IntersectionKind kind;
+        std::uint64_t count;
+    };
+    // Volumes that share a corner of less than two cells a side; two crescents whose boxes overlap.
+    const Case cases[] = {
+        {rectangle({0.94, 0.94}, {2, 2}), IntersectionKind::volume_volume, 1},
+        {{{{0.2, 1.8}, {1.8, 0.2}, {1.8, 1.8}}}, IntersectionKind::volume_volume, 0},
+        {{{{0.4, 1.8}, {1.8, 0.4}, {1.8, 1.8}}}, IntersectionKind::boundary_boundary, 0},
+    };
+    for (const Case& test : cases) {
+        const PlacedPair pair(*context_, {{"A", small}, {"B", test.b}, {}, {}, d});
+        check(pair, *context_);
+        for (const IntersectionStrategy strategy : every_strategy) {
+            IntersectionQuery query = pair.intersection(test.kind);
+            query.strategy = strategy;
+            const IntersectionResult result = run_alone(*context_, query);
+            EXPECT_EQ(result.regions.size(), 1U);
+            EXPECT_EQ(result.count, test.count) << to_string(strategy);
+            if (test.count == 1) {
+                EXPECT_EQ(result.box.min, result.box.max);
+            }
+        }
+    }
+}
+
+/// Tiles so large that an occlusion query decides whether they are searched at all.
+TEST_F(Strategies, SearchLargeTilesWhereverASamplePasses) {
+    const Rings lower{{{0, 0}, {1, 0}, {0, 1}}};
+    // Its long side is beside A's, and a spike from it reaches A, or almost.
+    const auto upper = [](double tip) {
+        return Rings{
+            {{1.05, 1.05}, {0.03, 1.05}, {0.53, 0.55}, {tip, tip}, {0.55, 0.53}, {1.05, 0.03}}};
+    };
+    const double d = 0.004;
+    for (const double tip : {0.52, 0.4999, 0.497, 0.49, 0.3}) {
+        SCOPED_TRACE(tip);
+        const PlacedPair pair(*context_, {{"A", lower}, {"B", upper(tip)}, {}, {}, d});
+        check(pair, *context_);
+        const auto result = run_alone(*context_, pair.intersection(every_kind[2]));
+        ASSERT_EQ(result.regions.size(), 1U);
+        EXPECT_GE(result.regions[0].width * result.regions[0].height, 128U * 128U);
+        EXPECT_EQ(result.count == 0, tip > 0.499) << result.count;
+    }
+}
+
+class MissingStrategies : public QueryTest {};
+
+TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
+    Random random(seed);
+    const PlacedPair pair(context(), any_pair(random));
+    Batch batch;
+    IntersectionQuery query = pair.intersection(IntersectionKind::boundary_volume);
+    const auto before = batch.add(query);
+    query.strategy = IntersectionStrategy::logic_op;
+    const auto refused = batch.add(query);
+    query.strategy = IntersectionStrategy::depth;
+    const auto after = batch.add(query);
+    Results results;
+    const Status status = context().run(batch, results);
+    ASSERT_TRUE(status.ok()) << status.text();
+    const Status& refusal = results[refused].status;
+    EXPECT_EQ(refusal.code(), StatusCode::unsupported_strategy);
+    EXPECT_NE(refusal.message().find("logic_op"), std::string::npos) << refusal.text();
+    ASSERT_EQ(refusal.reasons().size(), 1U);
+    EXPECT_EQ(refusal.reasons()[0].find("feature logicOp"), 0U) << refusal.text();
+    EXPECT_EQ(results[refused].count, 0U);
+    EXPECT_TRUE(results[refused].samples.empty());
+    EXPECT_TRUE(results[before].status.ok());
+    EXPECT_TRUE(results[after].status.ok());
+    EXPECT_EQ(results[before].count, results[after].count);
+}
+
+TEST_F(MissingStrategies, AreNoEnumerators) {
+    Random random(seed);
+    const PlacedPair pair(context(), any_pair(random));
+    IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
+    query.strategy = static_cast<IntersectionStrategy>(4);
+    EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
+}
+
+TEST_F(MissingStrategies, CountingAloneNeedsNoMemoryForCells) {
+    const PlacedPair pair(
+        context(),
+        {{"A", rectangle({0, 0}, {10, 10})}, {"B", rectangle({5, 5}, {20, 20})}, {}, {}, 0.008});
+    IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
+    Expected<Context> small = Context::create(host_device(), {.memory_limit = 10U << 20U});
+    ASSERT_TRUE(small.ok());
+    const PlacedPair in_small(*small, pair.pair());
+    query = in_small.intersection(IntersectionKind::volume_volume);
+    EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
+    query.records = false;
+    const IntersectionResult result = run_alone(*small, query);
+    ASSERT_TRUE(result.status.ok()) << result.status.text();
+    EXPECT_NEAR(result.area, 25.0, 20.0 * result.error_bound);
+}
+
+}  // namespace
+}  // namespace nearfield::test
