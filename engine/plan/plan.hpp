@@ -54,6 +54,7 @@ struct PlannedQuery {
     const geometry::Polygon* b = nullptr;
     Pose pose_a;
     Pose pose_b;
+    Deviations deviations;  ///< of both shapes
     ErrorBudget budget;
     std::uint32_t first_point = 0;
     std::uint32_t point_count = 0;

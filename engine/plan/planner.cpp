@@ -114,6 +114,10 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                     result.status = unknown_shape("B", query.b.shape);
                 }
                 if (result.status.ok()) {
+                    // Of a distance field's A nothing but its box is used.
+                    constexpr bool of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
+                    planned.deviations = {of_b_alone ? 0.0 : planned.a->deviation(),
+                                          planned.b->deviation()};
                     add(query, result);
                 }
             },
@@ -177,10 +181,14 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = penetration_budget(query);
+    planned.budget = penetration_budget(query, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     const Box box_b = b.box();
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
+    }
     result.status = check_resolution(query.tolerance, std::max(largest_magnitude(a, query.a.pose),
                                                                largest_magnitude(b, query.b.pose)));
     if (!result.status.ok()) {
@@ -216,12 +224,16 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = intersection_budget(query, limits_.subpixel);
+    planned.budget = intersection_budget(query, limits_.subpixel, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     result.kind = query.kind;
     const Box box_a = a.box();
     const Box box_b = b.box();
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
+    }
     result.status = check_resolution(query.tolerance,
                                      std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
     if (!result.status.ok()) {
@@ -271,7 +283,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
 
 void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = field_budget(query, limits_.subpixel);
+    planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     Box box;
@@ -289,6 +301,10 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
         }
         box.min().array() -= query.tolerance;
         box.max().array() += query.tolerance;
+    }
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
     }
     result.status = check_resolution(
         query.tolerance,

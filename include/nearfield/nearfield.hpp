@@ -4,6 +4,7 @@
 /// The whole public interface of nearfield.
 
 #include <nearfield/context.hpp>
+#include <nearfield/curve.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
