@@ -13,6 +13,7 @@ struct QueryArguments {
     std::string file_a;
     std::string file_b;
     std::optional<std::string> tolerance;
+    std::optional<std::string> deviation;
     std::optional<std::string> pose_a;
     std::optional<std::string> pose_b;
     std::optional<std::string> technique;

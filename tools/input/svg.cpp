@@ -1,3 +1,4 @@
+#include <pugixml.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/svg.hpp>
 #include <tools/input/svg_path.hpp>
@@ -9,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <pugixml.hpp>
 #include <string_view>
 
 namespace nearfield::tools {
@@ -47,9 +47,15 @@ public:
     CurvePath read() {
         const pugi::xml_node root = document_.document_element();
         if (local_name(root) != "svg") {
-            fail(root, "the outermost element is \"" + std::string(root.name()) + "\", not svg");
+            fail(offset_of(root.name()),
+                 "the outermost element is \"" + std::string(root.name()) + "\", not svg");
         }
-        read_children(root, svg_to_world);
+        if (root.attribute("transform")) {
+            fail(root, "a transform of the outermost element is not read");
+        }
+        if (!is_hidden(root)) {
+            read_children(root, svg_to_world, 0);
+        }
         if (path_.contours().empty()) {
             fail(root, "has no outline");
         }
@@ -72,27 +78,29 @@ private:
     [[nodiscard]] SvgText text_of(const pugi::xml_attribute& attribute) const {
         const std::string_view value = attribute.value();
         // An empty value may stand outside the buffer.
-        return {value, value.empty() ? offset_of(attribute.name()) : offset_of(value.data()),
-                text_, file_};
+        return {value, value.empty() ? offset_of(attribute.name()) : offset_of(value.data()), text_,
+                file_};
     }
 
-    void read_children(const pugi::xml_node& parent, const AffineMap& map) {
+    void read_children(const pugi::xml_node& parent, const AffineMap& map, int depth) {
+        if (depth > deepest) {
+            fail(parent, "groups nested too deep");
+        }
         for (const pugi::xml_node& node : parent.children()) {
             if (node.type() == pugi::node_element) {
-                read_element(node, map);
+                read_element(node, map, depth);
             }
         }
     }
 
-    void read_element(const pugi::xml_node& node, const AffineMap& outer) {
+    void read_element(const pugi::xml_node& node, const AffineMap& outer, int depth) {
         const std::string_view name = local_name(node);
         // What draws nothing itself, and what belongs to editors.
         if (is_one_of(name, {"title", "desc", "metadata", "defs"}) ||
             name.find(':') != std::string_view::npos || is_hidden(node)) {
             return;
         }
-        if (!is_one_of(name,
-                       {"g", "path", "polygon", "polyline", "rect", "circle", "ellipse"})) {
+        if (!is_one_of(name, {"g", "path", "polygon", "polyline", "rect", "circle", "ellipse"})) {
             fail(node,
                  "is not read; only path, polygon, polyline, rect, circle, ellipse and g are");
         }
@@ -108,7 +116,7 @@ private:
             map = combine(parse_transform(text), outer);
         }
         if (name == "g") {
-            read_children(node, map);
+            read_children(node, map, depth + 1);
             return;
         }
         CurvePath outline = read_outline(node, name);
@@ -227,6 +235,8 @@ private:
         path.arc_to(corner, {x + *rx, y});
         return path.close();
     }
+
+    static constexpr int deepest = 1024;  // untrusted input must not exhaust the stack
 
     const std::string& text_;
     const std::string& file_;

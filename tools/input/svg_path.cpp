@@ -139,7 +139,7 @@ private:
 
     SvgText& text_;
     CurvePath path_;
-    Vector2 start_;    // of the subpath
+    Vector2 start_;  // of the subpath
     Vector2 current_;
     Vector2 control_;  // the last one of a curve
     char previous_ = '\0';

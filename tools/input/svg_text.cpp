@@ -68,7 +68,8 @@ double SvgText::number() {
     }
     // What from_chars takes beyond the grammar (inf, nan, a sign after the plus) begins otherwise.
     const std::size_t digits = peek() == '-' ? first + 1 : first;
-    const std::size_t fraction = digits < value_.size() && value_[digits] == '.' ? digits + 1 : digits;
+    const std::size_t fraction =
+        digits < value_.size() && value_[digits] == '.' ? digits + 1 : digits;
     if (fraction >= value_.size() || !is_digit(value_[fraction])) {
         fail(position_ < value_.size() ? "expected a number"
                                        : "the value ends where a number is expected");

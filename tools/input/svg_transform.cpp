@@ -36,7 +36,8 @@ AffineMap one_transform(const SvgText& text, std::size_t start, const std::strin
                 return;
             }
         }
-        text.fail(start, name + " takes " + form + ", not " + std::to_string(n.size()) + " numbers");
+        text.fail(start,
+                  name + " takes " + form + ", not " + std::to_string(n.size()) + " numbers");
     };
     if (name == "matrix") {
         takes({6}, "six numbers");
@@ -65,15 +66,15 @@ AffineMap one_transform(const SvgText& text, std::size_t start, const std::strin
         takes({1}, "one number");
         return {{1.0, std::tan(radians(n[0]))}, {0.0, 1.0}, {}};
     }
-    text.fail(start, "\"" + name +
-                         "\" is none of matrix, translate, scale, rotate, skewX, skewY");
+    text.fail(start, "\"" + name + "\" is none of matrix, translate, scale, rotate, skewX, skewY");
 }
 
 }  // namespace
 
 AffineMap combine(const AffineMap& first, const AffineMap& then) {
     const Vector2 origin = mapped(then, first.origin);
-    return {mapped(then, first.x_axis), mapped(then, first.y_axis),
+    return {mapped(then, first.x_axis),
+            mapped(then, first.y_axis),
             {origin.x + then.origin.x, origin.y + then.origin.y}};
 }
 
