@@ -44,6 +44,7 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
+    limits.bounding_volume = settings.bounding_volume;
     return limits;
 }
 

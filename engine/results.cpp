@@ -98,9 +98,15 @@ std::uint32_t nearest_edge(const PlannedQuery& query, plan::EdgeRun run, const V
     return nearest;
 }
 
-bool shapes_intersect(const PlannedQuery& query) {
-    return localize::intersects(PlacedPolygon(*query.a, query.pose_a),
-                                PlacedPolygon(*query.b, query.pose_b));
+/// Counts what it takes among the result's statistics.
+bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
+    localize::Effort effort;
+    const bool answer =
+        localize::intersects(PlacedPolygon(*query.a, query.pose_a),
+                             PlacedPolygon(*query.b, query.pose_b), plan.bounding_volume, &effort);
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    return answer;
 }
 
 }  // namespace
@@ -175,7 +181,7 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
             result.records.push_back(record);
         }
     }
-    result.intersects = result.count > 0 || shapes_intersect(planned);
+    result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
 }
 
 void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results) {
@@ -232,11 +238,11 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
             if (intersection->status.ok()) {
                 intersection->area = static_cast<double>(intersection->count) * intersection->cell *
                                      intersection->cell;
-                intersection->intersects = shapes_intersect(planned);
+                intersection->intersects = shapes_intersect(plan, planned, *intersection);
             }
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
             if (field->status.ok()) {
-                field->intersects = planned.a != nullptr && shapes_intersect(planned);
+                field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
                 finish_field(*field);
             }
         }

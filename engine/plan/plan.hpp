@@ -7,6 +7,7 @@
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/grid.hpp>
 #include <engine/plan/needed_blocks.hpp>
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 
 #include <cstdint>
@@ -63,6 +64,7 @@ struct PlannedQuery {
 /// A batch as tiles: what is to be rendered, where, and for whom.
 struct Plan {
     std::vector<PlannedQuery> queries;  ///< by position in the batch
+    BoundingVolume bounding_volume{};   ///< what hierarchies are made of
     std::vector<Tile> tiles;
     std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
     TileSize extent;                   ///< of the atlas

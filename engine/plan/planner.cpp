@@ -51,6 +51,7 @@ Result& reuse(AnyResult& any) {
     result.error_bound = 0.0;
     result.intersects = false;
     result.regions.clear();
+    result.localization = {};
     if constexpr (std::is_same_v<Result, PenetrationResult>) {
         result.count = 0;
         result.deepest = {};
@@ -88,6 +89,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                    std::vector<AnyResult>& results) {
     plan.clear();
     plan_ = &plan;
+    plan.bounding_volume = limits_.bounding_volume;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
@@ -146,6 +148,18 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
                        " MiB" + hint});
 }
 
+localize::OverlapOptions Planner::overlap_options(double grow) const {
+    return {limits_.hierarchy_height, grow, limits_.bounding_volume};
+}
+
+void Planner::count(const localize::Effort& effort, ResultSummary& result) const {
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    for (const localize::Chain& chain : chains_) {
+        result.localization.edges_kept += chain.count;
+    }
+}
+
 void Planner::join_chain_boxes(const Box& within, double grow) {
     boxes_.clear();
     for (const localize::Chain& chain : chains_) {
@@ -197,7 +211,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
 
     const Stopwatch start;
     chains_.clear();
-    localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
+    count(localize::chains_in_volume(a, b, overlap_options(0.0), chains_), result);
     join_chain_boxes(box_b, 0.0);
     localize_milliseconds_ += start.milliseconds();
     planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
@@ -247,8 +261,9 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     double grow = 0.0;
     if (query.kind == IntersectionKind::volume_volume) {
         // The boundary of the overlap is what lies of either boundary in the other volume.
-        localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
-        localize::chains_in_volume(b, a, {limits_.hierarchy_height, 0.0}, chains_);
+        localize::Effort effort = localize::chains_in_volume(a, b, overlap_options(0.0), chains_);
+        effort += localize::chains_in_volume(b, a, overlap_options(0.0), chains_);
+        count(effort, result);
         if (!chains_.empty()) {
             for (const localize::Chain& chain : chains_) {
                 chains_.front().box.extend(chain.box);
@@ -257,10 +272,10 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
         }
     } else if (query.kind == IntersectionKind::boundary_volume) {
         grow = bound;
-        localize::chains_in_volume(a, b, {limits_.hierarchy_height, grow}, chains_);
+        count(localize::chains_in_volume(a, b, overlap_options(grow), chains_), result);
     } else {
         grow = bound;
-        localize::chains_near_boundary(a, b, {limits_.hierarchy_height, 2.0 * grow}, chains_);
+        count(localize::chains_near_boundary(a, b, overlap_options(2.0 * grow), chains_), result);
     }
     if (grow > 0.0 && !chains_.empty()) {
         within = box_b;

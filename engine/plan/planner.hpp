@@ -20,7 +20,8 @@ struct PlanLimits {
     std::uint32_t points_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
-    std::uint32_t hierarchy_height = 8;
+    std::uint32_t hierarchy_height = 12;
+    BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
 };
 
 /// Finds a shape's polygon, or null.
@@ -46,6 +47,8 @@ private:
     void add(const IntersectionQuery& query, IntersectionResult& result);
     void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
 
+    [[nodiscard]] localize::OverlapOptions overlap_options(double grow) const;
+    void count(const localize::Effort& effort, ResultSummary& result) const;
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
     void cut_into_tiles(std::uint32_t region, TileKind kind);

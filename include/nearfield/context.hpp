@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/host.hpp>
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
@@ -25,7 +26,9 @@ struct Settings {
     std::uint64_t memory_limit = std::uint64_t{1} << 30U;
     /// Maximum height of the bounding-volume hierarchies that localise (section 2.1 of the paper):
     /// more is more work on the CPU and less on the device.
-    std::uint32_t hierarchy_height = 8;
+    std::uint32_t hierarchy_height = 12;
+    /// What these hierarchies are made of; docs/performance.md has the effect of both.
+    BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
 };
 
 /// One Vulkan device that can be used, and every reason why not where it cannot.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -35,6 +36,7 @@ struct ResultSummary {
     bool intersects = false;
     double cell = 0.0;  ///< side of a grid cell
     std::vector<Region> regions;
+    LocalizationStatistics localization;
 };
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all

@@ -217,6 +217,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "Of distance-field: what the grid covers, world units; default the common box "
                      "of A and B grown by the tolerance")
         ->type_name("X0,Y0,X1,Y1");
+    add_localization_options(*command, arguments.localization);
     command
         ->add_option("--json", arguments.json,
                      "Write the answer as JSON; - for the standard output, the summary then goes "
@@ -236,6 +237,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
 
 void run_query(const QueryArguments& arguments) {
     const QueryRequest request = parse_request(arguments);
+    const Settings settings = parse_settings(arguments.localization);
     const Outline outline_a = read_outline(arguments.file_a);
     const Outline outline_b = read_outline(arguments.file_b);
     const double deviation = parse_deviation(arguments, request, outline_a, outline_b);
@@ -252,7 +254,7 @@ void run_query(const QueryArguments& arguments) {
         field.emplace(*arguments.field);
     }
 
-    Context context = take(Context::create_headless());
+    Context context = take(Context::create_headless({}, settings));
     const Instance instance_a{take(context.add_shape(a.rings, a.deviation), a.file), a.pose};
     const Instance instance_b{take(context.add_shape(b.rings, b.deviation), b.file), b.pose};
     Batch batch;

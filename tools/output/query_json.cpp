@@ -87,6 +87,13 @@ void write_timings(JsonWriter& json, const Timings& timings) {
     json.end_object().end_object();
 }
 
+void write_localization(JsonWriter& json, const LocalizationStatistics& statistics) {
+    json.key("localization").begin_object();
+    json.key("nodes_evaluated").value(statistics.nodes_evaluated);
+    json.key("pairs_rejected").value(statistics.pairs_rejected);
+    json.key("edges_kept").value(statistics.edges_kept).end_object();
+}
+
 void write_query_json(std::ostream& stream, const Answer& answer) {
     const ResultSummary& summary = summary_of(answer.result);
     JsonWriter json(stream);
@@ -99,6 +106,7 @@ void write_query_json(std::ostream& stream, const Answer& answer) {
     json.key("device").value(std::string_view(answer.device));
     json.key("technique").value("raster");
     write_regions(json, summary);
+    write_localization(json, summary.localization);
     write_timings(json, answer.timings);
     std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);
     json.end_object();
