@@ -1,3 +1,4 @@
+#include <tools/input/characters.hpp>
 #include <tools/input/geojson.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/outline.hpp>
@@ -19,10 +20,6 @@ std::string lower_case_extension(const std::string& path) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     });
     return extension;
-}
-
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <tools/input/characters.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/svg_text.hpp>
 #include <tools/input/text_file.hpp>
@@ -7,20 +8,6 @@
 #include <system_error>
 
 namespace nearfield::tools {
-namespace {
-
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f';
-}
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-}  // namespace
-
 void SvgText::fail(std::size_t position, const std::string& reason) const {
     throw InputError(text_position(*file_, document_, offset_ + position) + ": " + reason);
 }
