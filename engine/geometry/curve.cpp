@@ -34,7 +34,8 @@ CurveSegment cubic(const Vector2& control_1, const Vector2& control_2, const Vec
     return segment;
 }
 
-CurveSegment arc(const Vector& apex, const Vector& along, double half_sweep, const Vector2& to) {
+CurveSegment arc_segment(const Vector& apex, const Vector& along, double half_sweep,
+                         const Vector2& to) {
     CurveSegment segment;
     segment.kind = CurveSegment::Kind::arc;
     segment.apex = to_public(apex);
@@ -48,7 +49,7 @@ CurveSegment arc(const Vector& apex, const Vector& along, double half_sweep, con
 /// diameters.
 CurveContour whole_turn(const Vector& centre, const Vector& axis, const Vector& other) {
     const Vector2 start = to_public(centre + axis);
-    return {start, {arc(-axis, -other, pi, start)}};
+    return {start, {arc_segment(-axis, -other, pi, start)}};
 }
 
 }  // namespace
@@ -103,14 +104,14 @@ CurvePath& CurvePath::cubic_to(Vector2 control_1, Vector2 control_2, Vector2 to)
     return *this;
 }
 
-CurvePath& CurvePath::arc_to(const EllipticArc& ellipse, Vector2 to) {
-    if (!std::isfinite(ellipse.radius_x) || !std::isfinite(ellipse.radius_y) ||
-        !std::isfinite(ellipse.rotation)) {
+CurvePath& CurvePath::arc_to(const EllipticArc& arc, Vector2 to) {
+    if (!std::isfinite(arc.radius_x) || !std::isfinite(arc.radius_y) ||
+        !std::isfinite(arc.rotation)) {
         refuse("arc_to", "a radius or the rotation is not a finite number");
         return *this;
     }
-    double radius_x = std::abs(ellipse.radius_x);
-    double radius_y = std::abs(ellipse.radius_y);
+    double radius_x = std::abs(arc.radius_x);
+    double radius_y = std::abs(arc.radius_y);
     if (contours_.empty() || radius_x == 0.0 || radius_y == 0.0) {
         add("arc_to", line(to));
         return *this;
@@ -119,7 +120,7 @@ CurvePath& CurvePath::arc_to(const EllipticArc& ellipse, Vector2 to) {
     if (half_chord == Vector::Zero()) {
         return *this;
     }
-    const Vector axis_x(std::cos(ellipse.rotation), std::sin(ellipse.rotation));
+    const Vector axis_x(std::cos(arc.rotation), std::sin(arc.rotation));
     const Vector axis_y = turned_left(axis_x);
     // Seen from where the ellipse is a unit circle, half the chord is the sine of half the sweep.
     Vector unit(half_chord.dot(axis_x) / radius_x, half_chord.dot(axis_y) / radius_y);
@@ -137,8 +138,9 @@ CurvePath& CurvePath::arc_to(const EllipticArc& ellipse, Vector2 to) {
     const auto from_unit = [&](const Vector& v) -> Vector {
         return v.x() * radius_x * axis_x + v.y() * radius_y * axis_y;
     };
-    const Vector apex = ellipse.counter_clockwise ? -turned_left(unit) : turned_left(unit);
-    add("arc_to", arc(from_unit(apex), from_unit(unit), ellipse.large ? pi - narrow : narrow, to));
+    const Vector apex = arc.counter_clockwise ? -turned_left(unit) : turned_left(unit);
+    add("arc_to",
+        arc_segment(from_unit(apex), from_unit(unit), arc.large ? pi - narrow : narrow, to));
     return *this;
 }
 
@@ -161,7 +163,7 @@ CurvePath& CurvePath::arc_about(Vector2 centre, double sweep) {
     const Vector along = sweep > 0.0 ? turned_left(apex) : -turned_left(apex);
     const bool whole = std::abs(sweep) == 2.0 * pi;
     const Vector2 to = whole ? current() : to_public(to_vector(centre) + turned(sweep));
-    add("arc_about", arc(apex, along, 0.5 * std::abs(sweep), to));
+    add("arc_about", arc_segment(apex, along, 0.5 * std::abs(sweep), to));
     return *this;
 }
 

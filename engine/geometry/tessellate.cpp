@@ -264,8 +264,8 @@ private:
         if (parts > static_cast<double>(room_)) {
             refuse_size();
         }
-        for (double part = 1.0; part < parts; part += 1.0) {
-            add(arc.point(arc.half_sweep * (2.0 * part - parts) / parts));
+        for (std::size_t part = 1; part < static_cast<std::size_t>(parts); ++part) {
+            add(arc.point(arc.half_sweep * (2.0 * static_cast<double>(part) - parts) / parts));
         }
         add(arc.end());
     }
