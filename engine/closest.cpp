@@ -82,7 +82,7 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
     const PlacedPolygon a(*query.a, query.pose_a);
     const PlacedPolygon b(*query.b, query.pose_b);
     const double rounding = rounding_of(a, b);
-    result.error_bound = rounding;
+    result.error_bound = rounding + query.deviations.a + query.deviations.b;
     if (result.intersects) {
         const ClosestPair closest = finder_.find(a, b, infinity);
         result.point_a = geometry::to_public(common_point(a, b, closest, rounding));

@@ -50,6 +50,7 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
         limits.missing_for_strategy[i] =
             gpu::missing_for(static_cast<IntersectionStrategy>(i), device.strategy_support());
     }
+    limits.bounding_volume = settings.bounding_volume;
     return limits;
 }
 
@@ -65,8 +66,8 @@ public:
           builder_(subpixel_grid(device_)),
           renderer_(device_) {}
 
-    Expected<ShapeHandle> add_shape(std::span<const Ring> rings);
-    Status update_shape(ShapeHandle handle, std::span<const Ring> rings);
+    Expected<ShapeHandle> add_shape(std::span<const Ring> rings, double deviation);
+    Status update_shape(ShapeHandle handle, std::span<const Ring> rings, double deviation);
     Status remove_shape(ShapeHandle handle);
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
@@ -110,14 +111,15 @@ geometry::Polygon* Context::Implementation::find(ShapeHandle handle) {
     return slot.alive && slot.generation == handle.generation ? slot.polygon.get() : nullptr;
 }
 
-Expected<ShapeHandle> Context::Implementation::add_shape(std::span<const Ring> rings) {
+Expected<ShapeHandle> Context::Implementation::add_shape(std::span<const Ring> rings,
+                                                         double deviation) {
     if (free_slots_.empty()) {
         free_slots_.push_back(static_cast<std::uint32_t>(slots_.size()));
         slots_.emplace_back();
     }
     const std::uint32_t index = free_slots_.back();
     Slot& slot = slots_[index];
-    if (Status status = slot.polygon->assign(rings); !status.ok()) {
+    if (Status status = slot.polygon->assign(rings, deviation); !status.ok()) {
         return status;
     }
     free_slots_.pop_back();
@@ -125,14 +127,15 @@ Expected<ShapeHandle> Context::Implementation::add_shape(std::span<const Ring> r
     return ShapeHandle{index, slot.generation};
 }
 
-Status Context::Implementation::update_shape(ShapeHandle handle, std::span<const Ring> rings) {
+Status Context::Implementation::update_shape(ShapeHandle handle, std::span<const Ring> rings,
+                                             double deviation) {
     geometry::Polygon* polygon = find(handle);
     if (polygon == nullptr) {
         return {StatusCode::unknown_shape, "update_shape: no shape of this context has index " +
                                                std::to_string(handle.index) +
                                                " and that generation"};
     }
-    return polygon->assign(rings);
+    return polygon->assign(rings, deviation);
 }
 
 Status Context::Implementation::remove_shape(ShapeHandle handle) {
@@ -247,15 +250,16 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
     return Context(std::move(implementation));
 }
 
-Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings) {
+Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
     Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = guarded([&] { handle = implementation_->add_shape(rings); });
+    Status status = guarded([&] { handle = implementation_->add_shape(rings, deviation); });
     return status.ok() ? handle : Expected<ShapeHandle>(status);
 }
 
-Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings) {
+Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
     Status result;
-    Status status = guarded([&] { result = implementation_->update_shape(shape, rings); });
+    Status status =
+        guarded([&] { result = implementation_->update_shape(shape, rings, deviation); });
     return status.ok() ? result : status;
 }
 

@@ -52,9 +52,15 @@ Vector centre_of_cell(const Tile& tile, std::uint32_t column, std::uint32_t row)
                                    static_cast<double>(tile.row + row) + 0.5);
 }
 
-bool shapes_intersect(const PlannedQuery& query) {
-    return localize::intersects(PlacedPolygon(*query.a, query.pose_a),
-                                PlacedPolygon(*query.b, query.pose_b));
+/// Counts what it takes among the result's statistics.
+bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
+    localize::Effort effort;
+    const bool answer =
+        localize::intersects(PlacedPolygon(*query.a, query.pose_a),
+                             PlacedPolygon(*query.b, query.pose_b), plan.bounding_volume, &effort);
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    return answer;
 }
 
 }  // namespace
@@ -147,7 +153,7 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
             result.records.push_back(record);
         }
     }
-    result.intersects = result.count > 0 || shapes_intersect(planned);
+    result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
 }
 
 void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results) {
@@ -197,17 +203,17 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
             if (intersection->status.ok()) {
                 intersection->area = static_cast<double>(intersection->count) * intersection->cell *
                                      intersection->cell;
-                intersection->intersects = shapes_intersect(planned);
+                intersection->intersects = shapes_intersect(plan, planned, *intersection);
             }
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
             if (field->status.ok()) {
-                field->intersects = planned.a != nullptr && shapes_intersect(planned);
+                field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
                 finish_field(*field);
             }
         } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
             if (contact->status.ok()) {
                 contacts_.decode(plan, planned, words_, *contact);
-                contact->intersects = shapes_intersect(planned);
+                contact->intersects = shapes_intersect(plan, planned, *contact);
             }
         } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {
             if (closest->status.ok()) {

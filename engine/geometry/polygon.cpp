@@ -137,9 +137,14 @@ Status check(std::span<const Ring> rings) {
 
 }  // namespace
 
-Status Polygon::assign(std::span<const Ring> rings) {
+Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     if (Status status = check(rings); !status.ok()) {
         return status;
+    }
+    if (!(deviation >= 0.0 && deviation <= largest_coordinate)) {
+        return invalid("the deviation is " + number(deviation) +
+                       "; it must be a finite number of at least 0 and at most " +
+                       number(largest_coordinate));
     }
     std::size_t total = 0;
     Box box;
@@ -155,6 +160,7 @@ Status Polygon::assign(std::span<const Ring> rings) {
     ring_ends_.reserve(rings.size());
 
     centre_ = 0.5 * (box.min() + box.max());
+    deviation_ = deviation;
     vertices_.clear();
     ring_ends_.clear();
     for (const Ring& ring : rings) {

@@ -18,8 +18,12 @@ namespace nearfield::geometry {
 class Polygon {
 public:
     /// Replaces all rings, or refuses them and leaves the polygon as it was. The message names the
-    /// ring and the vertex of the ring, both counted from 0. Reuses memory.
-    Status assign(std::span<const Ring> rings);
+    /// ring and the vertex of the ring, both counted from 0. `deviation`: how far the rings may be
+    /// from the shape they stand for. Reuses memory.
+    Status assign(std::span<const Ring> rings, double deviation = 0.0);
+
+    /// How far the rings may be from the shape they stand for.
+    [[nodiscard]] double deviation() const { return deviation_; }
 
     /// The centre of the bounding box, in the shape's own coordinates.
     [[nodiscard]] const Vector& centre() const { return centre_; }
@@ -46,6 +50,7 @@ public:
 
 private:
     Vector centre_ = Vector::Zero();
+    double deviation_ = 0.0;
     std::vector<Vector> vertices_;
     std::vector<std::uint32_t> ring_ends_;
 };

@@ -40,10 +40,10 @@ struct ClosestChains::Leaves {
     }
 };
 
-Effort ClosestChains::find(const PlacedPolygon& a, const PlacedPolygon& b, std::uint32_t height,
-                           std::vector<Chain>& chains) {
-    tree_a_.plant(a, height);
-    tree_b_.plant(b, height);
+Effort ClosestChains::find(const PlacedPolygon& a, const PlacedPolygon& b,
+                           const OverlapOptions& options, std::vector<Chain>& chains) {
+    tree_a_.plant(a, options.height, options.volume);
+    tree_b_.plant(b, options.height, options.volume);
     squared_bound_ = std::numeric_limits<double>::infinity();
     pairs_.clear();
     Leaves leaves{*this};

@@ -14,9 +14,10 @@ namespace nearfield::localize {
 class ClosestChains {
 public:
     /// Appends to `chains` those parts of A's boundary, leaf by leaf and in order along its rings,
-    /// that can hold a point as near to B's boundary as any. What is left out holds none.
+    /// that can hold a point as near to B's boundary as any. What is left out holds none. Of the
+    /// options, `grow` has no meaning here.
     Effort find(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                std::uint32_t height, std::vector<Chain>& chains);
+                const OverlapOptions& options, std::vector<Chain>& chains);
 
     /// Of the last search: some two boundary points are this close together.
     [[nodiscard]] double upper_bound() const;

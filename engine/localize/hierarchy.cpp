@@ -1,6 +1,7 @@
 #include <engine/localize/hierarchy.hpp>
 
 #include <limits>
+#include <span>
 
 namespace nearfield::localize {
 
@@ -35,18 +36,44 @@ Node Hierarchy::rings_node(std::uint32_t ring, std::uint32_t rings) {
         // All of a ring's vertices are the ends of all its edges but one.
         node.box.extend(polygon_->chain_box(r, first, polygon.ring_end(r) - first - 1));
     }
+    if (volume_ == BoundingVolume::oriented) {
+        add_oriented_box(node);
+    }
     ++nodes_evaluated_;
     return node;
 }
 
 Node Hierarchy::edges_node(const Node& parent, std::uint32_t first, std::uint32_t count) {
     ++nodes_evaluated_;
-    return {parent.ring,
-            1,
-            first,
-            count,
-            parent.height + 1,
-            polygon_->chain_box(parent.ring, first, count)};
+    Node node{parent.ring,
+              1,
+              first,
+              count,
+              parent.height + 1,
+              polygon_->chain_box(parent.ring, first, count)};
+    if (volume_ == BoundingVolume::oriented) {
+        add_oriented_box(node);
+    }
+    return node;
+}
+
+void Hierarchy::add_oriented_box(Node& node) {
+    if (rounding_ == 0.0) {
+        // The first node is the root, with the box of all. Axes, projections and centres round a
+        // few times more than placing a vertex does.
+        rounding_ = 4.0 * placement_rounding(*polygon_, node.box);
+    }
+    const std::span<const geometry::Vector> vertices = polygon_->polygon().vertices();
+    const std::uint32_t end = node.first + node.count;
+    if (node.rings > 1 || end < polygon_->polygon().ring_end(node.ring)) {
+        // The rings' own vertices, or those of the edges and the one where the last edge ends.
+        const std::uint32_t count = node.rings > 1 ? node.count : node.count + 1;
+        node.oriented = oriented_box(*polygon_, vertices.subspan(node.first, count), {}, rounding_);
+    } else {
+        const std::uint32_t begin = polygon_->polygon().ring_begin(node.ring);
+        node.oriented = oriented_box(*polygon_, vertices.subspan(node.first, node.count),
+                                     vertices.subspan(begin, 1), rounding_);
+    }
 }
 
 double placement_rounding(const PlacedPolygon& polygon, const Box& box) {

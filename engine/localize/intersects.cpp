@@ -1,3 +1,4 @@
+#include <engine/geometry/containment.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/localize/overlap.hpp>
@@ -43,11 +44,13 @@ struct Leaf {
 
 class BoundaryContact {
 public:
-    BoundaryContact(Hierarchy& a, Hierarchy& b, double margin) : a_(a), b_(b), margin_(margin) {}
+    BoundaryContact(Hierarchy& a, Hierarchy& b, double margin, BoundingVolume volume)
+        : a_(a), b_(b), margin_(margin), volume_(volume) {}
 
     /// True where edges of the two nodes meet.
     [[nodiscard]] bool meet(const Node& a, const Node& b) {
-        if (!boxes_meet(a.box, b.box, margin_)) {
+        if (!volumes_meet(a, b, margin_, volume_)) {
+            ++pairs_rejected_;
             return false;
         }
         const bool leaf_a = is_leaf(a);
@@ -63,6 +66,8 @@ public:
         const std::array<Node, 2> halves = b_.halves(b);
         return meet(a, halves[0]) || meet(a, halves[1]);
     }
+
+    [[nodiscard]] std::uint64_t pairs_rejected() const { return pairs_rejected_; }
 
 private:
     static bool is_leaf(const Node& node) { return node.rings == 1 && node.count <= leaf_edges; }
@@ -108,37 +113,48 @@ private:
     Hierarchy& a_;
     Hierarchy& b_;
     double margin_;
+    BoundingVolume volume_;
+    std::uint64_t pairs_rejected_ = 0;
 };
 
 /// True where a ring of `inner` lies in `outer`, told by one vertex of each: their boundaries do
 /// not meet.
 bool any_ring_inside(const PlacedPolygon& inner, const PlacedPolygon& outer, const Box& outer_box) {
+    // Kept, so that a frame like the one before it allocates nothing.
+    thread_local geometry::Containment containment;
+    containment.clear();
     const Polygon& polygon = inner.polygon();
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const Vector vertex = inner.vertex(polygon.ring_begin(ring));
-        if (outer_box.contains(vertex) && contains(outer, vertex)) {
-            return true;
+        if (outer_box.contains(vertex)) {
+            containment.ask(vertex);
         }
     }
-    return false;
+    containment.answer(outer);
+    return containment.any_inside();
 }
 
 }  // namespace
 
-bool intersects(const PlacedPolygon& a, const PlacedPolygon& b) {
+bool intersects(const PlacedPolygon& a, const PlacedPolygon& b, BoundingVolume volume,
+                Effort* effort) {
     constexpr std::uint32_t no_limit = std::numeric_limits<std::uint32_t>::max();
-    Hierarchy tree_a(a, no_limit);
-    Hierarchy tree_b(b, no_limit);
+    Hierarchy tree_a(a, no_limit, volume);
+    Hierarchy tree_b(b, no_limit, volume);
     const Node root_a = tree_a.root();
     const Node root_b = tree_b.root();
     const double margin = placement_rounding(a, root_a.box) + placement_rounding(b, root_b.box);
-    if (!boxes_meet(root_a.box, root_b.box, margin)) {
-        return false;
+    BoundaryContact contact(tree_a, tree_b, margin, volume);
+    const bool boundaries_meet = contact.meet(root_a, root_b);
+    if (effort != nullptr) {
+        *effort += {tree_a.nodes_evaluated() + tree_b.nodes_evaluated(), contact.pairs_rejected()};
+    }
+    if (boundaries_meet || !boxes_meet(root_a.box, root_b.box, margin)) {
+        return boundaries_meet;
     }
     // Without contact of the boundaries: were a point in both shapes, so would be a boundary point
     // of what they have in common, hence a whole ring of one of them in the other.
-    return BoundaryContact(tree_a, tree_b, margin).meet(root_a, root_b) ||
-           any_ring_inside(a, b, root_b.box) || any_ring_inside(b, a, root_a.box);
+    return any_ring_inside(a, b, root_b.box) || any_ring_inside(b, a, root_a.box);
 }
 
 }  // namespace nearfield::localize

@@ -4,8 +4,10 @@
 
 namespace nearfield::localize {
 
-void LazyTree::plant(const geometry::PlacedPolygon& polygon, std::uint32_t height) {
-    hierarchy_.emplace(polygon, height);
+void LazyTree::plant(const geometry::PlacedPolygon& polygon, std::uint32_t height,
+                     BoundingVolume volume) {
+    hierarchy_.emplace(polygon, height, volume);
+    volume_ = volume;
     nodes_.assign(1, hierarchy_->root());
     halves_.assign(1, unknown);
 }

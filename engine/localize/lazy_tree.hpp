@@ -14,12 +14,14 @@ namespace nearfield::localize {
 class LazyTree {
 public:
     /// Starts anew with the root only. The polygon must outlive the queries.
-    void plant(const geometry::PlacedPolygon& polygon, std::uint32_t height);
+    void plant(const geometry::PlacedPolygon& polygon, std::uint32_t height,
+               BoundingVolume volume = BoundingVolume::axis_aligned);
 
     /// The node of the whole boundary.
     static constexpr std::uint32_t root = 0;
 
     [[nodiscard]] const geometry::PlacedPolygon& polygon() const { return hierarchy_->polygon(); }
+    [[nodiscard]] BoundingVolume volume() const { return volume_; }
     [[nodiscard]] const Node& operator[](std::uint32_t index) const { return nodes_[index]; }
     [[nodiscard]] bool splits(std::uint32_t index) const {
         return hierarchy_->splits(nodes_[index]);
@@ -33,6 +35,7 @@ private:
     static constexpr std::uint32_t unknown = 0;  // the root is nobody's half
 
     std::optional<Hierarchy> hierarchy_;
+    BoundingVolume volume_ = BoundingVolume::axis_aligned;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> halves_;  // by node: its first half, if it was asked for
 };

@@ -1,3 +1,4 @@
+#include <engine/geometry/containment.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/localize/overlap.hpp>
 
@@ -51,6 +52,7 @@ struct Scratch {
         std::uint32_t count = 0;
     };
     std::vector<Halves> halves;
+    geometry::Containment containment;
 };
 
 Scratch& thread_scratch() {
@@ -62,8 +64,9 @@ Scratch& thread_scratch() {
 class Descent {
 public:
     Descent(const PlacedPolygon& a, const PlacedPolygon& b, const OverlapOptions& options)
-        : tree_a_(a, options.height),
-          tree_b_(b, options.height),
+        : volume_(options.volume),
+          tree_a_(a, options.height, options.volume),
+          tree_b_(b, options.height, options.volume),
           root_b_(tree_b_.root()),
           level_(thread_scratch().level),
           next_(thread_scratch().next),
@@ -75,7 +78,7 @@ public:
             options.grow + placement_rounding(a, root_a.box) + placement_rounding(b, root_b_.box);
         level_.clear();
         level_.nodes.push_back(root_b_);
-        if (boxes_meet(root_a.box, root_b_.box, margin_)) {
+        if (volumes_meet(root_a, root_b_, margin_, volume_)) {
             level_.lists.push_back(0);
         } else {
             ++pairs_rejected_;
@@ -153,7 +156,7 @@ private:
         for (std::size_t i = parent.list_begin; i < parent.list_end; ++i) {
             const Scratch::Halves halves = halves_[level_.lists[i]];
             for (std::uint32_t n = halves.begin; n < halves.begin + halves.count; ++n) {
-                if (boxes_meet(node.box, next_.nodes[n].box, margin_)) {
+                if (volumes_meet(node, next_.nodes[n], margin_, volume_)) {
                     next_.lists.push_back(n);
                 } else {
                     ++pairs_rejected_;
@@ -163,6 +166,7 @@ private:
         next_.candidates.push_back({node, list_begin, next_.lists.size()});
     }
 
+    BoundingVolume volume_;
     Hierarchy tree_a_;
     Hierarchy tree_b_;
     Node root_b_;
@@ -213,25 +217,49 @@ private:
 };
 
 /// Tells of settled chains whether they lie in B. Asked in order along A's boundary: the answer
-/// can change only where the boundaries may cross, so it is kept from one chain to the next.
+/// can change only where the boundaries may cross, so it is kept from one chain to the next. All
+/// that has to be found out is asked in a first walk and answered together, for the second.
 class SettledChains {
 public:
-    explicit SettledChains(const Descent& descent) : descent_(descent) {}
+    explicit SettledChains(const Descent& descent)
+        : descent_(descent), containment_(thread_scratch().containment) {
+        containment_.clear();
+    }
 
     /// A chain that may cross B's boundary lies before the next settled one.
     void forget() { known_ = false; }
 
-    bool inside(std::uint32_t ring, std::uint32_t first, const Box& box) {
-        if (!known_ || ring != ring_) {
-            inside_ = descent_.near_b(box) && contains(descent_.b(), descent_.a().vertex(first));
-            ring_ = ring;
-            known_ = true;
+    void ask(std::uint32_t ring, std::uint32_t first, const Box& box) {
+        if (is_new(ring) && descent_.near_b(box)) {
+            containment_.ask(descent_.a().vertex(first));
+        }
+    }
+
+    /// Between the two walks.
+    void answer() {
+        containment_.answer(descent_.b());
+        known_ = false;
+    }
+
+    bool inside(std::uint32_t ring, const Box& box) {
+        if (is_new(ring)) {
+            inside_ = descent_.near_b(box) && containment_.inside(asked_++);
         }
         return inside_;
     }
 
 private:
+    /// True where the chain before does not say it.
+    bool is_new(std::uint32_t ring) {
+        const bool is_new = !known_ || ring != ring_;
+        ring_ = ring;
+        known_ = true;
+        return is_new;
+    }
+
     const Descent& descent_;
+    geometry::Containment& containment_;
+    std::size_t asked_ = 0;
     std::uint32_t ring_ = 0;
     bool known_ = false;
     bool inside_ = false;
@@ -273,22 +301,27 @@ Effort chains_in_volume(const PlacedPolygon& a, const PlacedPolygon& b,
                         const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
     descent.run();
-    ChainWriter writer(a.polygon(), chains);
     SettledChains settled(descent);
-    for (const Candidate& candidate : descent.candidates()) {
-        if (!candidate.settled()) {
-            settled.forget();
-            for_each_part(candidate.node, a, [&](auto... part) { writer.append(part...); });
-        } else if (candidate.node.rings == 1 || descent.near_b(candidate.node.box)) {
-            for_each_part(
-                candidate.node, a,
-                [&](std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
-                    if (settled.inside(ring, first, box)) {
-                        writer.append(ring, first, count, box);
-                    }
-                });
+    const auto walk = [&](const auto& use_open, const auto& use_settled) {
+        for (const Candidate& candidate : descent.candidates()) {
+            if (!candidate.settled()) {
+                settled.forget();
+                for_each_part(candidate.node, a, use_open);
+            } else if (candidate.node.rings == 1 || descent.near_b(candidate.node.box)) {
+                for_each_part(candidate.node, a, use_settled);
+            }
         }
-    }
+    };
+    walk([](auto...) {}, [&](std::uint32_t ring, std::uint32_t first, std::uint32_t,
+                             const Box& box) { settled.ask(ring, first, box); });
+    settled.answer();
+    ChainWriter writer(a.polygon(), chains);
+    walk([&](auto... part) { writer.append(part...); },
+         [&](std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
+             if (settled.inside(ring, box)) {
+                 writer.append(ring, first, count, box);
+             }
+         });
     writer.finish_ring();
     return descent.effort();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/placed_polygon.hpp>
+#include <nearfield/localization.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -20,14 +21,21 @@ struct Chain {
 struct Effort {
     std::uint64_t nodes_evaluated = 0;  ///< bounding volumes computed
     std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found apart
+
+    Effort& operator+=(const Effort& other) {
+        nodes_evaluated += other.nodes_evaluated;
+        pairs_rejected += other.pairs_rejected;
+        return *this;
+    }
 };
 
 struct OverlapOptions {
     /// Maximum height of each tree: a ring has at most 2^height leaves. 0: top-level boxes only.
-    std::uint32_t height = 8;
+    std::uint32_t height = 12;
     /// The boxes of A are grown by this much on every side before they are held against those of
     /// B, world units.
     double grow = 0.0;
+    BoundingVolume volume = BoundingVolume::axis_aligned;
 };
 
 /// The parts of A's boundary that may lie inside B or within `grow` of B's boundary: every chain
@@ -47,8 +55,11 @@ Effort chains_near_boundary(const geometry::PlacedPolygon& a, const geometry::Pl
 
 /// True where the closed shapes share a point: boundaries meet (touching counts, and so does a gap
 /// that the rounding of the placed vertices can account for), or one shape holds the other. The
-/// same hierarchy, driven down to a few edges, with an early way out.
-[[nodiscard]] bool intersects(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b);
+/// same hierarchy, driven down to a few edges, with an early way out. Adds what it did to `effort`
+/// where that is given.
+[[nodiscard]] bool intersects(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+                              BoundingVolume volume = BoundingVolume::axis_aligned,
+                              Effort* effort = nullptr);
 
 /// Joins boxes into fewer: boxes that overlap always, others where the joint box is hardly larger
 /// than the two. Result: disjoint boxes that cover the given ones. In place.

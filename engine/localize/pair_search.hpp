@@ -6,8 +6,8 @@
 
 namespace nearfield::localize {
 
-/// Branch and bound over the pairs of nodes of two trees: the nearer pair first, and no pair whose
-/// boxes are farther apart than what was found so far.
+/// Branch and bound over the pairs of nodes of two trees of one kind of volume: the nearer pair
+/// first, and no pair whose boxes are farther apart than what was found so far.
 ///
 /// `Leaves` says what to do at the bottom:
 ///   double squared_bound()                      nothing farther apart than this matters any more
@@ -25,7 +25,7 @@ public:
 
 private:
     [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
-        return a_[a].box.squaredExteriorDistance(b_[b].box);
+        return squared_distance(a_[a], b_[b], a_.volume());
     }
 
     void visit(std::uint32_t a, std::uint32_t b, double squared) {

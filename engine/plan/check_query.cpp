@@ -120,4 +120,21 @@ Status check_resolution(double tolerance, double largest_magnitude) {
     return {};
 }
 
+Status check_deviations(double tolerance, const Deviations& deviations, double bound) {
+    const double together = deviations.a + deviations.b;
+    if (together <= most_deviation * tolerance && bound <= tolerance) {
+        return {};
+    }
+    const std::string shapes = "the shapes' rings may be off by " + number(deviations.a) +
+                               " (A) and " + number(deviations.b) + " (B), ";
+    if (together > most_deviation * tolerance) {
+        return invalid(shapes + "together more than " + number(most_deviation) +
+                       " of the tolerance " + number(tolerance) +
+                       "; tessellate finer, or ask for at least " +
+                       number(together / most_deviation));
+    }
+    return invalid(shapes + "which with what this device's raster needs is " + number(bound) +
+                   ", more than the tolerance " + number(tolerance) + "; tessellate finer");
+}
+
 }  // namespace nearfield::plan

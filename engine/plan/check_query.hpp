@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/placed_polygon.hpp>
+#include <engine/plan/error_budget.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
 
@@ -21,6 +22,10 @@ namespace nearfield::plan {
 
 /// A tolerance that double precision can resolve at these coordinates, or an error.
 [[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);
+
+/// Shapes whose deviations leave enough of the tolerance to the query, or an error. `bound`: what
+/// the query's budget comes to.
+[[nodiscard]] Status check_deviations(double tolerance, const Deviations& deviations, double bound);
 
 /// A number as text, with as few digits as tell it apart.
 [[nodiscard]] std::string number(double value);

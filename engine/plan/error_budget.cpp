@@ -18,20 +18,23 @@ constexpr double field_mesh_error = 0.125;
 
 }  // namespace
 
-ErrorBudget penetration_budget(const PenetrationQuery& query) {
+ErrorBudget penetration_budget(const PenetrationQuery& query, const Deviations& deviations) {
     const double d = query.tolerance;
     ErrorBudget budget = search_budget(d);
     // Depth changes by no more than the way along the boundary, and samples are at most a cell
     // apart on it; vertices are all looked at.
     const double sampling = query.points == PenetrationPoints::boundary ? budget.cell / 2.0 : 0.0;
-    budget.bound = sampling + float_rounding * d;
+    // Of the shape itself, a boundary point lies off A's rings and its depth off B's.
+    budget.tessellation = deviations.a + deviations.b;
+    budget.bound = sampling + float_rounding * d + budget.tessellation;
     return budget;
 }
 
-ErrorBudget contact_budget(double tolerance) {
+ErrorBudget contact_budget(double tolerance, const Deviations& deviations) {
     ErrorBudget budget = search_budget(tolerance);
     // As for penetration: distances change by no more than the way along the boundary.
-    budget.bound = budget.cell / 2.0 + float_rounding * tolerance;
+    budget.tessellation = deviations.a + deviations.b;
+    budget.bound = budget.cell / 2.0 + float_rounding * tolerance + budget.tessellation;
     return budget;
 }
 
@@ -43,28 +46,35 @@ ErrorBudget search_budget(double tolerance) {
     return budget;
 }
 
-ErrorBudget intersection_budget(const IntersectionQuery& query, geometry::SubpixelGrid grid) {
+ErrorBudget intersection_budget(const IntersectionQuery& query, geometry::SubpixelGrid grid,
+                                const Deviations& deviations) {
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.simplification = d / 16.0;
+    budget.tessellation = std::max(deviations.a, deviations.b);
+    const double left = d - budget.tessellation;
     // The snapping of the raster in units of half a cell's diagonal.
     const double snapping = grid.largest_move() * std::numbers::sqrt2;
     double half_diagonal = 0.0;
     if (query.kind == IntersectionKind::volume_volume) {
-        half_diagonal = (d - budget.simplification) / (1.0 + snapping);
+        half_diagonal = (left - budget.simplification) / (1.0 + snapping);
     } else {
-        // overreach * (half_diagonal + simplification) + 3 snapping + simplification = d
+        // The offset reaches the curves themselves, which the rings may be off:
+        // overreach * (half_diagonal + simplification + tessellation) + 3 snapping +
+        // simplification + tessellation = d
         const double overreach = geometry::offset_overreach;
-        half_diagonal =
-            (d - (1.0 + overreach) * budget.simplification) / (overreach + 3.0 * snapping);
+        half_diagonal = (left - overreach * (budget.simplification + budget.tessellation) -
+                         budget.simplification) /
+                        (overreach + 3.0 * snapping);
     }
     budget.cell = half_diagonal * std::numbers::sqrt2;
-    budget.offset = half_diagonal + budget.simplification;
+    budget.offset = half_diagonal + budget.simplification + budget.tessellation;
     budget.bound = d;
     return budget;
 }
 
-ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid grid) {
+ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid grid,
+                         const Deviations& deviations) {
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
@@ -74,8 +84,10 @@ ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid
     // simplified boundary, a feature that won although another is nearer by up to the error of the
     // mesh, the raster's snapping of that mesh and of the fill, and rounding.
     const double rest = budget.mesh + (2.0 * grid.largest_move() + float_rounding) * budget.cell;
-    budget.simplification = std::min(d / 4.0, 0.9 * (d - rest));
-    budget.bound = budget.simplification + rest;
+    budget.tessellation = deviations.b;
+    const double left = d - rest - budget.tessellation;
+    budget.simplification = std::clamp(0.9 * left, 0.0, d / 4.0);
+    budget.bound = budget.simplification + rest + budget.tessellation;
     return budget;
 }
 

@@ -10,6 +10,7 @@ inline constexpr double uniqueness_margin = 1e-3;
 
 /// How a query spends its tolerance d. Lengths in world units; derivations in docs/error_budget.md.
 struct ErrorBudget {
+    double tessellation = 0.0;    ///< what the deviations of the shapes add to the bound
     double cell = 0.0;            ///< side of a grid cell
     double simplification = 0.0;  ///< how far simplified chains may stray from the boundary
     double mesh = 0.0;            ///< error of the distance mesh
@@ -17,14 +18,23 @@ struct ErrorBudget {
     double bound = 0.0;           ///< what the result states; at most d
 };
 
-[[nodiscard]] ErrorBudget penetration_budget(const PenetrationQuery& query);
-/// Points of either boundary in the field of the other, for contacts. The bound is the sampling's.
-[[nodiscard]] ErrorBudget contact_budget(double tolerance);
+/// How far the rings of a query's shapes may be from the shapes they stand for, world units.
+struct Deviations {
+    double a = 0.0;
+    double b = 0.0;
+};
+
+[[nodiscard]] ErrorBudget penetration_budget(const PenetrationQuery& query,
+                                             const Deviations& deviations = {});
+/// Points of either boundary in the field of the other, for contacts. The bound is the sampling's
+/// and the tessellation's.
+[[nodiscard]] ErrorBudget contact_budget(double tolerance, const Deviations& deviations);
 /// Points that only narrow a search: the bound is left to the one who finishes it exactly.
 [[nodiscard]] ErrorBudget search_budget(double tolerance);
 [[nodiscard]] ErrorBudget intersection_budget(const IntersectionQuery& query,
-                                              geometry::SubpixelGrid grid);
-[[nodiscard]] ErrorBudget field_budget(const DistanceFieldQuery& query,
-                                       geometry::SubpixelGrid grid);
+                                              geometry::SubpixelGrid grid,
+                                              const Deviations& deviations = {});
+[[nodiscard]] ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid grid,
+                                       const Deviations& deviations = {});
 
 }  // namespace nearfield::plan

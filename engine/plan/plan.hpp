@@ -7,6 +7,7 @@
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/grid.hpp>
 #include <engine/plan/needed_blocks.hpp>
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 
 #include <cstdint>
@@ -60,6 +61,7 @@ struct PlannedQuery {
     const geometry::Polygon* b = nullptr;
     Pose pose_a;
     Pose pose_b;
+    Deviations deviations;  ///< of both shapes
     ErrorBudget budget;
     std::uint32_t first_point = 0;
     std::uint32_t point_count = 0;
@@ -73,6 +75,7 @@ struct PlannedQuery {
 struct Plan {
     /// By position in the batch; behind them the other directions of some.
     std::vector<PlannedQuery> queries;
+    BoundingVolume bounding_volume{};  ///< what hierarchies are made of
     std::vector<Tile> tiles;
     std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
     TileSize extent;                   ///< of the atlas

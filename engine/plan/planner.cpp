@@ -41,6 +41,7 @@ Result& reuse(AnyResult& any) {
     result.error_bound = 0.0;
     result.intersects = false;
     result.regions.clear();
+    result.localization = {};
     if constexpr (std::is_same_v<Result, PenetrationResult>) {
         result.count = 0;
         result.deepest = {};
@@ -85,6 +86,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                    std::vector<AnyResult>& results) {
     plan.clear();
     plan_ = &plan;
+    plan.bounding_volume = limits_.bounding_volume;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
@@ -111,6 +113,10 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                     result.status = unknown_shape("B", query.b.shape);
                 }
                 if (result.status.ok()) {
+                    // Of a distance field's A nothing but its box is used.
+                    constexpr bool of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
+                    planned.deviations = {of_b_alone ? 0.0 : planned.a->deviation(),
+                                          planned.b->deviation()};
                     add(query, result);
                 }
             },
@@ -137,6 +143,18 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
                        " needs up to " + number(std::ceil(plan_->result_bytes / 1048576.0)) +
                        " MiB, more than the limit of " + number(std::floor(limit / 1048576.0)) +
                        " MiB" + hint});
+}
+
+localize::OverlapOptions Planner::overlap_options(double grow) const {
+    return {limits_.hierarchy_height, grow, limits_.bounding_volume};
+}
+
+void Planner::count(const localize::Effort& effort, ResultSummary& result) const {
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    for (const localize::Chain& chain : chains_) {
+        result.localization.edges_kept += chain.count;
+    }
 }
 
 void Planner::join_chain_boxes(const Box& within, double grow) {
@@ -174,7 +192,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = intersection_budget(query, limits_.subpixel);
+    planned.budget = intersection_budget(query, limits_.subpixel, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     result.kind = query.kind;
@@ -189,6 +207,10 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     }
     const Box box_a = a.box();
     const Box box_b = b.box();
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
+    }
     result.status = check_resolution(query.tolerance,
                                      std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
     if (!result.status.ok()) {
@@ -202,8 +224,9 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     double grow = 0.0;
     if (query.kind == IntersectionKind::volume_volume) {
         // The boundary of the overlap is what lies of either boundary in the other volume.
-        localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
-        localize::chains_in_volume(b, a, {limits_.hierarchy_height, 0.0}, chains_);
+        localize::Effort effort = localize::chains_in_volume(a, b, overlap_options(0.0), chains_);
+        effort += localize::chains_in_volume(b, a, overlap_options(0.0), chains_);
+        count(effort, result);
         if (!chains_.empty()) {
             for (const localize::Chain& chain : chains_) {
                 chains_.front().box.extend(chain.box);
@@ -212,10 +235,10 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
         }
     } else if (query.kind == IntersectionKind::boundary_volume) {
         grow = bound;
-        localize::chains_in_volume(a, b, {limits_.hierarchy_height, grow}, chains_);
+        count(localize::chains_in_volume(a, b, overlap_options(grow), chains_), result);
     } else {
         grow = bound;
-        localize::chains_near_boundary(a, b, {limits_.hierarchy_height, 2.0 * grow}, chains_);
+        count(localize::chains_near_boundary(a, b, overlap_options(2.0 * grow), chains_), result);
     }
     if (grow > 0.0 && !chains_.empty()) {
         within = box_b;
@@ -240,7 +263,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
 
 void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = field_budget(query, limits_.subpixel);
+    planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     Box box;
@@ -258,6 +281,10 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
         }
         box.min().array() -= query.tolerance;
         box.max().array() += query.tolerance;
+    }
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
     }
     result.status = check_resolution(
         query.tolerance,

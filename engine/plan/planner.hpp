@@ -23,7 +23,8 @@ struct PlanLimits {
     std::uint32_t points_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
-    std::uint32_t hierarchy_height = 8;
+    std::uint32_t hierarchy_height = 12;
+    BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
     /// By strategy: what it needs and the device lacks.
     std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
 };
@@ -58,11 +59,14 @@ private:
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
     void add_closest_points(std::uint32_t index, ResultSummary& result);
 
-    void require_resolution(ResultSummary& result) const;
+    /// Whether deviations and coordinates leave room for the tolerance; if not, the result says so.
+    [[nodiscard]] bool check_numbers(ResultSummary& result) const;
     std::uint32_t add_reverse();
     void sample_boundary(const geometry::PlacedPolygon& polygon, const geometry::Box& within,
                          const ResultSummary& result);
     void spread_points(std::uint32_t index, const geometry::Box& within, ResultSummary& result);
+    [[nodiscard]] localize::OverlapOptions overlap_options(double grow) const;
+    void count(const localize::Effort& effort, ResultSummary& result) const;
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
     void require_sides(double tolerance) const;

@@ -27,31 +27,34 @@ Box grown(Box box, double by) {
 
 }  // namespace
 
-void Planner::require_resolution(ResultSummary& result) const {
+bool Planner::check_numbers(ResultSummary& result) const {
     const PlannedQuery& planned = plan_->queries[query_];
     const PlacedPolygon a(*planned.a, planned.pose_a);
     const PlacedPolygon b(*planned.b, planned.pose_b);
-    result.status = check_resolution(
-        result.tolerance,
-        std::max(largest_magnitude(a, planned.pose_a), largest_magnitude(b, planned.pose_b)));
+    result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
+    if (result.status.ok()) {
+        result.status = check_resolution(
+            result.tolerance,
+            std::max(largest_magnitude(a, planned.pose_a), largest_magnitude(b, planned.pose_b)));
+    }
+    return result.status.ok();
 }
 
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = penetration_budget(query);
+    planned.budget = penetration_budget(query, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
-    require_resolution(result);
-    if (!result.status.ok()) {
+    if (!check_numbers(result)) {
         return;
     }
 
     const Stopwatch start;
     const Box box_b = b.box();
     chains_.clear();
-    localize::chains_in_volume(a, b, {limits_.hierarchy_height, 0.0}, chains_);
+    count(localize::chains_in_volume(a, b, overlap_options(0.0), chains_), result);
     join_chain_boxes(box_b, 0.0);
     localize_milliseconds_ += start.milliseconds();
     if (chains_.empty()) {
@@ -72,6 +75,7 @@ std::uint32_t Planner::add_reverse() {
     PlannedQuery reverse = plan_->queries[query_];
     std::swap(reverse.a, reverse.b);
     std::swap(reverse.pose_a, reverse.pose_b);
+    std::swap(reverse.deviations.a, reverse.deviations.b);
     const auto index = static_cast<std::uint32_t>(plan_->queries.size());
     plan_->queries[query_].reverse = index;
     plan_->queries.push_back(reverse);
@@ -103,7 +107,7 @@ void Planner::add_contact_points(std::uint32_t index, double contact_distance,
     const Stopwatch start;
     const Box within = grown(b.box(), contact_distance);
     chains_.clear();
-    localize::chains_near_boundary(a, b, {limits_.hierarchy_height, contact_distance}, chains_);
+    count(localize::chains_near_boundary(a, b, overlap_options(contact_distance), chains_), result);
     join_chain_boxes(within, 0.0);
     localize_milliseconds_ += start.milliseconds();
     if (!chains_.empty()) {
@@ -114,12 +118,11 @@ void Planner::add_contact_points(std::uint32_t index, double contact_distance,
 
 void Planner::add(const ContactQuery& query, ContactResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = contact_budget(query.tolerance);
+    planned.budget = contact_budget(query.tolerance, planned.deviations);
     planned.outside = true;
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
-    require_resolution(result);
-    if (result.status.ok()) {
+    if (check_numbers(result)) {
         const std::uint32_t reverse = add_reverse();
         add_contact_points(query_, query.contact_distance, result);
         add_contact_points(reverse, query.contact_distance, result);
@@ -134,7 +137,7 @@ void Planner::add_closest_points(std::uint32_t index, ResultSummary& result) {
     // A little more than all of A, so that rounding drops no point.
     const Box everything = grown(a.box(), result.cell);
     chains_.clear();
-    closest_.find(a, b, limits_.hierarchy_height, chains_);
+    count(closest_.find(a, b, overlap_options(0.0), chains_), result);
     join_chain_boxes(everything, 0.0);
     localize_milliseconds_ += start.milliseconds();
     sample_boundary(a, everything, result);
@@ -154,13 +157,16 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     planned.budget = search_budget(tolerance);
     planned.outside = true;
     result.cell = planned.budget.cell;
-    require_resolution(result);
-    if (!result.status.ok()) {
+    if (!check_numbers(result)) {
         return;
     }
     const Stopwatch start;
+    localize::Effort effort;
     result.intersects = localize::intersects(PlacedPolygon(*planned.a, planned.pose_a),
-                                             PlacedPolygon(*planned.b, planned.pose_b));
+                                             PlacedPolygon(*planned.b, planned.pose_b),
+                                             limits_.bounding_volume, &effort);
+    chains_.clear();
+    count(effort, result);
     localize_milliseconds_ += start.milliseconds();
     if (result.intersects) {
         return;  // at distance 0: nothing to search for

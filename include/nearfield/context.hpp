@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/host.hpp>
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
@@ -25,7 +26,9 @@ struct Settings {
     std::uint64_t memory_limit = std::uint64_t{1} << 30U;
     /// Maximum height of the bounding-volume hierarchies that localise (section 2.1 of the paper):
     /// more is more work on the CPU and less on the device.
-    std::uint32_t hierarchy_height = 8;
+    std::uint32_t hierarchy_height = 12;
+    /// What these hierarchies are made of; docs/performance.md has the effect of both.
+    BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
 };
 
 /// What an intersection strategy would need of a device and the device lacks.
@@ -74,11 +77,17 @@ public:
 
     /// Copies the rings; refuses bad ones (invalid_shape). Needs no precomputation: a shape may be
     /// added in the frame it is used.
-    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings);
+    ///
+    /// `deviation`, in the units of the coordinates: how far the rings may be from the shape they
+    /// stand for, as tessellate() (curve.hpp) bounds it; 0 where the rings are the shape. It is
+    /// part of the error bound of every result that depends on the shape; a query whose shapes
+    /// together deviate by more than `most_deviation` of its tolerance is refused (invalid_query).
+    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings,
+                                                  double deviation = 0.0);
 
     /// Replaces all rings of a shape; the handle stays. Nothing is rebuilt, so deforming a shape
     /// every frame costs a copy. On error the shape keeps its former rings.
-    Status update_shape(ShapeHandle shape, std::span<const Ring> rings);
+    Status update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation = 0.0);
 
     /// Forgets a shape. Its handle stays unknown for good.
     Status remove_shape(ShapeHandle shape);

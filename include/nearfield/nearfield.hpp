@@ -4,7 +4,9 @@
 /// The whole public interface of nearfield.
 
 #include <nearfield/context.hpp>
+#include <nearfield/curve.hpp>
 #include <nearfield/host.hpp>
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>

@@ -14,6 +14,10 @@
 
 namespace nearfield {
 
+/// The part of a query's tolerance that the deviations of its shapes (Context::add_shape) may take
+/// up, together; a query where they take more is refused.
+inline constexpr double most_deviation = 0.25;
+
 /// Which points of A a penetration query looks at.
 enum class PenetrationPoints {
     boundary,  ///< samples along A's boundary, consecutive ones at most one cell (d * sqrt 2) apart

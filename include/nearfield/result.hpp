@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -29,11 +30,13 @@ struct ResultSummary {
     Status status;             ///< of this query alone; the rest is meaningful only where it is ok
     double tolerance = 0.0;    ///< d as asked
     double error_bound = 0.0;  ///< what the result's own description says it bounds; at most d
-    /// The closed shapes share a point; containment and touching count. False for a distance field
-    /// without a shape A.
+    /// The closed shapes share a point; containment and touching count. Said of the rings as given:
+    /// shapes with a deviation can do the opposite where they are no farther apart, or no deeper in
+    /// each other, than their deviations together. False for a distance field without a shape A.
     bool intersects = false;
     double cell = 0.0;  ///< side of a grid cell
     std::vector<Region> regions;
+    LocalizationStatistics localization;
 };
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
@@ -63,7 +66,9 @@ struct PenetrationRecord {
 /// Each record's numbers are computed in double precision from the vertices as given. Which feature
 /// is nearest is decided in single precision in grid cells: where two are equally near to within
 /// d/1000, either may be named. `error_bound` bounds how much deeper than `deepest` any point of
-/// A's boundary can be (any vertex, for PenetrationPoints::vertices).
+/// A's boundary can be (any vertex, for PenetrationPoints::vertices). Where shapes have a deviation
+/// it bounds too how much less deep any boundary point of the shapes themselves can have to be, and
+/// a record's depth is off by at most the deviation of B at a point that is off by that of A.
 struct PenetrationResult : ResultSummary {
     std::uint32_t count = 0;                 ///< penetrating points found
     PenetrationRecord deepest;               ///< meaningful where count > 0

@@ -54,6 +54,9 @@ double expect_common_part(const Json& json, const std::string& query, double tol
     EXPECT_NE(json.at("device"), "");
     EXPECT_EQ(json.at("technique"), "raster");
     expect_times(json.at("timings_ms"));
+    for (const char* const count : {"nodes_evaluated", "pairs_rejected", "edges_kept"}) {
+        EXPECT_TRUE(json.at("localization").at(count).is_number_unsigned()) << count;
+    }
     EXPECT_TRUE(json.at("regions").is_array());
     for (const Json& region : json.at("regions")) {
         const double side = side_of_cells(region);

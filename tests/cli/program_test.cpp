@@ -77,5 +77,21 @@ TEST_F(Device, TheTechniquesOfThisVersionAgree) {
     }
 }
 
+class LocalizationOptions : public CliTest {};
+
+TEST_F(LocalizationOptions, AreCountedInTheAnswer) {
+    const Arguments query =
+        squares("penetration") + Arguments{"-d", "0.1", "--pose-b", "0.5,0.5,0"};
+    const Json usual = answer(query);
+    const Json flat = answer(query + Arguments{"--height", "0", "--boxes", "oriented"});
+    ASSERT_FALSE(usual.is_null() || flat.is_null());
+    EXPECT_EQ(flat.at("localization").at("nodes_evaluated"), 2);
+    EXPECT_EQ(flat.at("localization").at("edges_kept"), 4);
+    EXPECT_GT(usual.at("localization").at("nodes_evaluated"), 2);
+    EXPECT_EQ(flat.at("deepest").at("depth"), usual.at("deepest").at("depth"));
+    expect_refused(query + Arguments{"--boxes", "round"}, {"--boxes", "round", "oriented"});
+    expect_refused(query + Arguments{"--height", "33"}, {"--height"});
+}
+
 }  // namespace
 }  // namespace nearfield::test

@@ -39,7 +39,10 @@ TEST(ClosestChains, HoldTheClosestEdgesAtEveryHeight) {
     std::size_t edges_in_all = 0;
     for (const auto& first : shapes) {
         for (const auto& second : shapes) {
-            for (const std::uint32_t height : {0U, 2U, 5U, 12U}) {
+            for (const std::uint32_t height : {0U, 1U, 2U, 5U, 12U}) {
+                // Every other height by oriented boxes.
+                const auto volume =
+                    height % 2 == 0 ? BoundingVolume::axis_aligned : BoundingVolume::oriented;
                 SCOPED_TRACE(first.name + " and " + second.name + ", height " +
                              std::to_string(height));
                 const Polygon polygon_a = samples::polygon(first.rings);
@@ -49,7 +52,7 @@ TEST(ClosestChains, HoldTheClosestEdgesAtEveryHeight) {
                 const std::vector<double> distances = edge_distances(a, b);
                 const double least = *std::min_element(distances.begin(), distances.end());
                 std::vector<Chain> chains;
-                closest.find(a, b, height, chains);
+                closest.find(a, b, {height, 0.0, volume}, chains);
                 EXPECT_GE(closest.upper_bound(), least);
                 std::vector<bool> kept(a.polygon().size(), false);
                 std::uint32_t last = 0;
@@ -81,7 +84,7 @@ TEST(ClosestChains, LookOnlyWhereTheClosestCanBe) {
     const PlacedPolygon b(polygon_b, {{5.0, 0.0}, 1.0});
     ClosestChains closest;
     std::vector<Chain> chains;
-    const Effort effort = closest.find(a, b, 12, chains);
+    const Effort effort = closest.find(a, b, {12, 0.0, BoundingVolume::axis_aligned}, chains);
     EXPECT_LT(effort.nodes_evaluated, 1500U) << "of 16382 that there are";
     EXPECT_GT(effort.pairs_rejected, 0U);
 }

@@ -66,6 +66,8 @@ TEST(Intersects, AgreesWithBruteForce) {
                     shape_a.name + " and " + shape_b.name + ", round " + std::to_string(round);
                 EXPECT_EQ(intersects(placed_a, placed_b), expected) << what;
                 EXPECT_EQ(intersects(placed_b, placed_a), expected) << what << ", swapped";
+                EXPECT_EQ(intersects(placed_a, placed_b, BoundingVolume::oriented), expected)
+                    << what << ", oriented";
             }
         }
     }
@@ -81,6 +83,7 @@ bool intersect(const samples::Rings& rings_a, const samples::Rings& rings_b,
     const PlacedPolygon placed_b(b, pose_b);
     const bool answer = intersects(placed_a, placed_b);
     EXPECT_EQ(intersects(placed_b, placed_a), answer);
+    EXPECT_EQ(intersects(placed_a, placed_b, BoundingVolume::oriented), answer);
     return answer;
 }
 
@@ -104,9 +107,11 @@ TEST(Intersects, TouchingCountsWhereRoundingBlursIt) {
         const double angle = random.between(0.0, 6.0);
         const Vector2 at{scale * random.between(-9.0, 9.0), scale * random.between(-9.0, 9.0)};
         const Vector2 beside{at.x + side * std::cos(angle), at.y + side * std::sin(angle)};
-        EXPECT_TRUE(intersects(PlacedPolygon(polygon, {at, angle}),
-                               PlacedPolygon(polygon, {beside, angle})))
-            << round;
+        for (const auto volume : {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
+            EXPECT_TRUE(intersects(PlacedPolygon(polygon, {at, angle}),
+                                   PlacedPolygon(polygon, {beside, angle}), volume))
+                << round;
+        }
         const double gap = side + 1e-12 * scale;
         const Vector2 off{at.x + gap * std::cos(angle), at.y + gap * std::sin(angle)};
         EXPECT_FALSE(
@@ -149,6 +154,7 @@ TEST(Intersects, InterlockedCombsThatDoNotTouch) {
             const PlacedPolygon b(comb, {{to.x(), to.y()}, turn + std::numbers::pi});
             EXPECT_EQ(intersects(a, b), intersect_by_force(a, b)) << turn << ", " << touching;
             EXPECT_EQ(intersects(a, b), touching) << turn;
+            EXPECT_EQ(intersects(a, b, BoundingVolume::oriented), touching) << turn;
         }
     }
 }

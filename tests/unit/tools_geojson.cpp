@@ -34,6 +34,25 @@ TEST(ToolsGeojson, ReadsEveryKindThatHoldsPolygons) {
         parse_geojson(
             R"({"type": "FeatureCollection", "features": [)" + feature + "," + feature + "]}", "f"),
         two);
+    const std::string collection = R"({"type": "GeometryCollection", "geometries": [)" +
+                                   polygon(triangle) + "," + polygon(triangle) + "]}";
+    EXPECT_EQ(parse_geojson(collection, "f"), two);
+    const std::string nested =
+        R"({"type": "GeometryCollection", "geometries": [)" + collection + "]}";
+    EXPECT_EQ(parse_geojson(R"({"type": "Feature", "geometry": )" + nested + "}", "f"), two);
+}
+
+TEST(ToolsGeojson, CollectionsNameWhatIsWrongInThem) {
+    EXPECT_EQ(error_of(R"({"type": "GeometryCollection", "geometries": []})"),
+              "a.geojson: geometries: a GeometryCollection without geometries");
+    EXPECT_EQ(error_of(R"({"type": "GeometryCollection", "geometries": [{"type": "Point"}]})"),
+              "a.geojson: geometries[0].type: \"Point\" is none of Polygon, MultiPolygon, "
+              "GeometryCollection");
+    std::string nested = polygon(triangle);
+    for (int i = 0; i < 70; ++i) {
+        nested = R"({"type": "GeometryCollection", "geometries": [)" + nested + "]}";
+    }
+    EXPECT_NE(error_of(nested).find("collections nested too deep"), std::string::npos);
 }
 
 TEST(ToolsGeojson, KeepsHolesOpenRingsAndEveryDigitAndDropsHeights) {
@@ -66,8 +85,9 @@ TEST(ToolsGeojson, StructureErrorsNameTheFileAndThePlace) {
     EXPECT_EQ(error_of("[1, 2]"), "a.geojson: not an object but an array");
     EXPECT_EQ(error_of(R"({"type": "Feature", "geometry": null})"),
               "a.geojson: geometry: not an object but null");
-    EXPECT_EQ(error_of(R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})"),
-              "a.geojson: type: \"LineString\" is neither Polygon nor MultiPolygon");
+    EXPECT_EQ(
+        error_of(R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})"),
+        "a.geojson: type: \"LineString\" is none of Polygon, MultiPolygon, GeometryCollection");
     EXPECT_EQ(error_of(R"({"type": "FeatureCollection", "features": []})"),
               "a.geojson: features: a FeatureCollection without features");
     EXPECT_EQ(error_of(R"({"type": "FeatureCollection", "features": [{"type": "Feature",

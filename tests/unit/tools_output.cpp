@@ -34,6 +34,7 @@ void fill_summary(ResultSummary& summary) {
     summary.intersects = true;
     summary.cell = 0.1 * std::sqrt(2.0);
     summary.regions = {{{-1, 2}, {3, 4.5}, 40, 25}};
+    summary.localization = {7, 5, 3};
 }
 
 TEST(ToolsJson, PenetrationHasTheKeysOfTheContract) {
@@ -61,7 +62,9 @@ TEST(ToolsJson, PenetrationHasTheKeysOfTheContract) {
               json::parse(R"([{"point": [0.1, 0.2], "depth": 0.3, "direction": [0.6, 0.8],
                      "nearest": [0.28, 0.44], "feature": {"vertex": 7}, "unique": false}])"));
     EXPECT_EQ(answer["cell"], 0.1 * std::sqrt(2.0));
-    EXPECT_EQ(answer.size(), 12U);
+    EXPECT_EQ(answer["localization"],
+              json({{"nodes_evaluated", 7}, {"pairs_rejected", 5}, {"edges_kept", 3}}));
+    EXPECT_EQ(answer.size(), 13U);
 }
 
 TEST(ToolsJson, NothingFoundIsNullAndEmpty) {

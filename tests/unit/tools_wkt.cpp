@@ -70,10 +70,10 @@ TEST(ToolsOutline, ExtensionAndContentSayWhatAFileIs) {
     const std::string wkt = "POLYGON((0 0, 4 0, 0 3))";
     const std::vector<Ring> triangle{{{0, 0}, {4, 0}, {0, 3}}};
     const std::string mark = "\xEF\xBB\xBF";
-    EXPECT_EQ(read_outline(folder.write("a.GeoJSON", mark + json)), triangle);
-    EXPECT_EQ(read_outline(folder.write("a.wkt", mark + wkt)), triangle);
-    EXPECT_EQ(read_outline(folder.write("json.txt", " \n" + json)), triangle);
-    EXPECT_EQ(read_outline(folder.write("wkt", wkt)), triangle);
+    EXPECT_EQ(read_outline(folder.write("a.GeoJSON", mark + json)).rings, triangle);
+    EXPECT_EQ(read_outline(folder.write("a.wkt", mark + wkt)).rings, triangle);
+    EXPECT_EQ(read_outline(folder.write("json.txt", " \n" + json)).rings, triangle);
+    EXPECT_EQ(read_outline(folder.write("wkt", wkt)).rings, triangle);
 }
 
 TEST(ToolsOutline, FilesThatCannotBeReadAreNamed) {
@@ -89,7 +89,8 @@ TEST(ToolsOutline, FilesThatCannotBeReadAreNamed) {
     const std::string binary = folder.write("binary", std::string("PK\x03\x04\0\x01", 6));
     EXPECT_EQ(error(binary), binary + ": is not text: a zero byte at offset 4");
     const std::string other = folder.write("other", "\x89PNG");
-    EXPECT_EQ(error(other), other + ":1:1: neither GeoJSON nor well-known text");
+    EXPECT_EQ(error(other),
+              other + ":1:1: neither GeoJSON, well-known text, SVG nor SVG path data");
 }
 
 }  // namespace

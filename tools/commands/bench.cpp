@@ -132,6 +132,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->add_option("--technique", arguments.technique,
                      "raster or automatic; default automatic, which is raster in this version")
         ->type_name("NAME");
+    add_localization_options(*command, arguments.localization);
     command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
         ->type_name("COUNT")
         ->check(CLI::Range(1U, 1'000'000U));
@@ -152,12 +153,13 @@ void run_bench(const BenchArguments& arguments) {
     if (arguments.technique) {
         check_technique(*arguments.technique, "--technique");
     }
+    const Settings settings = parse_settings(arguments.localization);
     const Scene scene = read_scene(arguments.scene);
     if (scene.queries.empty()) {
         throw InputError(arguments.scene + ": queries: there is none to measure");
     }
     ReportTarget report(arguments.json);
-    Context context = take(Context::create_headless());
+    Context context = take(Context::create_headless({}, settings));
     SceneRunner runner(scene, arguments.scene, context);
     const Measurement measurement = measure(runner, arguments);
     if (std::ostream* json = report.json()) {

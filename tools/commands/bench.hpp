@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <tools/commands/localization_options.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@ namespace nearfield::tools {
 struct BenchArguments {
     std::string scene;
     std::optional<std::string> technique;
+    LocalizationArguments localization;
     std::optional<std::string> json;
     std::uint32_t frames = 50;
     std::uint32_t warm_up = 5;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -26,6 +27,7 @@ namespace {
 struct PlacedOutline {
     std::string file;
     std::vector<Ring> rings;
+    double deviation = 0.0;
     Pose pose;
 };
 
@@ -75,14 +77,30 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     return request;
 }
 
-PlacedOutline read_placed(const std::string& file, const std::optional<std::string>& pose,
-                          const std::string& option) {
-    PlacedOutline outline{file, {}, {}};
+PlacedOutline place(const Outline& outline, double deviation,
+                    const std::optional<std::string>& pose, const std::string& option) {
+    PlacedOutline placed;
+    placed.file = outline.file;
     if (pose) {
-        outline.pose = parse_pose(*pose, option);
+        placed.pose = parse_pose(*pose, option);
     }
-    outline.rings = read_outline(file);
-    return outline;
+    OutlineRings rings = tessellate_outline(outline, deviation);
+    placed.rings = std::move(rings.rings);
+    placed.deviation = rings.deviation;
+    return placed;
+}
+
+/// How far tessellation may be off the curves of A and B, each.
+double parse_deviation(const QueryArguments& arguments, const QueryRequest& request,
+                       const Outline& a, const Outline& b) {
+    if (!arguments.deviation) {
+        return usual_deviation * request.tolerance;
+    }
+    const double deviation = parse_positive(*arguments.deviation, "--deviation");
+    if (!a.curved() && !b.curved()) {
+        throw InputError("--deviation: neither A nor B has curves");
+    }
+    return deviation;
 }
 
 /// No output may take the place of an input or of another output. Pipes and terminals may be
@@ -135,16 +153,18 @@ DistanceFieldQuery background_query(const Rectangle& detail, const Instance& b) 
 }
 
 std::string draw_answer(Context& context, const Answer& answer, const PlacedOutline& a,
-                        const PlacedOutline& b, const Instance& instance_b) {
+                        const PlacedOutline& b) {
     Figure figure{answer, figure_shape(a), figure_shape(b)};
     Results background;
     if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
         figure.field = field;
     } else if (answer.request.type == QueryType::penetration ||
                answer.request.type == QueryType::contacts) {
+        // Drawn are B's rings as they are: a field so fine need not be that of the curves.
+        const Instance drawn{take(context.add_shape(b.rings), b.file), b.pose};
         Batch batch;
         const auto handle =
-            batch.add(background_query(detail_rectangle(answer, figure.a, figure.b), instance_b));
+            batch.add(background_query(detail_rectangle(answer, figure.a, figure.b), drawn));
         require(context.run(batch, background), "the field of the picture");
         require(background[handle].status, "the field of the picture");
         figure.field = &background[handle];
@@ -167,12 +187,20 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "separation: the least distance between A and B, and where it is")
         ->required()
         ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
-    command->add_option("A", arguments.file_a, "Outline A: GeoJSON or WKT file")->required();
-    command->add_option("B", arguments.file_b, "Outline B: GeoJSON or WKT file")->required();
+    command->add_option("A", arguments.file_a, "Outline A: GeoJSON, WKT, SVG or SVG path data file")
+        ->required();
+    command->add_option("B", arguments.file_b, "Outline B: GeoJSON, WKT, SVG or SVG path data file")
+        ->required();
     command
         ->add_option("-d", arguments.tolerance,
                      "Tolerance, world units, > 0: half the diagonal of a grid cell; required")
         ->type_name("TOLERANCE");
+    command
+        ->add_option("--deviation", arguments.deviation,
+                     "Of SVG: how far the polygons that stand for curves may be from them, world "
+                     "units; A's and B's together at most a quarter of the tolerance; default a "
+                     "sixteenth of it each")
+        ->type_name("DEVIATION");
     command
         ->add_option("--pose-a", arguments.pose_a,
                      "Where A stands: turned counter-clockwise by degrees about its origin, then "
@@ -215,6 +243,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "Of distance-field: what the grid covers, world units; default the common box "
                      "of A and B grown by the tolerance")
         ->type_name("X0,Y0,X1,Y1");
+    add_localization_options(*command, arguments.localization);
     command
         ->add_option("--json", arguments.json,
                      "Write the answer as JSON; - for the standard output, the summary then goes "
@@ -234,8 +263,12 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
 
 void run_query(const QueryArguments& arguments) {
     const QueryRequest request = parse_request(arguments);
-    const PlacedOutline a = read_placed(arguments.file_a, arguments.pose_a, "--pose-a");
-    const PlacedOutline b = read_placed(arguments.file_b, arguments.pose_b, "--pose-b");
+    const Settings settings = parse_settings(arguments.localization);
+    const Outline outline_a = read_outline(arguments.file_a);
+    const Outline outline_b = read_outline(arguments.file_b);
+    const double deviation = parse_deviation(arguments, request, outline_a, outline_b);
+    const PlacedOutline a = place(outline_a, deviation, arguments.pose_a, "--pose-a");
+    const PlacedOutline b = place(outline_b, deviation, arguments.pose_b, "--pose-b");
     require_different_files(arguments);
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;
@@ -247,9 +280,9 @@ void run_query(const QueryArguments& arguments) {
         field.emplace(*arguments.field);
     }
 
-    Context context = take(Context::create_headless());
-    const Instance instance_a{take(context.add_shape(a.rings), a.file), a.pose};
-    const Instance instance_b{take(context.add_shape(b.rings), b.file), b.pose};
+    Context context = take(Context::create_headless({}, settings));
+    const Instance instance_a{take(context.add_shape(a.rings, a.deviation), a.file), a.pose};
+    const Instance instance_b{take(context.add_shape(b.rings, b.deviation), b.file), b.pose};
     Batch batch;
     add_query(batch, request, instance_a, instance_b);
     Results results;
@@ -258,7 +291,7 @@ void run_query(const QueryArguments& arguments) {
 
     const Answer answer{request, results.results.front(), results.timings, context.device_name()};
     if (image) {
-        image->stream() << draw_answer(context, answer, a, b, instance_b);
+        image->stream() << draw_answer(context, answer, a, b);
         image->commit();
     }
     if (field) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <tools/commands/localization_options.hpp>
 
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ struct QueryArguments {
     std::string file_a;
     std::string file_b;
     std::optional<std::string> tolerance;
+    std::optional<std::string> deviation;
     std::optional<std::string> pose_a;
     std::optional<std::string> pose_b;
     std::optional<std::string> technique;
@@ -20,6 +22,7 @@ struct QueryArguments {
     std::optional<std::string> kind;
     std::optional<std::string> points;
     std::optional<std::string> rectangle;
+    LocalizationArguments localization;
     std::optional<std::string> json;
     std::optional<std::string> image;
     std::optional<std::string> field;

@@ -12,7 +12,7 @@ namespace nearfield::tools {
 SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
     : scene_(scene), file_(std::move(file)), context_(context) {
     for (const SceneShape& shape : scene_.shapes) {
-        shapes_.push_back(take(context_.add_shape(shape.rings), place_of(shape)));
+        shapes_.push_back(take(context_.add_shape(shape.rings, shape.deviation), place_of(shape)));
     }
     for (const SceneInstance& instance : scene_.instances) {
         instances_.push_back({shapes_[instance.shape], instance.pose});
@@ -23,7 +23,8 @@ double SceneRunner::run_frame() {
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t index = 0; index < shapes_.size(); ++index) {
         const SceneShape& shape = scene_.shapes[index];
-        if (const Status status = context_.update_shape(shapes_[index], shape.rings);
+        if (const Status status =
+                context_.update_shape(shapes_[index], shape.rings, shape.deviation);
             !status.ok()) {
             require(status, place_of(shape));
         }

@@ -48,14 +48,29 @@ void append_multi_polygon(const JsonPlace& coordinates, std::vector<Ring>& rings
     }
 }
 
-void append_geometry(const JsonPlace& geometry, std::vector<Ring>& rings) {
+/// Collections nest no deeper: untrusted input must not exhaust the stack.
+constexpr int deepest_collection = 64;
+
+void append_geometry(const JsonPlace& geometry, std::vector<Ring>& rings, int depth = 0) {
     const JsonPlace type = geometry.member("type");
     if (type.string() == "Polygon") {
         append_rings(geometry.member("coordinates"), rings);
     } else if (type.string() == "MultiPolygon") {
         append_multi_polygon(geometry.member("coordinates"), rings);
+    } else if (type.string() == "GeometryCollection") {
+        const JsonPlace geometries = geometry.member("geometries");
+        const std::size_t count = geometries.require_array().value().size();
+        if (count == 0) {
+            geometries.fail("a GeometryCollection without geometries");
+        }
+        if (depth == deepest_collection) {
+            type.fail("collections nested too deep");
+        }
+        for (std::size_t index = 0; index < count; ++index) {
+            append_geometry(geometries.element(index), rings, depth + 1);
+        }
     } else {
-        type.fail("\"" + type.string() + "\" is neither Polygon nor MultiPolygon");
+        type.fail("\"" + type.string() + "\" is none of Polygon, MultiPolygon, GeometryCollection");
     }
 }
 

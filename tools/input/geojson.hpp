@@ -9,9 +9,9 @@
 
 namespace nearfield::tools {
 
-/// The rings of GeoJSON: a Polygon or MultiPolygon, a Feature of one, or a FeatureCollection whose
-/// polygons together are one shape. Coordinates are planar; those beyond x and y are ignored.
-/// `file` is for the messages of InputError.
+/// The rings of GeoJSON: a Polygon or MultiPolygon, a GeometryCollection of them, a Feature of one,
+/// or a FeatureCollection. All polygons of a collection together are one shape. Coordinates are
+/// planar; those beyond x and y are ignored. `file` is for the messages of InputError.
 [[nodiscard]] std::vector<Ring> parse_geojson(const std::string& text, const std::string& file);
 
 /// The rings of one array of rings, [[[x, y], ...], ...], as a GeoJSON Polygon and a scene have it.

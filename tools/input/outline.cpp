@@ -1,11 +1,15 @@
+#include <tools/input/characters.hpp>
 #include <tools/input/geojson.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/outline.hpp>
+#include <tools/input/svg.hpp>
+#include <tools/input/svg_path.hpp>
 #include <tools/input/text_file.hpp>
 #include <tools/input/wkt.hpp>
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -20,23 +24,59 @@ std::string lower_case_extension(const std::string& path) {
 
 }  // namespace
 
-std::vector<Ring> read_outline(const std::string& path) {
+bool Outline::curved() const {
+    return std::any_of(path.contours().begin(), path.contours().end(), [](const auto& contour) {
+        return std::any_of(
+            contour.segments.begin(), contour.segments.end(),
+            [](const auto& segment) { return segment.kind != CurveSegment::Kind::line; });
+    });
+}
+
+Outline read_outline(const std::string& path) {
     const std::string text = read_text(path);
     const std::string extension = lower_case_extension(path);
     if (extension == ".geojson" || extension == ".json") {
-        return parse_geojson(text, path);
+        return {path, parse_geojson(text, path), {}};
     }
     if (extension == ".wkt") {
-        return parse_wkt(text, path);
+        return {path, parse_wkt(text, path), {}};
     }
-    const char first = text[text.find_first_not_of(" \t\r\n")];
+    if (extension == ".svg") {
+        return {path, {}, parse_svg(text, path)};
+    }
+    if (extension == ".path") {
+        return {path, {}, parse_path_file(text, path)};
+    }
+    const std::size_t start = text.find_first_not_of(" \t\r\n");
+    const char first = text[start];
     if (first == '{') {
-        return parse_geojson(text, path);
+        return {path, parse_geojson(text, path), {}};
     }
-    if ((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z')) {
-        return parse_wkt(text, path);
+    if (first == '<') {
+        return {path, {}, parse_svg(text, path)};
     }
-    throw InputError(path + ":1:1: neither GeoJSON nor well-known text");
+    // Path data begins with a move; MULTIPOLYGON does not, since a number follows a move.
+    const bool word = start + 1 < text.size() && is_letter(text[start + 1]);
+    if ((first == 'M' || first == 'm') && !word) {
+        return {path, {}, parse_path_file(text, path)};
+    }
+    if (is_letter(first)) {
+        return {path, parse_wkt(text, path), {}};
+    }
+    throw InputError(path + ":1:1: neither GeoJSON, well-known text, SVG nor SVG path data");
+}
+
+OutlineRings tessellate_outline(const Outline& outline, double deviation) {
+    if (!outline.rings.empty()) {
+        return {outline.rings, 0.0};
+    }
+    const bool curved = outline.curved();
+    Expected<std::vector<Ring>> rings =
+        tessellate(outline.path, curved ? deviation : largest_coordinate);
+    if (!rings.ok()) {
+        throw InputError(outline.file + ": " + rings.status().message());
+    }
+    return {std::move(*rings), curved ? deviation : 0.0};
 }
 
 }  // namespace nearfield::tools

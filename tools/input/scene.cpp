@@ -6,9 +6,12 @@
 #include <tools/input/values.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <string_view>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -34,19 +37,48 @@ std::vector<double> numbers(const JsonPlace& place, std::size_t count, const std
     return numbers;
 }
 
-SceneShape read_shape(const std::string& name, const JsonPlace& place) {
-    require_known_members(place, {"file", "rings"});
+double read_above_zero(const JsonPlace& place) {
+    const double number = place.number();
+    if (!(number > 0.0)) {
+        place.fail("expected a number greater than 0");
+    }
+    return number;
+}
+
+Outline read_shape(const JsonPlace& place) {
+    require_known_members(place, {"file", "rings", "deviation"});
     if (place.has("file") == place.has("rings")) {
         place.fail("needs either \"file\" or \"rings\"");
     }
-    SceneShape shape{name, {}};
+    Outline outline;
     if (place.has("rings")) {
-        append_rings(place.member("rings"), shape.rings);
+        append_rings(place.member("rings"), outline.rings);
     } else {
         const std::filesystem::path folder = std::filesystem::path(place.file()).parent_path();
-        shape.rings = read_outline((folder / place.member("file").string()).string());
+        outline = read_outline((folder / place.member("file").string()).string());
     }
-    return shape;
+    if (place.has("deviation") && !outline.curved()) {
+        place.member("deviation").fail("the shape has no curves");
+    }
+    return outline;
+}
+
+/// How far the rings of a shape may be off its curves: as it says, or by the tolerances of the
+/// queries it is in.
+double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& scene) {
+    if (place.has("deviation")) {
+        return read_above_zero(place.member("deviation"));
+    }
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const SceneQuery& query : scene.queries) {
+        if (scene.instances[query.a].shape == shape || scene.instances[query.b].shape == shape) {
+            smallest = std::min(smallest, query.request.tolerance);
+        }
+    }
+    if (!std::isfinite(smallest)) {
+        place.fail("has curves and is in no query; needs \"deviation\"");
+    }
+    return usual_deviation * smallest;
 }
 
 /// The index of the entry that has the name standing at a place.
@@ -75,14 +107,6 @@ SceneInstance read_instance(const std::string& name, const JsonPlace& place, con
     return instance;
 }
 
-double read_positive(const JsonPlace& place) {
-    const double number = place.number();
-    if (!(number > 0.0)) {
-        place.fail("expected a number greater than 0");
-    }
-    return number;
-}
-
 Rectangle read_rectangle(const JsonPlace& place) {
     const std::vector<double> corners = numbers(place, 4, "[x0, y0, x1, y1] (four numbers)");
     if (!(corners[0] < corners[2] && corners[1] < corners[3])) {
@@ -101,7 +125,7 @@ auto parse_member(const JsonPlace& place, const std::string& key, Parse parse) {
 QueryRequest read_request(const JsonPlace& place) {
     QueryRequest request;
     request.type = parse_member(place, "query", parse_query_type);
-    request.tolerance = read_positive(place.member("tolerance"));
+    request.tolerance = read_above_zero(place.member("tolerance"));
     if (place.has("technique")) {
         parse_member(place, "technique", check_technique);
     }
@@ -138,7 +162,7 @@ QueryRequest read_request(const JsonPlace& place) {
                 place, {"query", "a", "b", "tolerance", "pairs", "reach", "technique", "strategy",
                         "records", "contact_distance", "normals"});
             if (place.has("contact_distance")) {
-                request.contact_distance = read_positive(place.member("contact_distance"));
+                request.contact_distance = read_above_zero(place.member("contact_distance"));
             }
             if (place.has("normals")) {
                 request.normals = parse_member(place, "normals", parse_normals);
@@ -169,7 +193,7 @@ void read_pairs(const JsonPlace& place, SceneQuery& query) {
     }
     query.all_pairs = true;
     if (query.request.type == QueryType::separation) {
-        query.reach = read_positive(place.member("reach"));
+        query.reach = read_above_zero(place.member("reach"));
     }
 }
 
@@ -194,14 +218,24 @@ Scene read_scene(const std::string& path) {
     const JsonPlace instances = root.member("instances");
     const JsonPlace queries = root.member("queries");
     Scene scene;
+    std::vector<Outline> outlines;
     for (const auto& [name, value] : shapes.require_object().value().items()) {
-        scene.shapes.push_back(read_shape(name, shapes.member(name)));
+        outlines.push_back(read_shape(shapes.member(name)));
+        scene.shapes.push_back({name, {}, 0.0});
     }
     for (const auto& [name, value] : instances.require_object().value().items()) {
         scene.instances.push_back(read_instance(name, instances.member(name), scene));
     }
     for (std::size_t index = 0; index < queries.require_array().value().size(); ++index) {
         scene.queries.push_back(read_query(queries.element(index), scene));
+    }
+    for (std::size_t index = 0; index < outlines.size(); ++index) {
+        const JsonPlace place = shapes.member(scene.shapes[index].name);
+        const double deviation =
+            outlines[index].curved() ? shape_deviation(place, index, scene) : 0.0;
+        OutlineRings rings = tessellate_outline(outlines[index], deviation);
+        scene.shapes[index].rings = std::move(rings.rings);
+        scene.shapes[index].deviation = rings.deviation;
     }
     return scene;
 }

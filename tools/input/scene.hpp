@@ -14,6 +14,7 @@ namespace nearfield::tools {
 struct SceneShape {
     std::string name;
     std::vector<Ring> rings;
+    double deviation = 0.0;  ///< how far the rings may be from its curves
 };
 
 /// A shape of a scene at a place.
@@ -42,8 +43,10 @@ struct Scene {
 };
 
 /// Reads a scene and the outlines it names, whose paths are relative to the scene's folder. Throws
-/// InputError with the file and the place in it. A shape, an instance or a query with a member that
-/// is not known is refused: a misspelt one would change the answer silently.
+/// InputError with the file and the place in it. Curves are tessellated with the `deviation` a
+/// shape states, else with usual_deviation of the smallest tolerance among the queries that use it.
+/// A shape, an instance or a query with a member that is not known is refused: a misspelt one would
+/// change the answer silently.
 [[nodiscard]] Scene read_scene(const std::string& path);
 
 }  // namespace nearfield::tools

@@ -1,3 +1,4 @@
+#include <tools/input/characters.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/text_file.hpp>
 #include <tools/input/wkt.hpp>
@@ -12,13 +13,6 @@
 namespace nearfield::tools {
 namespace {
 
-// The classification of <cctype> depends on the locale; the format does not.
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
 char to_upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }

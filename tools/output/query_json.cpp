@@ -163,6 +163,13 @@ void write_timings(JsonWriter& json, const Timings& timings) {
     json.end_object().end_object();
 }
 
+void write_localization(JsonWriter& json, const LocalizationStatistics& statistics) {
+    json.key("localization").begin_object();
+    json.key("nodes_evaluated").value(statistics.nodes_evaluated);
+    json.key("pairs_rejected").value(statistics.pairs_rejected);
+    json.key("edges_kept").value(statistics.edges_kept).end_object();
+}
+
 namespace {
 
 /// What every answer begins with: the query and what all results say.
@@ -172,6 +179,7 @@ void write_common(JsonWriter& json, const QueryRequest& request, const ResultSum
     json.key("error_bound").value(summary.error_bound);
     json.key("cell").value(summary.cell);
     json.key("intersects").value(summary.intersects);
+    write_localization(json, summary.localization);
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+#include <engine/localize/oriented_box.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::localize {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Vector;
+
+Vector turned_left(const Vector& v) {
+    return {-v.y(), v.x()};
+}
+
+/// The direction in which vertices spread most: the larger eigenvector of their covariance.
+Vector principal_axis(const std::array<std::span<const Vector>, 2>& runs) {
+    // From one of the vertices, so that far from the polygon's centre nothing cancels.
+    const Vector origin = runs[0].front();
+    Vector sum = Vector::Zero();
+    double xx = 0.0;
+    double xy = 0.0;
+    double yy = 0.0;
+    double count = 0.0;
+    for (const auto& run : runs) {
+        for (const Vector& vertex : run) {
+            const Vector v = vertex - origin;
+            sum += v;
+            xx += v.x() * v.x();
+            xy += v.x() * v.y();
+            yy += v.y() * v.y();
+        }
+        count += static_cast<double>(run.size());
+    }
+    xx -= sum.x() * sum.x() / count;
+    xy -= sum.x() * sum.y() / count;
+    yy -= sum.y() * sum.y() / count;
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    return {std::cos(angle), std::sin(angle)};
+}
+
+/// How far a box reaches from its centre along a unit direction.
+double reach(const OrientedBox& box, const Vector& direction) {
+    return box.half.x() * std::abs(box.axis.dot(direction)) +
+           box.half.y() * std::abs(geometry::cross(box.axis, direction));
+}
+
+}  // namespace
+
+OrientedBox oriented_box(const PlacedPolygon& placed, std::span<const Vector> run,
+                         std::span<const Vector> wrapped, double rounding) {
+    const std::array<std::span<const Vector>, 2> runs{run, wrapped};
+    const Vector axis = principal_axis(runs);
+    Box box;
+    for (const auto& vertices : runs) {
+        for (const Vector& v : vertices) {
+            box.extend(Vector(axis.dot(v), geometry::cross(axis, v)));
+        }
+    }
+    const Vector middle = box.center();
+    return {placed.to_world(middle.x() * axis + middle.y() * turned_left(axis)),
+            placed.rotation() * axis, 0.5 * box.sizes() + Vector::Constant(rounding)};
+}
+
+double gap(const OrientedBox& a, const OrientedBox& b) {
+    const Vector between = b.centre - a.centre;
+    double widest = -std::numeric_limits<double>::infinity();
+    for (const Vector& direction : {a.axis, turned_left(a.axis), b.axis, turned_left(b.axis)}) {
+        widest = std::max(
+            widest, std::abs(between.dot(direction)) - reach(a, direction) - reach(b, direction));
+    }
+    return widest;
+}
+
+}  // namespace nearfield::localize

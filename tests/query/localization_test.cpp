@@ -1,0 +1,95 @@
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/nasty_polygons.hpp>
+
+namespace nearfield::test {
+namespace {
+
+class Localization : public QueryTest {};
+
+/// Whatever the hierarchies are made of and however high they are, results keep their laws.
+TEST_F(Localization, NoSettingChangesWhatIsTrue) {
+    for (const auto volume : {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
+        for (const std::uint32_t height : {0U, 3U, 16U}) {
+            Settings settings;
+            settings.bounding_volume = volume;
+            settings.hierarchy_height = height;
+            auto made = Context::create(host_device(), settings);
+            ASSERT_TRUE(made.ok()) << made.status().text();
+            const std::uint64_t seed = 40 + height;
+            Random random(seed);
+            for (int i = 0; i < random_cases(3); ++i) {
+                SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(i));
+                const PlacedPair pair(*made, any_pair(random));
+                check_penetration(pair, PenetrationPoints::boundary,
+                                  run_alone(*made, pair.penetration()));
+                for (const auto kind :
+                     {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
+                      IntersectionKind::boundary_boundary}) {
+                    check_intersection(pair, kind, run_alone(*made, pair.intersection(kind)));
+                }
+            }
+        }
+    }
+}
+
+/// A thin band along a slanted line, with many vertices.
+Ring slanted_band(double x, double y) {
+    constexpr int steps = 64;
+    Ring ring;
+    for (int i = 0; i <= steps; ++i) {
+        ring.push_back({x + 0.1 * i, y + 0.1 * i});
+    }
+    for (int i = steps; i >= 0; --i) {
+        ring.push_back({x + 0.1 * i - 0.05, y + 0.1 * i + 0.05});
+    }
+    return ring;
+}
+
+TEST_F(Localization, StatisticsCountAndOrientedBoxesNeedLess) {
+    std::vector<LocalizationStatistics> statistics;
+    const Ring band = slanted_band(0.0, 0.0);
+    const Ring beside = slanted_band(0.1, -0.1);
+    for (const auto volume : {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
+        Settings settings;
+        settings.bounding_volume = volume;
+        settings.hierarchy_height = 3;
+        auto made = Context::create(host_device(), settings);
+        ASSERT_TRUE(made.ok()) << made.status().text();
+        const auto a = made->add_shape({&band, 1});
+        const auto b = made->add_shape({&beside, 1});
+        ASSERT_TRUE(a.ok() && b.ok());
+        PenetrationQuery query;
+        query.a = {*a, {}};
+        query.b = {*b, {}};
+        query.tolerance = 0.05;
+        const PenetrationResult result = run_alone(*made, query);
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        EXPECT_EQ(result.count, 0U);
+        EXPECT_FALSE(result.intersects);
+        statistics.push_back(result.localization);
+    }
+    EXPECT_GT(statistics[0].edges_kept, 0U);
+    EXPECT_GT(statistics[0].pairs_rejected, 0U);
+    EXPECT_EQ(statistics[1].edges_kept, 0U);
+    EXPECT_LT(statistics[1].nodes_evaluated, statistics[0].nodes_evaluated);
+}
+
+TEST_F(Localization, FarShapesCostTheirTopLevelBoxes) {
+    const Ring square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    const auto shape = context().add_shape({&square, 1});
+    ASSERT_TRUE(shape.ok());
+    PenetrationQuery query;
+    query.a = {*shape, {}};
+    query.b = {*shape, {{5, 0}, 0.0}};
+    query.tolerance = 0.1;
+    const LocalizationStatistics statistics = run_alone(context(), query).localization;
+    // Once for the regions, once for whether they intersect.
+    EXPECT_EQ(statistics.nodes_evaluated, 4U);
+    EXPECT_EQ(statistics.pairs_rejected, 2U);
+    EXPECT_EQ(statistics.edges_kept, 0U);
+    EXPECT_TRUE(context().remove_shape(*shape).ok());
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,30 @@
+#include <tools/commands/localization_options.hpp>
+#include <tools/input/input_error.hpp>
+
+namespace nearfield::tools {
+
+void add_localization_options(CLI::App& command, LocalizationArguments& arguments) {
+    command
+        .add_option("--boxes", arguments.boxes,
+                    "Bounding boxes that localise: axis-aligned or oriented; default axis-aligned")
+        ->type_name("NAME");
+    command
+        .add_option("--height", arguments.height,
+                    "Maximum height of their hierarchies: more is more work on the CPU and less on "
+                    "the device; default 12")
+        ->type_name("LEVELS")
+        ->check(CLI::Range(0U, 32U));
+}
+
+Settings parse_settings(const LocalizationArguments& arguments) {
+    Settings settings;
+    if (arguments.boxes == "oriented") {
+        settings.bounding_volume = BoundingVolume::oriented;
+    } else if (arguments.boxes && arguments.boxes != "axis-aligned") {
+        throw InputError("--boxes: \"" + *arguments.boxes + "\" is none of axis-aligned, oriented");
+    }
+    settings.hierarchy_height = arguments.height.value_or(settings.hierarchy_height);
+    return settings;
+}
+
+}  // namespace nearfield::tools
