@@ -8,8 +8,11 @@
 namespace nearfield {
 namespace {
 
-constexpr std::uint32_t most_passes = 8;
+constexpr std::uint32_t most_passes = 16;
 constexpr std::uint32_t smallest_atlas = 256;
+
+// Recipes that keep their images: more kinds of batches than this take turns.
+constexpr std::size_t most_recipes = 8;
 
 // Every part of a buffer that is bound has at least these bytes, its last one too.
 constexpr std::uint64_t smallest_range = 16;
@@ -26,6 +29,21 @@ void copy_to(std::byte* target, const std::vector<Element>& elements) {
     }
 }
 
+Needs needs_of(const plan::Round& round) {
+    Needs needs;
+    needs.points = !round.points.empty();
+    needs.field_points = !round.field_point_runs.empty();
+    needs.overlap = !round.overlap_draws.empty();
+    for (const plan::TileDraw& draw : round.distance_draws) {
+        const auto encoding = static_cast<std::size_t>(draw.sign);
+        needs.field[encoding] = needs.field[encoding] || draw.field;
+        needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
+                            draw.first_feature != plan::not_asked;
+        needs.blended = needs.blended || draw.blended;
+    }
+    return needs;
+}
+
 }  // namespace
 
 Renderer::Renderer(const gpu::Device& device)
@@ -39,8 +57,11 @@ Renderer::Renderer(const gpu::Device& device)
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                  "nearfield read-back") {
     frame_.points = layout_.set(0);
-    frame_.field = layout_.set(1);
-    frame_.samples = layout_.set(2);
+    for (std::uint32_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        frame_.field[encoding] = layout_.set(1 + encoding);
+    }
+    frame_.gradients = layout_.set(4);
+    frame_.samples = layout_.set(5);
 }
 
 std::uint64_t Renderer::align(std::uint64_t offset) const {
@@ -77,6 +98,9 @@ Recipe& Renderer::recipe_for(Needs needs, plan::TileSize extent) {
     }
     last_recipe_ = nullptr;
     std::erase_if(recipes_, [&](const auto& recipe) { return recipe->needs() == needs; });
+    if (recipes_.size() == most_recipes) {
+        recipes_.erase(recipes_.begin());
+    }
     recipes_.push_back(std::make_unique<Recipe>(*device_, passes_, needs, atlas));
     return *recipes_.back();
 }
@@ -86,13 +110,16 @@ Renderer::InputParts Renderer::upload(const plan::Round& round) {
     InputParts parts;
     parts.geometry = align(bytes_of(round.tiles));
     parts.points = align(parts.geometry + bytes_of(geometry));
-    parts.end = parts.points + bytes_of(round.points);
+    parts.field_points = align(parts.points + bytes_of(round.points));
+    parts.end = parts.field_points + bytes_of(round.field_points);
     require_range(bytes_of(geometry), "the edges of one round");
-    require_range(bytes_of(round.points), "the points of one round");
+    require_range(std::max(bytes_of(round.points), bytes_of(round.field_points)),
+                  "the points of one round");
     input_.reserve(parts.end + smallest_range);
     copy_to(input_.data() + parts.tiles, round.tiles);
     copy_to(input_.data() + parts.geometry, geometry);
     copy_to(input_.data() + parts.points, round.points);
+    copy_to(input_.data() + parts.field_points, round.field_points);
     input_.flush();
     mesh_.reserve(bytes_of(round.mesh));
     copy_to(mesh_.data(), round.mesh);
@@ -102,13 +129,13 @@ Renderer::InputParts Renderer::upload(const plan::Round& round) {
 
 void Renderer::lay_out_output(const plan::Round& round) {
     const std::uint64_t point_bytes = round.points.size() * sizeof(std::uint32_t);
-    const std::uint64_t value_bytes = round.field_values * sizeof(float);
+    const std::uint64_t field_bytes = round.field_words * sizeof(std::uint32_t);
     const std::uint64_t sample_bytes =
         sizeof(std::uint32_t) + frame_.sample_capacity * sizeof(plan::SampleData);
-    output_.values = align(point_bytes);
-    output_.samples = align(output_.values + value_bytes);
+    output_.field = align(point_bytes);
+    output_.samples = align(output_.field + field_bytes);
     output_.end = output_.samples + sample_bytes;
-    require_range(std::max({point_bytes, value_bytes, sample_bytes}), "the results of one round");
+    require_range(std::max({point_bytes, field_bytes, sample_bytes}), "the results of one round");
     read_back_.reserve(output_.end + smallest_range);
     std::memset(read_back_.data() + output_.samples, 0, sizeof(std::uint32_t));
     read_back_.flush();
@@ -129,12 +156,21 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     };
     if (recipe.needs().points) {
         write_tiles(frame_.points);
-        write(frame_.points, Layout::points, input_, input.points, input.end);
-        write(frame_.points, Layout::output, read_back_, output_.points, output_.values);
+        write(frame_.points, Layout::points, input_, input.points, input.field_points);
+        write(frame_.points, Layout::output, read_back_, output_.points, output_.field);
     }
-    if (recipe.needs().field) {
-        write_tiles(frame_.field);
-        write(frame_.field, Layout::output, read_back_, output_.values, output_.samples);
+    const auto write_field = [&](VkDescriptorSet set) {
+        write_tiles(set);
+        write(set, Layout::points, input_, input.field_points, input.end);
+        write(set, Layout::output, read_back_, output_.field, output_.samples);
+    };
+    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        if (recipe.needs().field[encoding]) {
+            write_field(frame_.field[encoding]);
+        }
+    }
+    if (recipe.needs().blended) {
+        write_field(frame_.gradients);
     }
     if (recipe.needs().overlap) {
         write_tiles(frame_.samples);
@@ -145,7 +181,7 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
 
 void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
     const Stopwatch start;
-    const Needs needs{!round.points.empty(), round.field_values > 0, !round.overlap_draws.empty()};
+    const Needs needs = needs_of(round);
     Recipe& recipe = recipe_for(needs, extent);
     last_recipe_ = &recipe;
     const InputParts input = upload(round);
@@ -190,9 +226,9 @@ std::span<const std::uint32_t> Renderer::points() const {
             frame_.round->points.size()};
 }
 
-std::span<const float> Renderer::field_values() const {
-    return {reinterpret_cast<const float*>(read_back_.data() + output_.values),
-            frame_.round->field_values};
+std::span<const std::uint32_t> Renderer::field_words() const {
+    return {reinterpret_cast<const std::uint32_t*>(read_back_.data() + output_.field),
+            frame_.round->field_words};
 }
 
 std::span<const plan::SampleData> Renderer::samples() const {

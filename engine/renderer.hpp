@@ -26,10 +26,10 @@ public:
     /// more samples are found than there was room for, the round runs again with room for all.
     void render(const plan::Round& round, plan::TileSize extent, Timings& timings);
 
-    /// What the last round brought back, by point, by field value, and the samples in any order.
+    /// What the last round brought back: by point, of all fields, and the samples in any order.
     /// Valid until the next round.
     [[nodiscard]] std::span<const std::uint32_t> points() const;
-    [[nodiscard]] std::span<const float> field_values() const;
+    [[nodiscard]] std::span<const std::uint32_t> field_words() const;
     [[nodiscard]] std::span<const plan::SampleData> samples() const;
 
     /// The graph of the last round; empty before the first.
@@ -38,10 +38,10 @@ public:
 private:
     /// Where the parts of a buffer start, in bytes.
     struct InputParts {
-        std::uint64_t tiles = 0, geometry = 0, points = 0, end = 0;
+        std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
     };
     struct OutputParts {
-        std::uint64_t points = 0, values = 0, samples = 0, end = 0;
+        std::uint64_t points = 0, field = 0, samples = 0, end = 0;
     };
 
     Recipe& recipe_for(Needs needs, plan::TileSize extent);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/field_results.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
 #include <nearfield/result.hpp>
@@ -13,16 +14,20 @@ namespace nearfield {
 /// Decodes what came back from the device, round by round, and makes it exact in double precision.
 class ResultDecoder {
 public:
+    explicit ResultDecoder(const char* gradient_format) : fields_(gradient_format) {}
+
     void begin_batch(const plan::Plan& plan);
 
     /// Takes the read-back of one round.
     void add_points(const plan::Round& round, std::span<const std::uint32_t> words);
-    void add_field_values(const plan::Plan& plan, const plan::Round& round,
-                          std::span<const float> values, std::vector<AnyResult>& results) const;
+    void add_field(const plan::Plan& plan, const plan::Round& round,
+                   std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
+        fields_.add(plan, round, words, results);
+    }
     void add_samples(const plan::Plan& plan, const plan::Round& round,
                      std::span<const plan::SampleData> samples);
 
-    /// After the last round: writes penetration and intersection results.
+    /// After the last round: writes penetration and intersection results, closes those of fields.
     void finish(const plan::Plan& plan, std::vector<AnyResult>& results);
 
 private:
@@ -37,11 +42,11 @@ private:
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result) const;
-    static void finish_field(DistanceFieldResult& result);
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
     std::vector<FoundSample> samples_;
+    FieldDecoder fields_;
 };
 
 }  // namespace nearfield

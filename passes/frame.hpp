@@ -4,9 +4,12 @@
 
 #include <vulkan/vulkan_core.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace nearfield::passes {
+
+inline constexpr std::size_t sign_encodings = 3;
 
 /// What all passes record from. One object lives as long as the passes; its contents change from
 /// round to round.
@@ -14,7 +17,8 @@ struct Frame {
     const plan::Round* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;  ///< the round's mesh, at offset 0
     VkDescriptorSet points = VK_NULL_HANDLE;
-    VkDescriptorSet field = VK_NULL_HANDLE;
+    VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
+    VkDescriptorSet gradients = VK_NULL_HANDLE;
     VkDescriptorSet samples = VK_NULL_HANDLE;
     std::uint32_t sample_capacity = 0;  ///< samples that the read-back has room for
 };

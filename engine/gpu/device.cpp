@@ -48,6 +48,8 @@ Device::Device(const HostDevice& host) : host_(host) {
 
     stencil_format_ =
         find_stencil_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
+    gradient_format_ =
+        find_gradient_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
     std::uint32_t count = 0;
     functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);

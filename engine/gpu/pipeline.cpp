@@ -153,7 +153,9 @@ VkPipelineDynamicStateCreateInfo dynamic_state() {
 std::vector<VkPipelineColorBlendAttachmentState> color_attachments(
     const GraphicsPipelineDescription& what) {
     VkPipelineColorBlendAttachmentState state{};
-    if (!what.fragment_shader.empty()) {
+    if (what.blend) {
+        state = *what.blend;
+    } else if (!what.fragment_shader.empty()) {
         state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     }

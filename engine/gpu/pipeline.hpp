@@ -4,6 +4,7 @@
 #include <engine/gpu/owned.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,6 +25,9 @@ struct GraphicsPipelineDescription {
     Spirv vertex_shader;
     Spirv fragment_shader;  ///< empty: no fragment shader, nothing is written to colour
     std::uint32_t color_attachments = 1;
+    /// How colours are combined with what is there, and which channels are written; nothing: they
+    /// replace it in all channels.
+    std::optional<VkPipelineColorBlendAttachmentState> blend;
     bool depth_test = false;  ///< write depth too
     VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
     bool stencil_test = false;

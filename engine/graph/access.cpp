@@ -10,7 +10,7 @@ namespace {
 // Attachments read as well as they write: loading, blending, logic operations and tests look at
 // what was there. All reads of images share one layout and all reads of one kind of resource differ
 // in their stages, which lets a read after a read do without a second look at the layout.
-constexpr std::array<AccessTraits, 6> accesses = {{
+constexpr std::array<AccessTraits, 7> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -50,6 +50,10 @@ constexpr std::array<AccessTraits, 6> accesses = {{
     {.name = "vertex_buffer",
      .stages = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
      .read_access = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT,
+     .pass_kind = PassKind::graphics},
+    {.name = "storage_read_in_fragment",
+     .stages = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
      .pass_kind = PassKind::graphics},
 }};
 

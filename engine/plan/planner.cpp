@@ -1,5 +1,6 @@
 #include <engine/failure.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -16,23 +17,12 @@ using geometry::PlacedPolygon;
 // result and in the buffers on the way there.
 constexpr double bytes_per_point = sizeof(PlannedPoint) + sizeof(PenetrationRecord) + 64.0;
 constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
-constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 
-// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth).
-constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0;
+// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth);
+// signs in white, signed features with their distances, gradients.
+constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
 constexpr std::uint32_t smallest_atlas = 256;
-
-double largest_magnitude(const Box& box) {
-    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-}
-
-/// The largest number that placing a shape in the world goes through.
-double largest_magnitude(const PlacedPolygon& placed, const Pose& pose) {
-    return std::max({largest_magnitude(placed.box()),
-                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                     std::abs(pose.translation.y)});
-}
 
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
@@ -63,6 +53,12 @@ Result& reuse(AnyResult& any) {
         result.origin = {};
         result.width = result.height = 0;
         result.values.clear();
+        result.features.clear();
+        result.gradients.clear();
+        result.unique.clear();
+        result.points.clear();
+        result.gradient_error_bound = 0.0;
+        result.gradient_format = "";
     }
     return result;
 }
@@ -265,52 +261,13 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     }
     require_memory(bytes_per_sample * cells, query.tolerance, 2.0);
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
-        cut_into_tiles(region, TileKind::overlap);
+        cut_into_tiles(region, TileKind::overlap, 0);
     }
 }
 
-void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = field_budget(query, limits_.subpixel);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    Box box;
-    if (query.rectangle) {
-        box = Box(geometry::to_vector(query.rectangle->min),
-                  geometry::to_vector(query.rectangle->max));
-    } else {
-        const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
-        box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
-        if (box.isEmpty()) {
-            result.status = {StatusCode::invalid_query,
-                             "the bounding boxes of A and B have nothing in common; give the "
-                             "rectangle the distance field is to cover"};
-            return;
-        }
-        box.min().array() -= query.tolerance;
-        box.max().array() += query.tolerance;
-    }
-    result.status = check_resolution(
-        query.tolerance,
-        std::max(largest_magnitude(box),
-                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
-    if (!result.status.ok()) {
-        return;
-    }
-    boxes_.assign(1, box);
-    add_regions(planned.budget.cell, result);
-    const Grid& grid = grids_.front();
-    require_memory(bytes_per_field_cell * grid.cells(), query.tolerance, 2.0);
-    result.origin = geometry::to_public(grid.origin);
-    result.width = static_cast<std::uint32_t>(grid.width);
-    result.height = static_cast<std::uint32_t>(grid.height);
-    result.values.resize(grid.width * grid.height);
-    cut_into_tiles(0, TileKind::field);
-}
-
-void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
+void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t halo) {
     const Grid& grid = grids_[region];
-    const std::uint64_t side = limits_.largest_tile;
+    const std::uint64_t side = limits_.largest_tile - 2 * halo;
     for (std::uint64_t row = 0; row < grid.height; row += side) {
         for (std::uint64_t column = 0; column < grid.width; column += side) {
             Tile& tile = plan_->tiles.emplace_back();
@@ -320,8 +277,9 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
             tile.grid = grid;
             tile.column = column;
             tile.row = row;
-            tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column));
-            tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row));
+            tile.halo = halo;
+            tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column)) + 2 * halo;
+            tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row)) + 2 * halo;
             if (kind == TileKind::field) {
                 tile.needed = NeededBlocks(tile.width, tile.height);
                 tile.needed.add_all();

@@ -46,9 +46,15 @@ private:
     void add(const IntersectionQuery& query, IntersectionResult& result);
     void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
 
+    /// Where nothing is asked for at every cell: drops the tiles of the query that hold no point.
+    void drop_tiles_without_points(std::uint32_t first_tile);
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
-    void cut_into_tiles(std::uint32_t region, TileKind kind);
+    /// Cuts a region into tiles, row by row; each is drawn with a halo of cells around it.
+    void cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t halo);
+    /// Spreads the points of a field over the tiles that it will be cut into.
+    [[nodiscard]] Status add_field_points(const DistanceFieldQuery& query, const Grid& grid,
+                                          std::uint32_t first_tile);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();
 
@@ -65,6 +71,7 @@ private:
     std::vector<Grid> grids_;
     std::vector<BoundaryPoint> samples_;
     PointTiles point_tiles_{64};
+    std::vector<std::uint32_t> kept_tiles_;
     std::vector<TileSize> sizes_;
     std::vector<AtlasPlace> places_;
 };
