@@ -15,7 +15,6 @@ namespace {
 struct Push {
     std::int32_t corner[2];
     std::int32_t size[2];
-    std::uint32_t first_value;
     std::int32_t shift;
     float factor;
     float largest;
@@ -108,13 +107,12 @@ void Gradient::record(VkCommandBuffer commands) const {
             const Push push{
                 {static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
                 {static_cast<std::int32_t>(tile.width), static_cast<std::int32_t>(tile.height)},
-                tile.first_value,
                 shift,
                 0.5F,
                 largest};
             functions.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
                                          push_offset, sizeof(push), &push);
-            renderer.draw(tile, tile.rectangle, 1.0F, 0);
+            renderer.draw(tile, tile.rectangle, 1.0F, tile.first_value);
         }
     };
     draw_all(shifted_, 1);

@@ -10,17 +10,18 @@ layout(std430, set = 0, binding = 3) readonly buffer Field {
 layout(push_constant) uniform Push {
     layout(offset = 32) ivec2 corner;  // of the tile in the atlas
     ivec2 size;
-    uint first_value;
     int shift;     // 0: write the factor
     float factor;
     float largest;  // magnitude that the format holds
 } push;
 
+layout(location = 0) flat in uint first_value;
 layout(location = 0) out vec2 color;
 
 float value_at(ivec2 cell) {
     ivec2 inside = clamp(cell, ivec2(0), push.size - 1);
-    float value = uintBitsToFloat(field.words[push.first_value + uint(inside.y * push.size.x + inside.x)]);
+    uint index = first_value + uint(inside.y * push.size.x + inside.x);
+    float value = uintBitsToFloat(field.words[index]);
     return clamp(value, -push.largest, push.largest);
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/gpu_canvas.hpp>
-#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 #include <tests/unit/gpu_shaders.hpp>
 

@@ -3,7 +3,7 @@
 #include <engine/gpu/requirements.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 
 #include <functional>

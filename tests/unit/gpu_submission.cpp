@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/gpu_compute_task.hpp>
-#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 
 #include <cstring>

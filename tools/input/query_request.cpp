@@ -27,6 +27,22 @@ constexpr std::array<Named<IntersectionKind>, 3> kinds{{
     {"volume-volume", IntersectionKind::volume_volume},
 }};
 
+constexpr std::array<Named<SignEncoding>, 3> encodings{{
+    {"stencil", SignEncoding::stencil},
+    {"color", SignEncoding::color},
+    {"feature-bit", SignEncoding::feature_bit},
+}};
+constexpr std::array<Named<GradientMethod>, 3> gradient_methods{{
+    {"analytic", GradientMethod::analytic},
+    {"central-differences", GradientMethod::central_differences},
+    {"blended", GradientMethod::blended},
+}};
+constexpr std::array<Named<FieldPicture>, 3> pictures{{
+    {"field", FieldPicture::field},
+    {"voronoi", FieldPicture::voronoi},
+    {"gradient", FieldPicture::gradient},
+}};
+
 template <class Value>
 Value parse_name(std::span<const Named<Value>> table, const std::string& name,
                  const std::string& what) {
@@ -69,6 +85,26 @@ IntersectionKind parse_kind(const std::string& name, const std::string& what) {
     return parse_name<IntersectionKind>(kinds, name, what);
 }
 
+SignEncoding parse_sign(const std::string& name, const std::string& what) {
+    return parse_name<SignEncoding>(encodings, name, what);
+}
+
+GradientMethod parse_gradient(const std::string& name, const std::string& what) {
+    return parse_name<GradientMethod>(gradient_methods, name, what);
+}
+
+FieldPicture parse_picture(const std::string& name, const std::string& what) {
+    return parse_name<FieldPicture>(pictures, name, what);
+}
+
+std::string_view name_of(SignEncoding encoding) noexcept {
+    return find_name<SignEncoding>(encodings, encoding);
+}
+
+std::string_view name_of(GradientMethod method) noexcept {
+    return find_name<GradientMethod>(gradient_methods, method);
+}
+
 std::string_view name_of(QueryType type) noexcept {
     return find_name<QueryType>(query_types, type);
 }
@@ -106,7 +142,9 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records});
             break;
         case QueryType::distance_field:
-            batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle});
+            batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle, request.sign,
+                                         request.gradient, request.values, request.features,
+                                         request.gradients, request.at});
             break;
     }
 }

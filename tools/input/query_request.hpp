@@ -6,10 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nearfield::tools {
 
 enum class QueryType { penetration, intersection, distance_field };
+
+/// What the picture of a distance field shows.
+enum class FieldPicture { field, voronoi, gradient };
 
 /// One query as a person or a scene asks for it: all but its two shapes.
 struct QueryRequest {
@@ -18,7 +22,15 @@ struct QueryRequest {
     PenetrationPoints points = PenetrationPoints::boundary;   ///< of penetration
     IntersectionKind kind = IntersectionKind::volume_volume;  ///< of intersection
     bool records = true;                                      ///< of both
-    std::optional<Rectangle> rectangle;                       ///< of distance-field
+    // All of distance-field.
+    std::optional<Rectangle> rectangle;
+    SignEncoding sign = SignEncoding::stencil;
+    GradientMethod gradient = GradientMethod::analytic;
+    bool values = true;
+    bool features = false;
+    bool gradients = false;
+    std::vector<Vector2> at;
+    FieldPicture picture = FieldPicture::field;
 };
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
@@ -26,15 +38,20 @@ struct QueryRequest {
 [[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
+[[nodiscard]] SignEncoding parse_sign(const std::string& name, const std::string& what);
+[[nodiscard]] GradientMethod parse_gradient(const std::string& name, const std::string& what);
+[[nodiscard]] FieldPicture parse_picture(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
+[[nodiscard]] std::string_view name_of(SignEncoding encoding) noexcept;
+[[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 
 /// Throw InputError for a technique or strategy this version does not have.
 void check_technique(const std::string& name, const std::string& what);
 void check_strategy(const std::string& name, const std::string& what);
 
-/// Adds a request between two instances; its result stands at the same place among the results as
-/// the query in the batch.
+/// Adds a request, which must outlive the batch's run, between two instances; its result stands at
+/// the same place among the results as the query in the batch.
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b);
 
 }  // namespace nearfield::tools

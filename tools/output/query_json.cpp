@@ -71,6 +71,32 @@ void write_result(JsonWriter& json, const DistanceFieldResult& result) {
     json.key("origin").value(result.origin);
     json.key("width").value(std::uint64_t{result.width});
     json.key("height").value(std::uint64_t{result.height});
+    if (result.points.empty()) {
+        return;
+    }
+    json.key("points").begin_array(JsonWriter::Layout::lines);
+    for (const FieldPoint& point : result.points) {
+        json.begin_object().key("point").value(point.point);
+        json.key("distance").value(point.distance).key("error_bound").value(point.error_bound);
+        json.key("inside").value(point.inside).key("gradient").value(point.gradient);
+        json.key("feature");
+        write_feature(json, point.feature);
+        json.key("unique").value(point.unique).end_object();
+    }
+    json.end_array();
+}
+
+/// How a field was made, as far as it was asked for.
+void write_methods(JsonWriter& json, const QueryRequest& request,
+                   const DistanceFieldResult& result) {
+    json.key("sign").value(name_of(request.sign));
+    if (request.gradients || !request.at.empty()) {
+        json.key("gradient").value(name_of(request.gradient));
+        json.key("gradient_error_bound").value(result.gradient_error_bound);
+        if (request.gradient == GradientMethod::blended) {
+            json.key("gradient_format").value(result.gradient_format);
+        }
+    }
 }
 
 }  // namespace
@@ -98,6 +124,9 @@ void write_query_json(std::ostream& stream, const Answer& answer) {
     json.key("intersects").value(summary.intersects);
     json.key("device").value(std::string_view(answer.device));
     json.key("technique").value("raster");
+    if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
+        write_methods(json, answer.request, *field);
+    }
     write_regions(json, summary);
     write_timings(json, answer.timings);
     std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);

@@ -1,5 +1,6 @@
 #include <tools/output/summary.hpp>
 #include <tools/picture/canvas.hpp>
+#include <tools/picture/cell_image.hpp>
 #include <tools/picture/color.hpp>
 #include <tools/picture/field_layer.hpp>
 #include <tools/picture/figure.hpp>
@@ -29,7 +30,10 @@ constexpr Rectangle color_strip{{1452.0, 172.0}, {1482.0, 1104.0}};
 
 /// Where the right panel stands: a picture of an intersection has no field and no colour bar.
 const Rectangle& detail_panel(const Answer& answer) {
-    return answer.request.type == QueryType::intersection ? panel_alone : panel_beside_colors;
+    return answer.request.type == QueryType::intersection ||
+                   answer.request.picture != FieldPicture::field
+               ? panel_alone
+               : panel_beside_colors;
 }
 
 using PageRings = std::vector<std::vector<Vector2>>;
@@ -52,6 +56,14 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
         case QueryType::intersection:
             return "Intersection of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::distance_field:
+            break;
+    }
+    switch (figure.answer.request.picture) {
+        case FieldPicture::voronoi:
+            return "Voronoi diagram of " + name(figure.b);
+        case FieldPicture::gradient:
+            return "Gradient of the distance to " + name(figure.b);
+        case FieldPicture::field:
             break;
     }
     return "Signed distance to " + name(figure.b);
@@ -122,6 +134,13 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
         field->draw_colors(canvas);
         field->draw_iso_lines(canvas);
     }
+    const auto* cells = std::get_if<DistanceFieldResult>(&figure.answer.result);
+    const FieldPicture picture = figure.answer.request.picture;
+    if (cells != nullptr && picture == FieldPicture::voronoi) {
+        draw_voronoi(canvas, *cells, view);
+    } else if (cells != nullptr && picture == FieldPicture::gradient) {
+        draw_gradient(canvas, *cells, view);
+    }
     if (const auto* result = std::get_if<IntersectionResult>(&figure.answer.result)) {
         draw_samples(canvas, *result, view);
     }
@@ -157,7 +176,8 @@ std::string draw_figure(const Figure& figure) {
     const View view(detail_rectangle(figure.answer, figure.a, figure.b),
                     detail_panel(figure.answer));
     std::optional<FieldLayer> field;
-    if (figure.field != nullptr && !figure.field->values.empty()) {
+    if (figure.field != nullptr && !figure.field->values.empty() &&
+        figure.answer.request.picture == FieldPicture::field) {
         field.emplace(*figure.field, view);
     }
     draw_header(canvas, figure);
