@@ -261,13 +261,13 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     }
     require_memory(bytes_per_sample * cells, query.tolerance, 2.0);
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
-        cut_into_tiles(region, TileKind::overlap, 0);
+        cut_into_tiles(region, TileKind::overlap, limits_.largest_tile, 0);
     }
 }
 
-void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t halo) {
+void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,
+                             std::uint32_t halo) {
     const Grid& grid = grids_[region];
-    const std::uint64_t side = limits_.largest_tile - 2 * halo;
     for (std::uint64_t row = 0; row < grid.height; row += side) {
         for (std::uint64_t column = 0; column < grid.width; column += side) {
             Tile& tile = plan_->tiles.emplace_back();
@@ -278,8 +278,12 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
             tile.column = column;
             tile.row = row;
             tile.halo = halo;
-            tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column)) + 2 * halo;
-            tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row)) + 2 * halo;
+            tile.width =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(side, grid.width - column)) +
+                2 * halo;
+            tile.height =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(side, grid.height - row)) +
+                2 * halo;
             if (kind == TileKind::field) {
                 tile.needed = NeededBlocks(tile.width, tile.height);
                 tile.needed.add_all();

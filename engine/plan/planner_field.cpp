@@ -76,7 +76,7 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     add_regions(planned.budget.cell, result);
     const Grid& grid = grids_.front();
     planned.field = field_parts(query);
-    const double side = limits_.largest_tile - 2.0 * planned.field.halo;
+    const double side = field_tile(planned.field);
     require_memory(
         bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field),
         query.tolerance, 2.0);
@@ -94,7 +94,7 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.gradients.resize(query.gradients ? 2 * cells : 0);
     result.unique.resize(planned.field.features ? cells : 0);
     result.points.resize(query.points.size());
-    cut_into_tiles(0, TileKind::field, planned.field.halo);
+    cut_into_tiles(0, TileKind::field, field_tile(planned.field), planned.field.halo);
     if (!planned.field.values && !planned.field.features) {
         drop_tiles_without_points(first_tile);
     }
@@ -121,13 +121,20 @@ void Planner::drop_tiles_without_points(std::uint32_t first_tile) {
     }
 }
 
+std::uint32_t Planner::field_tile(const FieldParts& parts) const {
+    const std::uint32_t drawn = parts.features
+                                    ? std::min(limits_.features_tile, limits_.largest_tile)
+                                    : limits_.largest_tile;
+    return drawn - 2 * parts.halo;
+}
+
 Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& grid,
                                  std::uint32_t first_tile) {
     // A rectangle is a whole number of cells only up to rounding.
     constexpr double slack = 1e-6;
     PlannedQuery& planned = plan_->queries[query_];
     const std::uint32_t halo = planned.field.halo;
-    const std::uint64_t side = limits_.largest_tile - 2 * halo;
+    const std::uint32_t side = field_tile(planned.field);
     const std::uint64_t tiles_along = (grid.width + side - 1) / side;
     const auto width = static_cast<double>(grid.width);
     const auto height = static_cast<double>(grid.height);

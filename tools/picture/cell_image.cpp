@@ -11,7 +11,6 @@ namespace {
 
 constexpr double arrow_spacing = 46.0;  // pixels
 constexpr double arrow_length = 30.0;
-constexpr Color tie = rgb(0x6B7480);
 
 Vector2 gradient_at(const DistanceFieldResult& field, std::size_t cell) {
     return {static_cast<double>(field.gradients[2 * cell]),
@@ -86,19 +85,13 @@ void draw_gradient_arrow(Canvas& canvas, Vector2 middle, Vector2 direction) {
 }
 
 void draw_gradient(Canvas& canvas, const DistanceFieldResult& field, const View& view) {
-    const auto unique = [&](std::size_t cell) {
-        return field.unique.empty() || field.unique[cell] != 0;
-    };
-    draw_cells(canvas, field, view, [&](std::size_t cell) {
-        return unique(cell) ? direction_color(gradient_at(field, cell)) : tie;
-    });
+    draw_cells(canvas, field, view,
+               [&](std::size_t cell) { return direction_color(gradient_at(field, cell)); });
     const Rectangle page = covered_page(field, view);
     for (double y = page.min.y + 0.5 * arrow_spacing; y < page.max.y; y += arrow_spacing) {
         for (double x = page.min.x + 0.5 * arrow_spacing; x < page.max.x; x += arrow_spacing) {
             const std::size_t cell = cell_at(field, view.to_world({x, y}));
-            if (unique(cell)) {
-                draw_gradient_arrow(canvas, {x, y}, gradient_at(field, cell));
-            }
+            draw_gradient_arrow(canvas, {x, y}, gradient_at(field, cell));
         }
     }
 }

@@ -24,7 +24,7 @@ void draw_cells(Canvas& canvas, const DistanceFieldResult& field, const View& vi
 void draw_voronoi(Canvas& canvas, const DistanceFieldResult& field, const View& view);
 [[nodiscard]] Color feature_color(Feature feature);
 
-/// The gradient: its direction as a hue, and arrows on a coarse grid; grey where it is not unique.
+/// The gradient: its direction as a hue, and arrows on a coarse grid.
 void draw_gradient(Canvas& canvas, const DistanceFieldResult& field, const View& view);
 [[nodiscard]] Color direction_color(Vector2 direction);
 void draw_gradient_arrow(Canvas& canvas, Vector2 middle, Vector2 direction);

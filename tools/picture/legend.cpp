@@ -96,8 +96,8 @@ void add_picture_entries(std::vector<LegendEntry>& entries, FieldPicture picture
             draw_gradient_arrow(canvas, {(area.min.x + area.max.x) / 2.0, middle_y(area)},
                                 {1.0, 0.0});
         };
-        entries.push_back({arrow, "gradient: the distance grows"});
-        entries.push_back({draw_directions, "its direction, from +x by +y"});
+        entries.push_back({arrow, "where the distance grows"});
+        entries.push_back({draw_directions, "its direction: +x, +y, \u2212x, \u2212y"});
     }
 }
 
