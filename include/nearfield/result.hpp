@@ -123,9 +123,10 @@ struct DistanceFieldResult : ResultSummary {
     std::vector<float> gradients;      ///< x and y of each cell, one after the other
     std::vector<std::uint8_t> unique;  ///< 1 or 0; with features or analytic gradients
     std::vector<FieldPoint> points;    ///< in the order asked
-    /// Bounds, for either component of a gradient at a cell, the difference from: the exact
-    /// gradient where `unique` is 1 (analytic), central differences of the exact signed distance
-    /// (the other methods). 0 where no gradient was asked for.
+    /// Bounds, for either component of a gradient at a cell, the difference from: the unit vector
+    /// between the centre and the nearest point of the feature named (analytic; on the boundary,
+    /// its outward normal), central differences of the exact signed distance (the other methods). 0
+    /// where no gradient was asked for.
     double gradient_error_bound = 0.0;
     /// The Vulkan format that a blended gradient went through ("R32G32_SFLOAT"); empty without one.
     const char* gradient_format = "";

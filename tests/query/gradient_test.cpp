@@ -194,13 +194,17 @@ TEST_F(Gradients, FollowRigidMotions) {
                            "distance ", p.distance, " becomes ", q.distance);
             const double truth = here.oracle().nearest(points[k]).distance;
             if (p.unique && q.unique && truth > 1e-3) {
+                // Of features within d/1000 of each other on one wall either may be named, and
+                // vertices in one place have several names.
+                const double margin = query.tolerance / 1000;
+                const double along_wall = std::sqrt(margin * (2 * truth + margin));
                 const Vector2 expected = turned(p.gradient, motion.angle);
-                report.require(oracle::distance(expected, q.gradient) <= 1e-7, "gradient at ", k,
-                               " is off by ", oracle::distance(expected, q.gradient));
-                // Vertices in one place have several names.
+                report.require(
+                    oracle::distance(expected, q.gradient) <= 1e-7 + 2.05 * along_wall / truth,
+                    "gradient at ", k, " is off by ", oracle::distance(expected, q.gradient));
                 report.require(
                     std::abs(distance_to_feature(here.oracle(), p.feature, points[k]) -
-                             distance_to_feature(there.oracle(), q.feature, moved[k])) <= 1e-7,
+                             distance_to_feature(there.oracle(), q.feature, moved[k])) <= margin,
                     "feature at ", k);
             }
         }

@@ -88,6 +88,25 @@ TEST_F(GpuRequirements, EachMissingFormatFeatureIsNamed) {
     }
 }
 
+TEST_F(GpuRequirements, GradientFallsBackToHalfPrecision) {
+    constexpr VkFormatFeatureFlags blend = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    EXPECT_EQ(gpu::Device(host_.device()).gradient_format(), VK_FORMAT_R32G32_SFLOAT);
+    const FakeLoader half(host_.device(), without(VK_FORMAT_R32G32_SFLOAT, blend));
+    EXPECT_EQ(gpu::Device(half.host()).gradient_format(), VK_FORMAT_R16G16_SFLOAT);
+}
+
+TEST_F(GpuRequirements, SomethingHasToBlendGradients) {
+    Lies lies;
+    lies.format = [](VkFormat format, VkFormatProperties& properties) {
+        if (format == VK_FORMAT_R32G32_SFLOAT || format == VK_FORMAT_R16G16_SFLOAT) {
+            properties.optimalTilingFeatures &=
+                ~static_cast<VkFormatFeatureFlags>(VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT);
+        }
+    };
+    expect_one_reason(status_with(host_.device(), std::move(lies)),
+                      {"gradient format", "VK_FORMAT_R16G16_SFLOAT"});
+}
+
 TEST_F(GpuRequirements, StencilFallsBackToTheOtherCombinedFormat) {
     for (const bool has_d32 : {false, true}) {
         for (const bool has_d24 : {false, true}) {
