@@ -106,8 +106,11 @@ void draw_regions(Canvas& canvas, const std::vector<Region>& regions, const View
 }
 
 void draw_overview(Canvas& canvas, const Figure& figure) {
-    const Rectangle both = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
-    const View view(with_margin(both, 0.05), overview_panel);
+    Rectangle all = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
+    for (const Region& region : summary_of(figure.answer.result).regions) {
+        all = united(all, {region.min, region.max});
+    }
+    const View view(with_margin(all, 0.05), overview_panel);
     canvas.fill(overview_panel, palette::panel);
     canvas.clip(overview_panel);
     const PageRings a = rings_on_page(figure.a, view);
