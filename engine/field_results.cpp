@@ -59,6 +59,18 @@ float from_word(std::uint32_t word) {
     return std::bit_cast<float>(word);
 }
 
+/// Calls `visit` with the place of every cell that a tile stands for, its halo left out: among the
+/// cells drawn, and in the arrays of a result.
+template <class Visit>
+void for_cells(const Tile& tile, std::size_t result_width, Visit&& visit) {
+    for (std::size_t row = tile.halo; row + tile.halo < tile.height; ++row) {
+        for (std::size_t column = tile.halo; column + tile.halo < tile.width; ++column) {
+            visit(row * tile.width + column,
+                  (tile.row + row - tile.halo) * result_width + tile.column + column - tile.halo);
+        }
+    }
+}
+
 /// Of four cells: low left, low right, high left, high right.
 struct Bilinear {
     std::array<double, 4> weights{};
@@ -148,50 +160,56 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
                             const plan::TileDraw& draw, std::span<const std::uint32_t> words,
                             DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
-    const auto value = [&](std::size_t drawn) { return words[draw.first_value + drawn]; };
-    const bool differences =
-        query.gradients && query.gradient == GradientMethod::central_differences;
-    for (std::uint32_t row = 0; row + 2 * tile.halo < tile.height; ++row) {
-        for (std::uint32_t column = 0; column + 2 * tile.halo < tile.width; ++column) {
-            const std::size_t drawn =
-                std::size_t{row + tile.halo} * tile.width + column + tile.halo;
-            const std::size_t cell = (tile.row + row) * result.width + tile.column + column;
-            if (planned.field.values) {
-                const float distance = in_world(value(drawn), tile);
-                if (query.values) {
-                    result.values[cell] = distance;
-                }
+    if (planned.field.values) {
+        const auto values = words.subspan(draw.first_value);
+        for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
+            const float distance = in_world(values[drawn], tile);
+            if (query.values) {
+                result.values[cell] = distance;
             }
-            const auto set_gradient = [&](float x, float y) {
-                result.gradients[2 * cell] = x;
-                result.gradients[2 * cell + 1] = y;
-            };
-            if (planned.field.features) {
-                const Vector center(static_cast<double>(tile.column + column) + 0.5,
-                                    static_cast<double>(tile.row + row) + 0.5);
-                const NearestFeature nearest =
-                    decode(b, tile, tile.grid.origin + tile.grid.cell * center,
-                           words[draw.first_feature + drawn]);
-                result.unique[cell] = nearest.unique ? 1 : 0;
-                if (query.features) {
-                    result.features[cell] = nearest.feature;
-                }
-                if (query.gradients && query.gradient == GradientMethod::analytic) {
-                    set_gradient(static_cast<float>(nearest.gradient.x()),
-                                 static_cast<float>(nearest.gradient.y()));
-                }
-            }
-            if (differences) {
-                set_gradient(0.5F * (from_word(value(drawn + 1)) - from_word(value(drawn - 1))),
-                             0.5F * (from_word(value(drawn + tile.width)) -
-                                     from_word(value(drawn - tile.width))));
-            } else if (planned.field.gradients) {
-                set_gradient(from_word(words[draw.first_gradient + 2 * drawn]),
-                             from_word(words[draw.first_gradient + 2 * drawn + 1]));
-            }
-        }
+        });
     }
+    if (planned.field.features) {
+        add_features(planned, tile, words.subspan(draw.first_feature), result);
+    }
+    if (planned.field.gradients) {
+        const auto gradients = words.subspan(draw.first_gradient);
+        for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
+            result.gradients[2 * cell] = from_word(gradients[2 * drawn]);
+            result.gradients[2 * cell + 1] = from_word(gradients[2 * drawn + 1]);
+        });
+    } else if (query.gradients && query.gradient == GradientMethod::central_differences) {
+        const auto values = words.subspan(draw.first_value);
+        const auto half_difference = [&](std::size_t high, std::size_t low) {
+            return 0.5F * (from_word(values[high]) - from_word(values[low]));
+        };
+        for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
+            result.gradients[2 * cell] = half_difference(drawn + 1, drawn - 1);
+            result.gradients[2 * cell + 1] =
+                half_difference(drawn + tile.width, drawn - tile.width);
+        });
+    }
+}
+
+void FieldDecoder::add_features(const plan::PlannedQuery& planned, const Tile& tile,
+                                std::span<const std::uint32_t> words, DistanceFieldResult& result) {
+    const auto& query = std::get<DistanceFieldQuery>(*planned.query);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const bool gradients = query.gradients && query.gradient == GradientMethod::analytic;
+    for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
+        const Vector center(static_cast<double>(cell % result.width) + 0.5,
+                            static_cast<double>(cell / result.width) + 0.5);
+        const NearestFeature nearest =
+            decode(b, tile, tile.grid.origin + tile.grid.cell * center, words[drawn]);
+        result.unique[cell] = nearest.unique ? 1 : 0;
+        if (query.features) {
+            result.features[cell] = nearest.feature;
+        }
+        if (gradients) {
+            result.gradients[2 * cell] = static_cast<float>(nearest.gradient.x());
+            result.gradients[2 * cell + 1] = static_cast<float>(nearest.gradient.y());
+        }
+    });
 }
 
 void FieldDecoder::add_point(const plan::PlannedQuery& planned, const Tile& tile,

@@ -32,6 +32,8 @@ private:
     void add_tile(const plan::PlannedQuery& planned, const plan::Tile& tile,
                   const plan::TileDraw& draw, std::span<const std::uint32_t> words,
                   DistanceFieldResult& result);
+    static void add_features(const plan::PlannedQuery& planned, const plan::Tile& tile,
+                             std::span<const std::uint32_t> words, DistanceFieldResult& result);
     void add_point(const plan::PlannedQuery& planned, const plan::Tile& tile,
                    const plan::PlannedFieldPoint& point, std::span<const std::uint32_t> words,
                    FieldPoint& result);

@@ -5,13 +5,38 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <sstream>
 
 namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t seed = 31337;
 
-class Gradients : public FieldLaws {};
+class Gradients : public FieldLaws {
+protected:
+    /// What blending costs, into the test's report: the figures of docs/performance.md.
+    static void record_cost(const DistanceFieldResult& differences,
+                            const DistanceFieldResult& blended) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < differences.gradients.size(); ++i) {
+            sum += std::abs(static_cast<double>(differences.gradients[i] - blended.gradients[i]));
+        }
+        float farthest = 0.0F;
+        for (const float value : differences.values) {
+            farthest = std::max(farthest, std::abs(value));
+        }
+        const auto text = [](double number) {
+            std::ostringstream stream;
+            stream << number;
+            return stream.str();
+        };
+        RecordProperty("largest", text(most_apart(differences, blended)));
+        RecordProperty("mean", text(sum / static_cast<double>(differences.gradients.size())));
+        RecordProperty("stated",
+                       text(blended.gradient_error_bound - differences.gradient_error_bound));
+        RecordProperty("farthest_cells", text(static_cast<double>(farthest) / differences.cell));
+    }
+};
 
 TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForRandomShapes) {
     const int cases = random_cases(60);
@@ -86,7 +111,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     EXPECT_STREQ(blended.gradient_format, "R16G16_SFLOAT");
     check_differences(shape.oracle(), differences);
     check_blended(differences, blended);
-    RecordProperty("largest_difference_half", std::to_string(most_apart(differences, blended)));
+    record_cost(differences, blended);
 
     // Where half precision tells nothing any more, it says so.
     query.rectangle = {{-1.5, 30.0}, {1.5, 31.0}};
@@ -110,7 +135,7 @@ TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
     ASSERT_TRUE(blended.status.ok()) << blended.status.text();
     EXPECT_STREQ(blended.gradient_format, "R32G32_SFLOAT");
     check_blended(differences, blended);
-    RecordProperty("largest_difference_single", std::to_string(most_apart(differences, blended)));
+    record_cost(differences, blended);
 }
 
 /// Several tiles and rounds: no seam in anything.

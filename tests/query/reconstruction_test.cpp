@@ -126,6 +126,52 @@ TEST_F(Reconstruction, SignEncodingsAgree) {
     }
 }
 
+/// Fields of every kind beside other queries, so that all passes share one graph.
+TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
+    Random random(seed + 9);
+    const PlacedPair pair(
+        context(),
+        {{"A", star(random, 20, 0.5)}, {"B", star(random, 30, 0.4)}, {}, {{0.4, 0.2}, 0.5}, 0.04});
+    const Rectangle box{{-1, -1}, {1, 1}};
+    const auto points = any_points(random, box, 50);
+    Batch batch;
+    const auto penetration = batch.add(pair.penetration());
+    const auto intersection = batch.add(pair.intersection(IntersectionKind::volume_volume));
+    std::vector<DistanceFieldQuery> fields;
+    for (int i = 0; i < 9; ++i) {
+        DistanceFieldQuery query;
+        query.b = pair.instance_b();
+        query.tolerance = pair.tolerance();
+        query.rectangle = box;
+        query.sign = static_cast<SignEncoding>(i % 3);
+        query.gradient = static_cast<GradientMethod>(i / 3);
+        query.features = query.gradients = true;
+        query.points = points;
+        fields.push_back(query);
+    }
+    std::vector<QueryHandle<DistanceFieldQuery>> handles;
+    for (const DistanceFieldQuery& query : fields) {
+        handles.push_back(batch.add(query));
+    }
+    Results results;
+    for (int run = 0; run < 2; ++run) {
+        ASSERT_TRUE(context().run(batch, results).ok());
+        check_penetration(pair, PenetrationPoints::boundary, results[penetration]);
+        check_intersection(pair, IntersectionKind::volume_volume, results[intersection]);
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            SCOPED_TRACE(i);
+            const DistanceFieldResult& result = results[handles[i]];
+            check_field(pair.b(), pair.tolerance(), result, 500);
+            check_points(pair.b(), fields[i], result);
+            if (fields[i].gradient == GradientMethod::analytic) {
+                check_cells(pair.b(), fields[i], result, 500);
+            } else {
+                check_differences(pair.b(), result, 500);
+            }
+        }
+    }
+}
+
 TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
     const int cases = random_cases(27);
     for (int i = 0; i < cases; ++i) {
