@@ -7,7 +7,7 @@
 namespace nearfield::tools {
 
 /// Writes an array in NumPy's format (version 1.0, little endian, C order), row 0 first: of float32
-/// or of uint32 of the shape (height, width).  Precondition: width * height values.
+/// or of uint32 of the shape (height, width). Precondition: width * height values.
 void write_npy(std::ostream& stream, std::span<const float> values, std::uint32_t width,
                std::uint32_t height);
 void write_npy(std::ostream& stream, std::span<const std::uint32_t> values, std::uint32_t width,
