@@ -1,6 +1,6 @@
 #include <engine/closest.hpp>
 #include <engine/localize/hierarchy.hpp>
-#include <engine/point_resolver.hpp>
+#include <engine/nearest_feature.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -71,8 +71,10 @@ void write_pair(const PlannedQuery& query, const ClosestPair& pair, SeparationRe
     result.point_a = geometry::to_public(pair.point_a);
     result.point_b = geometry::to_public(pair.point_b);
     result.direction = geometry::to_public((pair.point_b - pair.point_a) / result.distance);
-    result.feature_a = feature_at(*query.a, pair.edge_a, pair.parameter_a);
-    result.feature_b = feature_at(*query.b, pair.edge_b, pair.parameter_b);
+    result.feature_a =
+        feature_at(PlacedPolygon(*query.a, query.pose_a), pair.edge_a, pair.parameter_a);
+    result.feature_b =
+        feature_at(PlacedPolygon(*query.b, query.pose_b), pair.edge_b, pair.parameter_b);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
+#include <engine/graph/format.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
@@ -64,7 +65,8 @@ public:
           device_(host),
           planner_(plan_limits(device_, settings)),
           builder_(subpixel_grid(device_)),
-          renderer_(device_) {}
+          renderer_(device_),
+          decoder_(graph::find_format(device_.gradient_format())->name) {}
 
     Expected<ShapeHandle> add_shape(std::span<const Ring> rings, double deviation);
     Status update_shape(ShapeHandle handle, std::span<const Ring> rings, double deviation);
@@ -209,7 +211,7 @@ void Context::Implementation::run_batch(const Batch& batch, Results& results) {
 
         const Stopwatch decode_start;
         decoder_.add_points(round_, renderer_.points());
-        decoder_.add_field_values(plan_, round_, renderer_.field_values(), results.results);
+        decoder_.add_field(plan_, round_, renderer_.field_words(), results.results);
         ResultDecoder::add_summaries(plan_, round_, renderer_.summaries(), results.results);
         decoder_.add_samples(plan_, round_, renderer_.samples());
         timings.decode += decode_start.milliseconds();

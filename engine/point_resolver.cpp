@@ -1,35 +1,21 @@
+#include <engine/nearest_feature.hpp>
 #include <engine/point_resolver.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace nearfield {
-namespace {
 
 using geometry::Vector;
 
-/// The device decides on which side of the boundary a point lies in single precision, in cells of a
-/// tile. A point nearer to the boundary than this could lie on either side: it touches.
-double touching_distance(const plan::Tile& tile) {
-    const double side = std::max({tile.width, tile.height, 64U});
-    return tile.grid.cell * std::ldexp(side, -21);
-}
+namespace {
 
 /// Farther than this many cells, single precision cannot tell apart what differs by a thousandth of
 /// d: which edge is nearest is decided once more, in double precision.
 constexpr double farthest_in_single_precision = 1024.0;
 
 }  // namespace
-
-Feature feature_at(const geometry::Polygon& polygon, std::uint32_t edge, double parameter) {
-    if (parameter <= 0.0) {
-        return {Feature::Kind::vertex, edge};
-    }
-    if (parameter >= 1.0) {
-        return {Feature::Kind::vertex, polygon.next(edge)};
-    }
-    return {Feature::Kind::edge, edge};
-}
 
 void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& query) {
     plan_ = &plan;
@@ -50,9 +36,7 @@ exact::Boundary& PointResolver::boundary_of_b() {
 ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uint32_t word) {
     const Vector point = position(*a_, planned.point);
     const std::uint32_t edge = word & plan::point_edge_mask;
-    exact::NearestPoint nearest{edge,
-                                geometry::nearest_on_segment(point, b_->vertex(edge),
-                                                             b_->vertex(b_->polygon().next(edge)))};
+    exact::NearestPoint nearest{edge, nearest_on_edge(*b_, edge, point)};
     bool unique = (word & plan::point_unique) != 0;
     const double far = farthest_in_single_precision * query_->budget.cell;
     if (nearest.on_edge.squared_distance > far * far) {
@@ -66,7 +50,7 @@ ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uin
             distance,
             nearest.edge,
             nearest.on_edge.parameter,
-            feature_at(b_->polygon(), nearest.edge, nearest.on_edge.parameter),
+            feature_at(*b_, nearest.edge, nearest.on_edge.parameter),
             (word & plan::point_inside) != 0 &&
                 distance > touching_distance(plan_->tiles[planned.tile]),
             unique};

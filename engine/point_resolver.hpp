@@ -22,10 +22,6 @@ struct ResolvedPoint {
     bool unique = true;
 };
 
-/// The feature that a point of an edge lies on.
-[[nodiscard]] Feature feature_at(const geometry::Polygon& polygon, std::uint32_t edge,
-                                 double parameter);
-
 /// Makes exact what the device said about the points of one query, or of one direction of it.
 class PointResolver {
 public:

@@ -30,33 +30,42 @@ Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
                                                   device.stencil_format(), "stencil")),
       distance_render_pass_(passes::make_prototype(device, passes::number_format,
                                                    passes::distance_depth_format, "distance")),
+      white_render_pass_(
+          passes::make_prototype(device, passes::white_format, VK_FORMAT_UNDEFINED, "white")),
+      signed_feature_render_pass_(passes::make_prototype(
+          device, passes::signed_feature_format, passes::distance_depth_format, "signed feature")),
+      gradient_render_pass_(passes::make_prototype(device, device.gradient_format(),
+                                                   VK_FORMAT_UNDEFINED, "gradient")),
       draw_layout_(passes::make_draw_layout(device)),
       stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
                "stencil"),
       strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
       fill(device, draw_layout_.get(), stencil_, frame),
+      color_fill(device, draw_layout_.get(), white_render_pass_.get(), frame),
       cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), frame),
+      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get(), frame),
+      gradient(device, layout, gradient_render_pass_.get(), frame),
       early_out(device, frame),
       intersect(device, draw_layout_.get(), strategies_, early_out, frame),
       resolve_points(device, layout, frame),
       resolve_field(device, layout, frame),
+      resolve_field_points(device, layout, frame),
+      collect_gradients(device, layout, frame),
       collect(device, layout, frame) {}
 
 Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkExtent2D extent)
     : needs_(needs), extent_(extent) {
     mesh_ = graph_.import_buffer({"mesh", true, false});
     input_ = graph_.import_buffer({"input", true, false});
-    if (needs.points || needs.field) {
-        sign_ = passes.fill.declare(graph_, mesh_, extent);
-        features_ = passes.cone_mesh.declare(graph_, mesh_, extent);
-    }
+    declare_images(passes);
     if (needs.points) {
         results_ = graph_.import_buffer({"point results", false, true});
-        passes.resolve_points.declare(graph_, input_, features_, sign_, results_);
+        const auto& [features, sign] = images_.by_encoding.front();
+        passes.resolve_points.declare(graph_, input_, features, sign, results_);
     }
-    if (needs.field) {
-        values_ = graph_.import_buffer({"field values", false, true});
-        passes.resolve_field.declare(graph_, input_, features_, sign_, values_);
+    if (needs.any_field()) {
+        field_ = graph_.import_buffer({"field results", false, true});
+        declare_field(passes);
     }
     if (needs.overlap != Needs{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
@@ -76,10 +85,50 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
     executor_ = std::make_unique<graph::Executor>(device, graph_, baked_form(graph_));
 }
 
+/// Points look at the images of the first encoding, the stencil's.
+void Recipe::declare_images(const Passes& passes) {
+    const bool by_stencil = needs_.points || needs_.field_by(SignEncoding::stencil);
+    const bool by_color = needs_.field_by(SignEncoding::color);
+    auto& [stencil, color, feature_bit] = images_.by_encoding;
+    if (by_stencil) {
+        stencil.sign = passes.fill.declare(graph_, mesh_, extent_);
+    }
+    if (by_color) {
+        color.sign = passes.color_fill.declare(graph_, mesh_, extent_);
+    }
+    if (by_stencil || by_color) {
+        const Handle features = passes.cone_mesh.declare(graph_, mesh_, extent_);
+        stencil.features = by_stencil ? features : Handle{};
+        color.features = by_color ? features : Handle{};
+    }
+    if (needs_.field_by(SignEncoding::feature_bit)) {
+        feature_bit.features = passes.feature_bit.declare(graph_, mesh_, extent_);
+        feature_bit.sign = feature_bit.features;
+    }
+}
+
+void Recipe::declare_field(const Passes& passes) {
+    passes::FieldImages images = images_;
+    if (!needs_.field_by(SignEncoding::stencil)) {
+        images.by_encoding.front() = {};  // drawn for points of penetration
+    }
+    Handle field = field_;
+    if (needs_.field_cells) {
+        field = passes.resolve_field.declare(graph_, input_, images, field);
+    }
+    if (needs_.field_points) {
+        field = passes.resolve_field_points.declare(graph_, input_, images, field);
+    }
+    if (needs_.blended) {
+        gradients_ = passes.gradient.declare(graph_, mesh_, field, extent_);
+        field = passes.collect_gradients.declare(graph_, input_, gradients_, field);
+    }
+}
+
 void Recipe::set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer read_back) {
     executor_->set_buffer(mesh_, mesh);
     executor_->set_buffer(input_, input);
-    for (const Handle handle : {results_, values_, samples_}) {
+    for (const Handle handle : {results_, field_, samples_}) {
         if (handle != Handle{}) {
             executor_->set_buffer(handle, read_back);
         }
@@ -88,12 +137,20 @@ void Recipe::set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer read_back) {
 
 void Recipe::bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const {
     using Layout = passes::ComputeLayout;
-    for (const auto& [needed, set] :
-         {std::pair{needs_.points, frame.points}, std::pair{needs_.field, frame.field}}) {
-        if (needed) {
-            layout.write_image(set, Layout::image, executor_->sampled_view(features_));
-            layout.write_image(set, Layout::sign_image, executor_->sampled_view(sign_));
+    const auto bind_pair = [&](VkDescriptorSet set, const passes::FieldImages::Pair& images) {
+        layout.write_image(set, Layout::image, executor_->sampled_view(images.features));
+        layout.write_image(set, Layout::sign_image, executor_->sampled_view(images.sign));
+    };
+    if (needs_.points) {
+        bind_pair(frame.points, images_.by_encoding.front());
+    }
+    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        if (needs_.field[encoding]) {
+            bind_pair(frame.field[encoding], images_.by_encoding[encoding]);
         }
+    }
+    if (needs_.blended) {
+        layout.write_image(frame.gradients, Layout::image, executor_->sampled_view(gradients_));
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs_.overlap[i]) {

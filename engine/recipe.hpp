@@ -6,18 +6,24 @@
 #include <engine/graph/graph.hpp>
 #include <nearfield/context.hpp>
 #include <passes/collect.hpp>
+#include <passes/collect_gradients.hpp>
+#include <passes/color_fill.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/cone_mesh.hpp>
 #include <passes/early_out.hpp>
+#include <passes/feature_bit.hpp>
 #include <passes/fill.hpp>
 #include <passes/frame.hpp>
+#include <passes/gradient.hpp>
 #include <passes/intersect.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/resolve_field.hpp>
+#include <passes/resolve_field_points.hpp>
 #include <passes/resolve_points.hpp>
 #include <passes/stencil_pipelines.hpp>
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -26,8 +32,16 @@ namespace nearfield {
 /// What a round asks for.
 struct Needs {
     bool points = false;
-    bool field = false;
+    std::array<bool, passes::sign_encodings> field{};     ///< by sign encoding
+    bool field_cells = false;                             ///< something at every cell of a field
+    bool field_points = false;                            ///< something at points of a field
+    bool blended = false;                                 ///< blended gradients
     std::array<bool, intersection_strategies> overlap{};  ///< by strategy
+
+    [[nodiscard]] bool any_field() const { return field_cells || field_points; }
+    [[nodiscard]] bool field_by(SignEncoding encoding) const {
+        return field[static_cast<std::size_t>(encoding)];
+    }
 
     friend bool operator==(const Needs&, const Needs&) = default;
 };
@@ -42,17 +56,25 @@ private:
     // Render passes that pipelines are made for; those that graphs make are compatible with them.
     gpu::Owned<VkRenderPass> stencil_render_pass_;
     gpu::Owned<VkRenderPass> distance_render_pass_;
+    gpu::Owned<VkRenderPass> white_render_pass_;
+    gpu::Owned<VkRenderPass> signed_feature_render_pass_;
+    gpu::Owned<VkRenderPass> gradient_render_pass_;
     gpu::Owned<VkPipelineLayout> draw_layout_;
     passes::StencilPipelines stencil_;
     passes::IntersectionStrategies strategies_;
 
 public:
     passes::Fill fill;
+    passes::ColorFill color_fill;
     passes::ConeMesh cone_mesh;
+    passes::FeatureBit feature_bit;
+    passes::Gradient gradient;
     passes::EarlyOut early_out;
     passes::Intersect intersect;
     passes::ResolvePoints resolve_points;
     passes::ResolveField resolve_field;
+    passes::ResolveFieldPoints resolve_field_points;
+    passes::CollectGradients collect_gradients;
     passes::Collect collect;
 };
 
@@ -77,16 +99,19 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
+    void declare_images(const Passes& passes);
+    void declare_field(const Passes& passes);
+
     Needs needs_;
     VkExtent2D extent_;
     graph::Graph graph_;
     graph::Handle mesh_;
     graph::Handle input_;
     graph::Handle results_;
-    graph::Handle values_;
+    graph::Handle field_;
     graph::Handle samples_;
-    graph::Handle features_;
-    graph::Handle sign_;
+    passes::FieldImages images_;
+    graph::Handle gradients_;
     std::array<graph::Handle, intersection_strategies> hits_;
     std::unique_ptr<graph::Executor> executor_;
 };

@@ -8,10 +8,12 @@
 namespace nearfield {
 namespace {
 
-// Fill, cone mesh, two that resolve, and three for each strategy.
-constexpr std::uint32_t most_passes = 4 + 3 * intersection_strategies;
-constexpr std::size_t most_recipes = 8;
+// All of points and fields, and three for each strategy.
+constexpr std::uint32_t most_passes = 16 + 3 * intersection_strategies;
 constexpr std::uint32_t smallest_atlas = 256;
+
+// Recipes that keep their images: more kinds of batches than this take turns.
+constexpr std::size_t most_recipes = 8;
 
 // Every part of a buffer that is bound has at least these bytes, its last one too.
 constexpr std::uint64_t smallest_range = 16;
@@ -28,6 +30,23 @@ void copy_to(std::byte* target, const std::vector<Element>& elements) {
     }
 }
 
+Needs needs_of(const plan::Round& round) {
+    Needs needs;
+    needs.points = !round.points.empty();
+    needs.field_points = !round.field_point_runs.empty();
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        needs.overlap[i] = !round.overlap_draws[i].empty();
+    }
+    for (const plan::TileDraw& draw : round.distance_draws) {
+        const auto encoding = static_cast<std::size_t>(draw.sign);
+        needs.field[encoding] = needs.field[encoding] || draw.field;
+        needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
+                            draw.first_feature != plan::not_asked;
+        needs.blended = needs.blended || draw.blended;
+    }
+    return needs;
+}
+
 }  // namespace
 
 Renderer::Renderer(const gpu::Device& device)
@@ -41,9 +60,12 @@ Renderer::Renderer(const gpu::Device& device)
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                  gpu::Direction::readback, "nearfield read-back") {
     frame_.points = layout_.set(0);
-    frame_.field = layout_.set(1);
+    for (std::uint32_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        frame_.field[encoding] = layout_.set(1 + encoding);
+    }
+    frame_.gradients = layout_.set(1 + passes::sign_encodings);
     for (std::uint32_t i = 0; i < intersection_strategies; ++i) {
-        frame_.samples[i] = layout_.set(2 + i);
+        frame_.samples[i] = layout_.set(2 + passes::sign_encodings + i);
     }
 }
 
@@ -93,13 +115,16 @@ Renderer::InputParts Renderer::upload(const plan::Round& round) {
     InputParts parts;
     parts.geometry = align(bytes_of(round.tiles));
     parts.points = align(parts.geometry + bytes_of(geometry));
-    parts.end = parts.points + bytes_of(round.points);
+    parts.field_points = align(parts.points + bytes_of(round.points));
+    parts.end = parts.field_points + bytes_of(round.field_points);
     require_range(bytes_of(geometry), "the edges of one round");
-    require_range(bytes_of(round.points), "the points of one round");
+    require_range(std::max(bytes_of(round.points), bytes_of(round.field_points)),
+                  "the points of one round");
     input_.reserve(parts.end + smallest_range);
     copy_to(input_.data() + parts.tiles, round.tiles);
     copy_to(input_.data() + parts.geometry, geometry);
     copy_to(input_.data() + parts.points, round.points);
+    copy_to(input_.data() + parts.field_points, round.field_points);
     input_.flush();
     mesh_.reserve(bytes_of(round.mesh));
     copy_to(mesh_.data(), round.mesh);
@@ -109,15 +134,15 @@ Renderer::InputParts Renderer::upload(const plan::Round& round) {
 
 void Renderer::lay_out_output(const plan::Round& round) {
     const std::uint64_t point_bytes = round.points.size() * sizeof(std::uint32_t);
-    const std::uint64_t value_bytes = round.field_values * sizeof(float);
+    const std::uint64_t field_bytes = round.field_words * sizeof(std::uint32_t);
     const std::uint64_t sample_bytes =
         sizeof(std::uint32_t) + frame_.sample_capacity * sizeof(plan::SampleData);
-    output_.values = align(point_bytes);
+    output_.field = align(point_bytes);
     const std::uint64_t summary_bytes = round.tiles.size() * sizeof(plan::TileSummary);
-    output_.summaries = align(output_.values + value_bytes);
+    output_.summaries = align(output_.field + field_bytes);
     output_.samples = align(output_.summaries + summary_bytes);
     output_.end = output_.samples + sample_bytes;
-    require_range(std::max({point_bytes, value_bytes, summary_bytes, sample_bytes}),
+    require_range(std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
                   "the results of one round");
     read_back_.reserve(output_.end + smallest_range);
     std::memset(read_back_.data() + output_.samples, 0, sizeof(std::uint32_t));
@@ -146,12 +171,21 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     };
     if (recipe.needs().points) {
         write_tiles(frame_.points);
-        write(frame_.points, Layout::points, input_, input.points, input.end);
-        write(frame_.points, Layout::output, read_back_, output_.points, output_.values);
+        write(frame_.points, Layout::points, input_, input.points, input.field_points);
+        write(frame_.points, Layout::output, read_back_, output_.points, output_.field);
     }
-    if (recipe.needs().field) {
-        write_tiles(frame_.field);
-        write(frame_.field, Layout::output, read_back_, output_.values, output_.summaries);
+    const auto write_field = [&](VkDescriptorSet set) {
+        write_tiles(set);
+        write(set, Layout::points, input_, input.field_points, input.end);
+        write(set, Layout::output, read_back_, output_.field, output_.summaries);
+    };
+    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        if (recipe.needs().field[encoding]) {
+            write_field(frame_.field[encoding]);
+        }
+    }
+    if (recipe.needs().blended) {
+        write_field(frame_.gradients);
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (recipe.needs().overlap[i]) {
@@ -166,10 +200,7 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
 
 void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
     const Stopwatch start;
-    Needs needs{!round.points.empty(), round.field_values > 0, {}};
-    for (std::size_t i = 0; i < intersection_strategies; ++i) {
-        needs.overlap[i] = !round.overlap_draws[i].empty();
-    }
+    const Needs needs = needs_of(round);
     Recipe& recipe = recipe_for(needs, extent);
     last_recipe_ = &recipe;
     const InputParts input = upload(round);
@@ -214,9 +245,9 @@ std::span<const std::uint32_t> Renderer::points() const {
             frame_.round->points.size()};
 }
 
-std::span<const float> Renderer::field_values() const {
-    return {reinterpret_cast<const float*>(read_back_.data() + output_.values),
-            frame_.round->field_values};
+std::span<const std::uint32_t> Renderer::field_words() const {
+    return {reinterpret_cast<const std::uint32_t*>(read_back_.data() + output_.field),
+            frame_.round->field_words};
 }
 
 std::span<const plan::SampleData> Renderer::samples() const {

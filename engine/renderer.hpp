@@ -26,11 +26,10 @@ public:
     /// more samples are found than there was room for, the round runs again with room for all.
     void render(const plan::Round& round, plan::TileSize extent, Timings& timings);
 
-    /// What the last round brought back, by point, by field value, by tile (of overlap tiles only),
-    /// and the samples of the tiles that list theirs, in any order.
-    /// Valid until the next round.
+    /// What the last round brought back: by point, of all fields, by tile (of overlap tiles only),
+    /// and the samples of the tiles that list theirs, in any order. Valid until the next round.
     [[nodiscard]] std::span<const std::uint32_t> points() const;
-    [[nodiscard]] std::span<const float> field_values() const;
+    [[nodiscard]] std::span<const std::uint32_t> field_words() const;
     [[nodiscard]] std::span<const plan::TileSummary> summaries() const;
     [[nodiscard]] std::span<const plan::SampleData> samples() const;
 
@@ -40,10 +39,10 @@ public:
 private:
     /// Where the parts of a buffer start, in bytes.
     struct InputParts {
-        std::uint64_t tiles = 0, geometry = 0, points = 0, end = 0;
+        std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
     };
     struct OutputParts {
-        std::uint64_t points = 0, values = 0, summaries = 0, samples = 0, end = 0;
+        std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
     };
 
     Recipe& recipe_for(Needs needs, plan::TileSize extent);

@@ -1,5 +1,6 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/overlap.hpp>
+#include <engine/nearest_feature.hpp>
 #include <engine/results.hpp>
 
 #include <algorithm>
@@ -68,30 +69,12 @@ bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultS
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
+    fields_.begin_batch(plan);
 }
 
 void ResultDecoder::add_points(const plan::Round& round, std::span<const std::uint32_t> words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
         words_[round.point_index[i]] = words[i];
-    }
-}
-
-void ResultDecoder::add_field_values(const plan::Plan& plan, const plan::Round& round,
-                                     std::span<const float> values,
-                                     std::vector<AnyResult>& results) const {
-    for (const plan::TileDraw& draw : round.distance_draws) {
-        if (!draw.field) {
-            continue;
-        }
-        const Tile& tile = plan.tiles[round.tile_index[draw.tile]];
-        auto& result = std::get<DistanceFieldResult>(results[tile.query]);
-        const auto cell = static_cast<float>(tile.grid.cell);
-        for (std::uint32_t row = 0; row < tile.height; ++row) {
-            const auto from = values.subspan(draw.first_value + row * tile.width, tile.width);
-            float* to = result.values.data() + (tile.row + row) * result.width + tile.column;
-            std::transform(from.begin(), from.end(), to,
-                           [cell](float value) { return value * cell; });
-        }
     }
 }
 
@@ -173,24 +156,6 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
     }
 }
 
-void ResultDecoder::finish_field(DistanceFieldResult& result) {
-    // Far from B a float of single precision is coarser than the rest of the bound.
-    float largest = 0.0F;
-    for (const float value : result.values) {
-        largest = std::max(largest, std::abs(value));
-    }
-    result.error_bound += std::ldexp(static_cast<double>(largest), -21);
-    if (!(result.error_bound <= result.tolerance)) {
-        result.values.clear();
-        result.status = {StatusCode::invalid_query,
-                         "the field reaches to a distance of " + std::to_string(largest) +
-                             " from B, where single precision cannot tell apart what differs by "
-                             "the tolerance " +
-                             std::to_string(result.tolerance) +
-                             "; take a rectangle nearer to B or a larger tolerance"};
-    }
-}
-
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     finish_intersections(plan, results);
     for (std::size_t i = 0; i < results.size(); ++i) {
@@ -208,7 +173,7 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
             if (field->status.ok()) {
                 field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
-                finish_field(*field);
+                fields_.finish(planned, static_cast<std::uint32_t>(i), *field);
             }
         } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
             if (contact->status.ok()) {

@@ -2,6 +2,7 @@
 
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
+#include <engine/field_results.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/point_resolver.hpp>
@@ -16,19 +17,23 @@ namespace nearfield {
 /// Decodes what came back from the device, round by round, and makes it exact in double precision.
 class ResultDecoder {
 public:
+    explicit ResultDecoder(const char* gradient_format) : fields_(gradient_format) {}
+
     void begin_batch(const plan::Plan& plan);
 
     /// Takes the read-back of one round.
     void add_points(const plan::Round& round, std::span<const std::uint32_t> words);
-    void add_field_values(const plan::Plan& plan, const plan::Round& round,
-                          std::span<const float> values, std::vector<AnyResult>& results) const;
     static void add_summaries(const plan::Plan& plan, const plan::Round& round,
                               std::span<const plan::TileSummary> summaries,
                               std::vector<AnyResult>& results);
+    void add_field(const plan::Plan& plan, const plan::Round& round,
+                   std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
+        fields_.add(plan, round, words, results);
+    }
     void add_samples(const plan::Plan& plan, const plan::Round& round,
                      std::span<const plan::SampleData> samples);
 
-    /// After the last round: writes penetration and intersection results.
+    /// After the last round: writes penetration and intersection results, closes those of fields.
     void finish(const plan::Plan& plan, std::vector<AnyResult>& results);
 
 private:
@@ -43,7 +48,6 @@ private:
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result);
-    static void finish_field(DistanceFieldResult& result);
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
@@ -51,6 +55,7 @@ private:
     ContactDecoder contacts_;
     ClosestDecoder closest_;
     std::vector<FoundSample> samples_;
+    FieldDecoder fields_;
 };
 
 }  // namespace nearfield

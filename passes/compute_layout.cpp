@@ -30,6 +30,9 @@ gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkS
                                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+        if (i == ComputeLayout::output) {
+            bindings[i].stageFlags |= VK_SHADER_STAGE_FRAGMENT_BIT;
+        }
         bindings[i].pImmutableSamplers = is_image ? &sampler : nullptr;
     }
     VkDescriptorSetLayoutCreateInfo info{};
@@ -98,9 +101,11 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
     gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_),
                "vkAllocateDescriptorSets", "compute passes");
     constexpr std::array<const char*, set_count> names{
-        "nearfield resolve points set",    "nearfield resolve field set",
-        "nearfield collect set, stencil",  "nearfield collect set, blend",
-        "nearfield collect set, logic op", "nearfield collect set, depth"};
+        "nearfield resolve points set",    "nearfield field by stencil set",
+        "nearfield field by color set",    "nearfield field by feature bit set",
+        "nearfield collect gradients set", "nearfield collect set, stencil",
+        "nearfield collect set, blend",    "nearfield collect set, logic op",
+        "nearfield collect set, depth"};
     for (std::uint32_t i = 0; i < set_count; ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }

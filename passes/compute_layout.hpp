@@ -5,12 +5,13 @@
 #include <engine/plan/round.hpp>
 #include <nearfield/query.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace nearfield::passes {
 
 /// The one layout of all compute passes, and their descriptor sets: which buffers and images they
-/// read and write. Bindings as in the shaders.
+/// read and write. Bindings as in the shaders. A fragment shader may read the output.
 class ComputeLayout {
 public:
     enum Binding : std::uint32_t {
@@ -22,12 +23,13 @@ public:
         sign_image,
         summaries = points,  ///< of the collect passes
     };
-    static constexpr std::uint32_t set_count = 2 + intersection_strategies;
-    static constexpr std::uint32_t push_bytes = 8;
+    static constexpr std::uint32_t set_count = 2 + 3 + intersection_strategies;
+    static constexpr std::uint32_t push_bytes = 28;
 
     explicit ComputeLayout(const gpu::Device& device);
 
     [[nodiscard]] VkPipelineLayout pipeline_layout() const { return pipeline_layout_.get(); }
+    [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
     [[nodiscard]] VkDescriptorSet set(std::uint32_t index) const { return sets_[index]; }
 
     /// Points a binding elsewhere. Not while the device uses the set.
@@ -43,6 +45,24 @@ private:
     gpu::Owned<VkDescriptorPool> pool_;
     VkDescriptorSet sets_[set_count]{};  // owned by the pool
 };
+
+/// Dispatches a shader that runs one thread an element, in groups of 64, for the elements from
+/// `begin` to `end`: in as many parts as the device needs. `push` is called before each part with
+/// its first element.
+template <class Push>
+void dispatch_points(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t begin,
+                     std::uint32_t end, Push&& push) {
+    constexpr std::uint32_t group_size = 64;
+    // The smallest maxComputeWorkGroupCount a device may have.
+    constexpr std::uint32_t most_groups = 65535;
+    for (std::uint64_t first = begin; first < end; first += most_groups * group_size) {
+        push(static_cast<std::uint32_t>(first));
+        const std::uint64_t groups = (end - first + group_size - 1) / group_size;
+        functions.vkCmdDispatch(
+            commands, static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, most_groups)), 1,
+            1);
+    }
+}
 
 /// Dispatches a shader that runs one thread a cell, in groups of 8 x 8, over a tile.
 void dispatch_tile(const gpu::Functions& functions, VkCommandBuffer commands,

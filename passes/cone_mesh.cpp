@@ -46,11 +46,15 @@ void ConeMesh::record(VkCommandBuffer commands) const {
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     for (const plan::TileDraw& tile : frame_->round->distance_draws) {
-        renderer.draw(tile, tile.rectangle, 1.0F, plan::no_feature);
+        if (tile.sign != SignEncoding::feature_bit) {
+            renderer.draw(tile, tile.rectangle, 1.0F, plan::no_feature);
+        }
     }
     renderer.bind(draw_.get());
     for (const plan::TileDraw& tile : frame_->round->distance_draws) {
-        renderer.draw(tile, tile.distance, tile.depth_scale, 0);
+        if (tile.sign != SignEncoding::feature_bit) {
+            renderer.draw(tile, tile.distance, tile.depth_scale, 0);
+        }
     }
 }
 

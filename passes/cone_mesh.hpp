@@ -9,8 +9,8 @@ namespace nearfield::passes {
 
 /// The distance mesh of B (section 2.2.2 of the paper): tents and cones with the depth test LESS.
 /// Reads the mesh; writes the feature image (which edge of the tile's list of nearest edges won) in
-/// every tile with a distance field. How far it is, the depth, is computed again from the feature
-/// by those who need it, so the depth image is forgotten.
+/// every tile with a distance field, but for those that have FeatureBit draw it. How far it is, the
+/// depth, is computed again from the feature by those who need it, so the depth image is forgotten.
 class ConeMesh {
 public:
     ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,

@@ -21,23 +21,22 @@ graph::Handle Fill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D 
 void Fill::record(VkCommandBuffer commands) const {
     using namespace stencil_bits;
     const TileRenderer renderer(*device_, layout_, commands, *frame_);
-    const auto& draws = frame_->round->distance_draws;
-
+    const auto draw_all = [&](plan::DrawRange plan::TileDraw::*range, std::uint32_t value) {
+        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+            if (tile.sign == SignEncoding::stencil) {
+                renderer.draw(tile, tile.*range, 1.0F, value);
+            }
+        }
+    };
     renderer.bind(pipelines_->clear.get());
     renderer.stencil(all, all, 0);
-    for (const plan::TileDraw& tile : draws) {
-        renderer.draw(tile, tile.rectangle, 1.0F, 0);
-    }
+    draw_all(&plan::TileDraw::rectangle, 0);
     renderer.bind(pipelines_->parity.get());
     renderer.stencil(all, parity_b, 0);
-    for (const plan::TileDraw& tile : draws) {
-        renderer.draw(tile, tile.b, 1.0F, 0);
-    }
+    draw_all(&plan::TileDraw::b, 0);
     renderer.bind(pipelines_->mark.get());
     renderer.stencil(parity_b, 0, parity_b);
-    for (const plan::TileDraw& tile : draws) {
-        renderer.draw(tile, tile.rectangle, 1.0F, 1);
-    }
+    draw_all(&plan::TileDraw::rectangle, filled_mask);
 }
 
 }  // namespace nearfield::passes

@@ -9,7 +9,7 @@ namespace nearfield::passes {
 
 /// Polygon fill of B by stencil parity: the sign of the distance field (section 2.2.2 of the paper,
 /// first encoding). Reads the mesh; writes the sign image, 1 inside B and 0 outside, in every tile
-/// with a distance field.
+/// with a distance field that asks for this encoding.
 class Fill {
 public:
     Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,
@@ -27,5 +27,8 @@ private:
     const StencilPipelines* pipelines_;
     const Frame* frame_;
 };
+
+/// Which bits of a texel of the sign image say "inside".
+inline constexpr std::uint32_t filled_mask = 1;
 
 }  // namespace nearfield::passes

@@ -5,9 +5,12 @@
 #include <vulkan/vulkan_core.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace nearfield::passes {
+
+inline constexpr std::size_t sign_encodings = 3;
 
 /// What all passes record from. One object lives as long as the passes; its contents change from
 /// round to round.
@@ -15,7 +18,8 @@ struct Frame {
     const plan::Round* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;  ///< the round's mesh, at offset 0
     VkDescriptorSet points = VK_NULL_HANDLE;
-    VkDescriptorSet field = VK_NULL_HANDLE;
+    VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
+    VkDescriptorSet gradients = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
     VkBuffer read_back = VK_NULL_HANDLE;
     VkDeviceSize summaries_offset = 0;  ///< of the summaries in the read-back, in bytes

@@ -9,6 +9,22 @@
 
 namespace nearfield::passes {
 
+namespace {
+
+/// Colours are added in all channels.
+VkPipelineColorBlendAttachmentState additive() {
+    VkPipelineColorBlendAttachmentState state{};
+    state.blendEnable = VK_TRUE;
+    state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
+    state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    return state;
+}
+
+}  // namespace
+
 IntersectionStrategies::IntersectionStrategies(const gpu::Device& device, VkPipelineLayout layout,
                                                VkRenderPass number_render_pass,
                                                const StencilPipelines& numbers)
@@ -80,7 +96,7 @@ void IntersectionStrategies::make_blend() {
     sum.render_pass = color_render_pass_.get();
     sum.fragment_shader = shaders::color_frag;
     sum.stencil_pass = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
-    sum.color = gpu::ColorOperation::add;
+    sum.blend = additive();
     steps.a = make(sum);
     steps.value_b = 128;
     steps.value_a = 127;
@@ -94,7 +110,7 @@ void IntersectionStrategies::make_logic_op(const StencilPipelines& numbers) {
     steps.b = numbers.mark.get();
     auto combine = description("nearfield logic op or");
     combine.stencil_pass = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
-    combine.color = gpu::ColorOperation::bit_or;
+    combine.logic_or = true;
     steps.a = make(combine);
     steps.value_b = 127;
     steps.value_a = 128;

@@ -1,9 +1,46 @@
 #include <engine/gpu/pipeline.hpp>
+#include <passes/color_fill.hpp>
+#include <passes/feature_bit.hpp>
+#include <passes/fill.hpp>
 #include <passes/resolve_field.hpp>
 
 #include <shaders/resolve_field_comp.hpp>
 
+#include <algorithm>
+
 namespace nearfield::passes {
+
+void FieldImages::declare_reads(graph::PassBuilder& pass) const {
+    std::array<graph::Handle, 2 * sign_encodings> seen;
+    std::size_t count = 0;
+    for (const Pair& pair : by_encoding) {
+        for (const graph::Handle handle : {pair.features, pair.sign}) {
+            if (handle != graph::Handle{} &&
+                std::find(seen.begin(), seen.begin() + count, handle) == seen.begin() + count) {
+                seen[count++] = handle;
+                pass.read(handle, graph::Access::sampled_in_compute);
+            }
+        }
+    }
+}
+
+std::uint32_t sign_mask(SignEncoding encoding) {
+    switch (encoding) {
+        case SignEncoding::color:
+            return white_mask;
+        case SignEncoding::feature_bit:
+            return feature_bit_mask;
+        case SignEncoding::stencil:
+            break;
+    }
+    return filled_mask;
+}
+
+void bind_field_set(const gpu::Functions& functions, VkCommandBuffer commands,
+                    VkPipelineLayout layout, const Frame& frame, SignEncoding encoding) {
+    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
+                                      &frame.field[static_cast<std::size_t>(encoding)], 0, nullptr);
+}
 
 ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layout,
                            const Frame& frame)
@@ -13,31 +50,32 @@ ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layou
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_field_comp,
                                            "nearfield resolve field")) {}
 
-void ResolveField::declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
-                           graph::Handle sign, graph::Handle values) const {
+graph::Handle ResolveField::declare(graph::Graph& graph, graph::Handle input,
+                                    const FieldImages& images, graph::Handle field) const {
     graph.add_pass(
         "resolve field", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(input, graph::Access::storage_read_in_compute);
-            pass.read(features, graph::Access::sampled_in_compute);
-            pass.read(sign, graph::Access::sampled_in_compute);
-            static_cast<void>(pass.write(values, graph::Access::storage_write_in_compute));
+            images.declare_reads(pass);
+            field = pass.write(field, graph::Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) { record(commands); });
+    return field;
 }
 
 void ResolveField::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->field, 0, nullptr);
     for (const plan::TileDraw& tile : frame_->round->distance_draws) {
-        if (tile.field) {
-            const std::uint32_t push[2] = {tile.tile, tile.first_value};
-            functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                         sizeof(push), push);
-            dispatch_tile(functions, commands, tile);
+        if (tile.first_value == plan::not_asked && tile.first_feature == plan::not_asked) {
+            continue;
         }
+        bind_field_set(functions, commands, layout_, *frame_, tile.sign);
+        const std::uint32_t push[4] = {tile.tile, sign_mask(tile.sign), tile.first_value,
+                                       tile.first_feature};
+        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(push), push);
+        dispatch_tile(functions, commands, tile);
     }
 }
 

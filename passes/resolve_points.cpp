@@ -3,16 +3,7 @@
 
 #include <shaders/resolve_points_comp.hpp>
 
-#include <algorithm>
-
 namespace nearfield::passes {
-namespace {
-
-constexpr std::uint32_t group_size = 64;
-// The smallest maxComputeWorkGroupCount a device may have.
-constexpr std::uint32_t most_groups = 65535;
-
-}  // namespace
 
 ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
                              const Frame& frame)
@@ -41,13 +32,11 @@ void ResolvePoints::record(VkCommandBuffer commands) const {
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                       &frame_->points, 0, nullptr);
     const auto count = static_cast<std::uint32_t>(frame_->round->points.size());
-    for (std::uint32_t first = 0; first < count; first += most_groups * group_size) {
+    dispatch_points(functions, commands, 0, count, [&](std::uint32_t first) {
         const std::uint32_t push[2] = {first, count};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
-        const std::uint32_t groups = (count - first + group_size - 1) / group_size;
-        functions.vkCmdDispatch(commands, std::min(groups, most_groups), 1, 1);
-    }
+    });
 }
 
 }  // namespace nearfield::passes

@@ -12,13 +12,11 @@ struct Push {
     float depth_scale;
     std::uint32_t value;
 };
-static_assert(offsetof(Push, value) == 20 && sizeof(Push) == 24);
+static_assert(offsetof(Push, value) == 20 && sizeof(Push) == draw_push_bytes);
 
 // What gpu::make_graphics_pipeline declares as vertex input.
 static_assert(sizeof(geometry::MeshVertex) == 16 && offsetof(geometry::MeshVertex, distance) == 8 &&
               offsetof(geometry::MeshVertex, id) == 12);
-
-constexpr VkShaderStageFlags push_stages = VK_SHADER_STAGE_VERTEX_BIT;
 
 // Meshes reach up to two cells outside their tile. A viewport that holds them whole saves the
 // rasteriser from clipping, which would move edges; the scissor cuts what is outside.
@@ -27,7 +25,7 @@ constexpr float viewport_border = 4.0F;
 }  // namespace
 
 gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
-    const VkPushConstantRange push{push_stages, 0, sizeof(Push)};
+    const VkPushConstantRange push{draw_push_stages, 0, sizeof(Push)};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.pushConstantRangeCount = 1;
@@ -77,7 +75,7 @@ void TileRenderer::draw(const plan::TileDraw& tile, plan::DrawRange range, float
                     {2.0F * viewport_border / width - 1.0F, 2.0F * viewport_border / height - 1.0F},
                     depth_scale,
                     value};
-    functions_->vkCmdPushConstants(commands_, layout_, push_stages, 0, sizeof(push), &push);
+    functions_->vkCmdPushConstants(commands_, layout_, draw_push_stages, 0, sizeof(push), &push);
     functions_->vkCmdDraw(commands_, range.count, 1, range.first, 0);
 }
 

@@ -9,7 +9,11 @@
 
 namespace nearfield::passes {
 
-/// The pipeline layout of every graphics pipeline: no resources, push constants only.
+/// What mesh.vert takes as push constants, from offset 0.
+inline constexpr VkShaderStageFlags draw_push_stages = VK_SHADER_STAGE_VERTEX_BIT;
+inline constexpr std::uint32_t draw_push_bytes = 24;
+
+/// The pipeline layout of graphics pipelines without resources: push constants only.
 [[nodiscard]] gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device);
 
 /// Records draws into tiles: a tile is a viewport (cells to pixels, one to one) and a scissor.

@@ -6,13 +6,14 @@
 // nearly the nearest. What they leave open is decided on B's own edges.
 
 #include "layout.glsl"
+#include "nearest.glsl"
 
 layout(local_size_x = 64) in;
 
 struct Point {
     vec2 position;
     uint tile;
-    uint unused;
+    uint cell;  // of a field only
 };
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
@@ -28,139 +29,6 @@ layout(push_constant) uniform Push {
     uint first;
     uint count;
 } push;
-
-const uint inside_flag = 1u << 31;
-const uint unique_flag = 1u << 30;
-const uint resolved_flag = 1u << 29;
-const float infinity = 1.0 / 0.0;
-
-bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so that a vertex on the ray counts once.
-    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-}
-
-bool run_crosses(vec2 p, Edge edge) {
-    bool odd = false;
-    vec2 a = geometry[edge.run];
-    for (uint i = 1u; i <= edge.run_count; ++i) {
-        vec2 b = geometry[edge.run + i];
-        odd = odd != crosses(p, a, b);
-        a = b;
-    }
-    return odd;
-}
-
-// Odd-even rule on the original boundary. A run of edges and the straight edge that stands for it
-// enclose no point outside the box around both, so only near points need the run itself.
-bool inside_by_crossings(vec2 p, EdgeList list) {
-    bool odd = false;
-    for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        vec2 low = geometry[box];
-        vec2 high = geometry[box + 1u];
-        if (p.y < low.y || p.y > high.y || p.x > high.x) {
-            continue;
-        }
-        uint end = min(first + cluster_size, list.count);
-        for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
-            vec2 edge_low = min(edge.a, edge.b) - edge.deviation;
-            vec2 edge_high = max(edge.a, edge.b) + edge.deviation;
-            bool near = all(greaterThanEqual(p, edge_low)) && all(lessThanEqual(p, edge_high));
-            odd = odd != (edge.run_count > 1u && near ? run_crosses(p, edge)
-                                                      : crosses(p, edge.a, edge.b));
-        }
-    }
-    return odd;
-}
-
-struct Nearest {
-    float distance;
-    vec2 point;
-    uint edge;
-};
-
-void consider(vec2 p, vec2 a, vec2 b, uint edge, inout Nearest nearest) {
-    vec2 q = nearest_on_segment(p, a, b);
-    float d = distance(p, q);
-    if (d < nearest.distance) {
-        nearest = Nearest(d, q, edge);
-    }
-}
-
-void consider_run(vec2 p, Edge edge, inout Nearest nearest) {
-    if (edge.run_count == 1u) {
-        consider(p, edge.a, edge.b, edge.first_edge, nearest);
-        return;
-    }
-    vec2 a = geometry[edge.run];
-    for (uint i = 1u; i <= edge.run_count; ++i) {
-        vec2 b = geometry[edge.run + i];
-        consider(p, a, b, edge.first_edge + i - 1u, nearest);
-        a = b;
-    }
-}
-
-Nearest find_nearest(vec2 p, EdgeList list, Nearest nearest) {
-    for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        if (distance_to_box(p, geometry[box], geometry[box + 1u]) > nearest.distance) {
-            continue;
-        }
-        uint end = min(first + cluster_size, list.count);
-        for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
-            if (distance_to_segment(p, edge.a, edge.b) - edge.deviation < nearest.distance) {
-                consider_run(p, edge, nearest);
-            }
-        }
-    }
-    return nearest;
-}
-
-// A second boundary point as near, up to the margin, as the nearest one is a rival where it lies
-// farther from it than the same straight wall could explain.
-bool is_rival(vec2 p, vec2 a, vec2 b, Nearest nearest, float margin) {
-    vec2 q = nearest_on_segment(p, a, b);
-    float limit = nearest.distance + margin;
-    float along_wall = limit * limit - nearest.distance * nearest.distance;
-    vec2 apart = q - nearest.point;
-    return distance(p, q) <= limit && dot(apart, apart) > 4.0 * along_wall;
-}
-
-bool run_has_rival(vec2 p, Edge edge, Nearest nearest, float margin) {
-    if (edge.run_count == 1u) {
-        return is_rival(p, edge.a, edge.b, nearest, margin);
-    }
-    vec2 a = geometry[edge.run];
-    for (uint i = 1u; i <= edge.run_count; ++i) {
-        vec2 b = geometry[edge.run + i];
-        if (is_rival(p, a, b, nearest, margin)) {
-            return true;
-        }
-        a = b;
-    }
-    return false;
-}
-
-bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
-    float limit = nearest.distance + margin;
-    for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        if (distance_to_box(p, geometry[box], geometry[box + 1u]) > limit) {
-            continue;
-        }
-        uint end = min(first + cluster_size, list.count);
-        for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
-            if (distance_to_segment(p, edge.a, edge.b) - edge.deviation <= limit &&
-                run_has_rival(p, edge, nearest, margin)) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
 
 uint resolve(Point point) {
     Tile tile = tiles[point.tile];

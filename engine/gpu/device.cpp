@@ -50,6 +50,8 @@ Device::Device(const HostDevice& host) : host_(host) {
         find_stencil_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
     strategy_support_ = gpu::strategy_support(functions_.vkGetPhysicalDeviceFormatProperties,
                                               host.physical_device, host.logic_op);
+    gradient_format_ =
+        find_gradient_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
     std::uint32_t count = 0;
     functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);

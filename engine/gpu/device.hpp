@@ -27,6 +27,9 @@ public:
     /// A combined depth-stencil format that can be an attachment; only its stencil is used.
     [[nodiscard]] VkFormat stencil_format() const { return stencil_format_; }
     [[nodiscard]] const StrategySupport& strategy_support() const { return strategy_support_; }
+    /// A format of two floats that can be blended and sampled: of single precision where the device
+    /// blends that, else of half.
+    [[nodiscard]] VkFormat gradient_format() const { return gradient_format_; }
     /// 0 where the queue family has no timestamps.
     [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -58,6 +61,7 @@ private:
     std::string name_;
     VkFormat stencil_format_ = VK_FORMAT_UNDEFINED;
     StrategySupport strategy_support_;
+    VkFormat gradient_format_ = VK_FORMAT_UNDEFINED;
     std::uint32_t timestamp_bits_ = 0;
 };
 

@@ -151,15 +151,11 @@ VkPipelineDynamicStateCreateInfo dynamic_state() {
 
 VkPipelineColorBlendAttachmentState color_attachment(const GraphicsPipelineDescription& what) {
     VkPipelineColorBlendAttachmentState state{};
-    if (!what.fragment_shader.empty()) {
+    if (what.blend) {
+        state = *what.blend;
+    } else if (!what.fragment_shader.empty()) {
         state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    }
-    if (what.color == ColorOperation::add) {
-        state.blendEnable = VK_TRUE;
-        state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-        state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
     }
     return state;
 }
@@ -203,7 +199,7 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
     const auto blending = color_attachment(what);
     VkPipelineColorBlendStateCreateInfo color_blend{};
     color_blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    color_blend.logicOpEnable = what.color == ColorOperation::bit_or ? VK_TRUE : VK_FALSE;
+    color_blend.logicOpEnable = what.logic_or ? VK_TRUE : VK_FALSE;
     color_blend.logicOp = VK_LOGIC_OP_OR;
     color_blend.attachmentCount = 1;
     color_blend.pAttachments = &blending;

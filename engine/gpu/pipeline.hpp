@@ -4,6 +4,7 @@
 #include <engine/gpu/owned.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -15,13 +16,6 @@ using Spirv = std::span<const std::uint32_t>;
 [[nodiscard]] Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout,
                                                       Spirv shader, const std::string& name);
 
-/// What a fragment's colour does to the one that is there.
-enum class ColorOperation : std::uint8_t {
-    replace,
-    add,     ///< additive blending; the attachment's format has to blend
-    bit_or,  ///< logic operation; needs the feature logicOp
-};
-
 /// What differs between the graphics pipelines of this library; all draw triangle lists of
 /// geometry::MeshVertex, with viewport, scissor and stencil masks and reference as dynamic state.
 struct GraphicsPipelineDescription {
@@ -30,7 +24,10 @@ struct GraphicsPipelineDescription {
     VkPipelineLayout layout = VK_NULL_HANDLE;
     Spirv vertex_shader;
     Spirv fragment_shader;  ///< empty: no fragment shader, nothing is written to colour
-    ColorOperation color = ColorOperation::replace;
+    /// How colours are combined with what is there, and which channels are written; nothing: they
+    /// replace it in all channels.
+    std::optional<VkPipelineColorBlendAttachmentState> blend;
+    bool logic_or = false;    ///< colours are combined bit by bit; needs the feature logicOp
     bool depth_test = false;  ///< write depth too
     VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
     bool stencil_test = false;

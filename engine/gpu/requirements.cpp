@@ -93,7 +93,7 @@ void check_formats(const InstanceFunctions& functions, VkPhysicalDevice device, 
         const char* feature_name;
         const char* why;
     };
-    const std::array<Requirement, 3> table{{
+    const std::array<Requirement, 5> table{{
         {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
          "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT", "signs and feature ids are drawn to it"},
         {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
@@ -101,6 +101,12 @@ void check_formats(const InstanceFunctions& functions, VkPhysicalDevice device, 
         {VK_FORMAT_D32_SFLOAT, "VK_FORMAT_D32_SFLOAT",
          VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
          "VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT", "the nearest feature wins by depth"},
+        {VK_FORMAT_R8_UNORM, "VK_FORMAT_R8_UNORM", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT", "signs are drawn white on black to it"},
+        {VK_FORMAT_R8G8B8A8_UNORM, "VK_FORMAT_R8G8B8A8_UNORM",
+         VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT",
+         "signs are drawn as the top bit of feature ids to it"},
     }};
     for (const Requirement& row : table) {
         if ((optimal_features(functions.format, device, row.format) & row.feature) == 0) {
@@ -114,6 +120,12 @@ void check_formats(const InstanceFunctions& functions, VkPhysicalDevice device, 
             "VK_FORMAT_D24_UNORM_S8_UINT has VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT with "
             "optimal tiling, and shapes are filled by stencil parity");
     }
+    if (find_gradient_format(functions.format, device) == VK_FORMAT_UNDEFINED) {
+        missing.emplace_back(
+            "a gradient format: neither VK_FORMAT_R32G32_SFLOAT nor VK_FORMAT_R16G16_SFLOAT has "
+            "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT and VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT "
+            "with optimal tiling, and gradients are blended in it");
+    }
 }
 
 }  // namespace
@@ -124,6 +136,19 @@ VkFormat find_stencil_format(PFN_vkGetPhysicalDeviceFormatProperties get_propert
     for (const VkFormat format : {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT}) {
         if ((optimal_features(get_properties, physical_device, format) &
              VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0) {
+            return format;
+        }
+    }
+    return VK_FORMAT_UNDEFINED;
+}
+
+VkFormat find_gradient_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
+                              VkPhysicalDevice physical_device) {
+    constexpr VkFormatFeatureFlags needed =
+        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+    // Every device blends the second; few leave the first out.
+    for (const VkFormat format : {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT}) {
+        if ((optimal_features(get_properties, physical_device, format) & needed) == needed) {
             return format;
         }
     }

@@ -20,4 +20,9 @@ namespace nearfield::gpu {
 [[nodiscard]] VkFormat find_stencil_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                                            VkPhysicalDevice physical_device);
 
+/// A format of two floats that can be blended and sampled, the more precise one if there is a
+/// choice; VK_FORMAT_UNDEFINED where the device has none.
+[[nodiscard]] VkFormat find_gradient_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
+                                            VkPhysicalDevice physical_device);
+
 }  // namespace nearfield::gpu

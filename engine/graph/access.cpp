@@ -10,7 +10,7 @@ namespace {
 // Attachments read as well as they write: loading, blending, logic operations and tests look at
 // what was there. All reads of images share one layout and all reads of one kind of resource differ
 // in their stages, which lets a read after a read do without a second look at the layout.
-constexpr std::array<AccessTraits, 7> accesses = {{
+constexpr std::array<AccessTraits, 8> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -56,6 +56,10 @@ constexpr std::array<AccessTraits, 7> accesses = {{
      .write_access = VK_ACCESS_TRANSFER_WRITE_BIT,
      .writes = true,
      .pass_kind = PassKind::compute},
+    {.name = "storage_read_in_fragment",
+     .stages = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
+     .pass_kind = PassKind::graphics},
 }};
 
 }  // namespace

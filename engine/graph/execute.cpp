@@ -26,6 +26,9 @@ gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription
                                VkImageUsageFlags usage) {
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    if (description.sampled_format != VK_FORMAT_UNDEFINED) {
+        info.flags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+    }
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = description.format;
     info.extent = {description.extent.width, description.extent.height, 1};
@@ -46,13 +49,13 @@ gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription
 }
 
 gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
-                                  const ImageDescription& description, VkImageAspectFlags aspects,
-                                  const char* purpose) {
+                                  const ImageDescription& description, VkFormat format,
+                                  VkImageAspectFlags aspects, const char* purpose) {
     VkImageViewCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     info.image = image;
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    info.format = description.format;
+    info.format = format;
     info.subresourceRange = {aspects, 0, 1, 0, 1};
     const std::string name = "nearfield image " + description.name + " as " + purpose;
     VkImageView view = VK_NULL_HANDLE;
@@ -158,11 +161,15 @@ void Executor::create_views(const Graph& graph) {
         const VkImageUsageFlags usage = baked_.lifetimes[i].usage;
         Image& image = images_[i];
         if ((usage & ~static_cast<VkImageUsageFlags>(VK_IMAGE_USAGE_SAMPLED_BIT)) != 0) {
-            image.attachment_view = make_view(*device_, image.image.get(), resource.image,
-                                              all_aspects(resource), "attachment");
+            image.attachment_view =
+                make_view(*device_, image.image.get(), resource.image, resource.image.format,
+                          all_aspects(resource), "attachment");
         }
         if ((usage & VK_IMAGE_USAGE_SAMPLED_BIT) != 0) {
-            image.sampled_view = make_view(*device_, image.image.get(), resource.image,
+            const VkFormat format = resource.image.sampled_format != VK_FORMAT_UNDEFINED
+                                        ? resource.image.sampled_format
+                                        : resource.image.format;
+            image.sampled_view = make_view(*device_, image.image.get(), resource.image, format,
                                            sampled_aspect(resource), "sampled");
         }
     }

@@ -19,6 +19,7 @@ enum class Access : std::uint8_t {
     storage_write_in_compute,  ///< buffer, written (or read and written) in a compute shader
     vertex_buffer,             ///< buffer, read as vertex input
     transfer_write,            ///< buffer, a part of it written by a copy
+    storage_read_in_fragment,  ///< buffer, read in a fragment shader
 };
 
 /// A resource at one version. Writing gives a new version and makes the old one invalid: who reads
@@ -36,6 +37,8 @@ struct ImageDescription {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{};
+    /// What sampling takes its bits for, where that is another format of the same size.
+    VkFormat sampled_format = VK_FORMAT_UNDEFINED;
 };
 
 /// A buffer of the caller's. Version 0 holds what the host wrote before the graph runs, if

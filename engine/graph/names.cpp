@@ -17,6 +17,7 @@ struct Bit {
 constexpr std::array stage_bits = {
     Bit{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, "vertex-input"},
     Bit{VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, "early-tests"},
+    Bit{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, "fragment"},
     Bit{VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT, "late-tests"},
     Bit{VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, "color-output"},
     Bit{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, "compute"},

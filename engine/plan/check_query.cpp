@@ -59,6 +59,27 @@ Status check_pose(const Pose& pose, const std::string& whose) {
 
 namespace {
 
+Status check_field(const DistanceFieldQuery& query) {
+    if (!query.rectangle && query.a.shape == ShapeHandle{}) {
+        return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
+    }
+    if (!query.values && !query.features && !query.gradients && query.points.empty()) {
+        return invalid(
+            "the distance field asks for nothing: neither for values, features or gradients at "
+            "cells nor for points");
+    }
+    for (std::size_t i = 0; i < query.points.size(); ++i) {
+        for (const double value : {query.points[i].x, query.points[i].y}) {
+            if (Status status =
+                    check_coordinate(value, "a coordinate of point " + std::to_string(i));
+                !status.ok()) {
+                return status;
+            }
+        }
+    }
+    return query.rectangle ? check_rectangle(*query.rectangle) : Status();
+}
+
 template <class Query>
 Status check_pair(const Query& query) {
     Status status = check_length(query.tolerance, "the tolerance");
@@ -79,12 +100,7 @@ std::string number(double value) {
 Status check_query(const AnyQuery& query) {
     Status status = std::visit([](const auto& any) { return check_pair(any); }, query);
     if (const auto* field = std::get_if<DistanceFieldQuery>(&query); field && status.ok()) {
-        if (field->rectangle) {
-            return check_rectangle(*field->rectangle);
-        }
-        if (field->a.shape == ShapeHandle{}) {
-            return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
-        }
+        return check_field(*field);
     }
     if (const auto* contact = std::get_if<ContactQuery>(&query); contact && status.ok()) {
         return check_length(contact->contact_distance, "the contact distance");
@@ -97,16 +113,6 @@ Status check_query(const AnyQuery& query) {
         }
     }
     return status;
-}
-
-double largest_magnitude(const geometry::Box& box) {
-    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-}
-
-double largest_magnitude(const geometry::PlacedPolygon& placed, const Pose& pose) {
-    return std::max({largest_magnitude(placed.box()),
-                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                     std::abs(pose.translation.y)});
 }
 
 Status check_resolution(double tolerance, double largest_magnitude) {

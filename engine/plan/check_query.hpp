@@ -15,11 +15,6 @@ namespace nearfield::plan {
 /// A pose that can be used, or an error; `whose` it is, for the message.
 [[nodiscard]] Status check_pose(const Pose& pose, const std::string& whose);
 
-/// The largest coordinate of a box, in magnitude.
-[[nodiscard]] double largest_magnitude(const geometry::Box& box);
-/// The largest number that placing a shape in the world goes through.
-[[nodiscard]] double largest_magnitude(const geometry::PlacedPolygon& placed, const Pose& pose);
-
 /// A tolerance that double precision can resolve at these coordinates, or an error.
 [[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);
 

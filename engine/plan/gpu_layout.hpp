@@ -9,7 +9,10 @@ namespace nearfield::plan {
 /// Lengths are in cells of the tile, positions relative to its low corner.
 
 inline constexpr std::uint32_t no_feature = UINT32_MAX;  ///< in an id image: nothing was drawn
-inline constexpr std::uint32_t cluster_size = 8;         ///< edges under one bounding box
+/// Where features share their image with signs, ids are below this, and this says that nothing was
+/// drawn.
+inline constexpr std::uint32_t most_signed_features = (1U << 24U) - 1U;
+inline constexpr std::uint32_t cluster_size = 8;  ///< edges under one bounding box
 
 /// A list of edges in the geometry array, in clusters: `count` edges (EdgeData) from `edges` on;
 /// from `clusters` on a box (low corner, high corner) for every cluster_size of them. Both are
@@ -43,15 +46,16 @@ struct EdgeData {
 };
 static_assert(sizeof(EdgeData) == 32);
 
-/// A point whose depth is asked for.
+/// A point whose depth is asked for, or at which a field is reconstructed.
 struct PointData {
     float x = 0.0F, y = 0.0F;
     std::uint32_t tile = 0;
-    std::uint32_t unused = 0;
+    std::uint32_t cell = 0;  ///< of a field: the low one of the four around, column | row << 16
 };
 static_assert(sizeof(PointData) == 16);
 
-/// A resolved point, one word: B's nearest edge and three flags. Zero: outside, not resolved.
+/// A resolved point or cell, one word: B's nearest edge and three flags. Zero: outside, not
+/// resolved.
 inline constexpr std::uint32_t point_inside = 1U << 31U;
 inline constexpr std::uint32_t point_unique = 1U << 30U;
 inline constexpr std::uint32_t point_resolved = 1U << 29U;

@@ -6,6 +6,7 @@ void Plan::clear() {
     queries.clear();
     tiles.clear();
     points.clear();
+    field_points.clear();
     extent = {};
     rounds = 0;
     result_bytes = 0.0;

@@ -5,6 +5,7 @@
 #include <engine/plan/atlas.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/field_parts.hpp>
 #include <engine/plan/grid.hpp>
 #include <engine/plan/needed_blocks.hpp>
 #include <nearfield/localization.hpp>
@@ -28,20 +29,21 @@ struct Tile {
     TileKind kind{};
     std::uint32_t region = 0;  ///< of the query's regions, the one it belongs to
     Grid grid;                 ///< of that region
-    std::uint64_t column = 0;  ///< in that grid, of the tile's low corner
+    std::uint64_t column = 0;  ///< in that grid, of the tile's low corner without its halo
     std::uint64_t row = 0;
-    std::uint32_t width = 0;
+    std::uint32_t width = 0;  ///< drawn, the halo included
     std::uint32_t height = 0;
+    std::uint32_t halo = 0;  ///< cells drawn around what the tile stands for, on every side
     AtlasPlace place;
     /// Which blocks of the tile hold points, or all of them for a field. Not for overlap.
     NeededBlocks needed;
 
-    /// In cells of the tile.
+    /// Of what is drawn, in cells of the tile.
     [[nodiscard]] geometry::Vector centre() const { return {0.5 * width, 0.5 * height}; }
-    /// In the world.
+    /// Of what is drawn, in the world.
     [[nodiscard]] geometry::Vector origin() const {
-        return grid.origin +
-               grid.cell * geometry::Vector(static_cast<double>(column), static_cast<double>(row));
+        return grid.origin + grid.cell * geometry::Vector(static_cast<double>(column) - halo,
+                                                          static_cast<double>(row) - halo);
     }
 };
 
@@ -49,6 +51,16 @@ struct Tile {
 struct PlannedPoint {
     BoundaryPoint point;
     std::uint32_t tile = 0;
+};
+
+/// A point at which a field is reconstructed, between four cells of a tile.
+struct PlannedFieldPoint {
+    geometry::Vector position;  ///< in the world
+    std::uint32_t tile = 0;
+    std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile as drawn
+    std::uint32_t row = 0;
+    double across = 0.0;  ///< of the way from the centre of that cell to the next, along x
+    double up = 0.0;      ///< and along y
 };
 
 /// What one query became, or one direction of it. The polygons live in the shape store until the
@@ -69,6 +81,9 @@ struct PlannedQuery {
     bool outside = false;
     /// Where the other direction stands in Plan::queries: points of B in the field of A.
     std::uint32_t reverse = none;
+    FieldParts field;  ///< of a distance field
+    std::uint32_t first_field_point = 0;
+    std::uint32_t field_point_count = 0;
 };
 
 /// A batch as tiles: what is to be rendered, where, and for whom.
@@ -77,8 +92,9 @@ struct Plan {
     std::vector<PlannedQuery> queries;
     BoundingVolume bounding_volume{};  ///< what hierarchies are made of
     std::vector<Tile> tiles;
-    std::vector<PlannedPoint> points;  ///< in order of queries, then along A's rings
-    TileSize extent;                   ///< of the atlas
+    std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
+    std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
+    TileSize extent;                              ///< of the atlas
     std::uint32_t rounds = 0;
     /// Bytes all results may need on the host.
     double result_bytes = 0.0;

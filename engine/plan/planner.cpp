@@ -1,6 +1,7 @@
 #include <engine/failure.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -17,10 +18,10 @@ using geometry::PlacedPolygon;
 // in the buffers on the way there.
 constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
 constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
-constexpr double bytes_per_field_cell = 2.0 * sizeof(float);
 
-// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth).
-constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0;
+// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth);
+// signs in white, signed features with their distances, gradients.
+constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
 constexpr std::uint32_t smallest_atlas = 256;
 
@@ -55,6 +56,12 @@ Result& reuse(AnyResult& any) {
         result.origin = {};
         result.width = result.height = 0;
         result.values.clear();
+        result.features.clear();
+        result.gradients.clear();
+        result.unique.clear();
+        result.points.clear();
+        result.gradient_error_bound = 0.0;
+        result.gradient_format = "";
     } else if constexpr (std::is_same_v<Result, ContactResult>) {
         result.count = 0;
         result.manifold.clear();
@@ -257,51 +264,8 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
                    2.0);
     require_sides(query.tolerance);
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
-        cut_into_tiles(region, TileKind::overlap);
+        cut_into_tiles(region, TileKind::overlap, limits_.largest_tile, 0);
     }
-}
-
-void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    Box box;
-    if (query.rectangle) {
-        box = Box(geometry::to_vector(query.rectangle->min),
-                  geometry::to_vector(query.rectangle->max));
-    } else {
-        const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
-        box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
-        if (box.isEmpty()) {
-            result.status = {StatusCode::invalid_query,
-                             "the bounding boxes of A and B have nothing in common; give the "
-                             "rectangle the distance field is to cover"};
-            return;
-        }
-        box.min().array() -= query.tolerance;
-        box.max().array() += query.tolerance;
-    }
-    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
-    if (!result.status.ok()) {
-        return;
-    }
-    result.status = check_resolution(
-        query.tolerance,
-        std::max(largest_magnitude(box),
-                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
-    if (!result.status.ok()) {
-        return;
-    }
-    boxes_.assign(1, box);
-    add_regions(planned.budget.cell, result);
-    const Grid& grid = grids_.front();
-    require_memory(bytes_per_field_cell * grid.cells(), query.tolerance, 2.0);
-    result.origin = geometry::to_public(grid.origin);
-    result.width = static_cast<std::uint32_t>(grid.width);
-    result.height = static_cast<std::uint32_t>(grid.height);
-    result.values.resize(grid.width * grid.height);
-    cut_into_tiles(0, TileKind::field);
 }
 
 /// A side that a Region cannot state is an error.
@@ -328,9 +292,9 @@ double Planner::bytes_of_tiles() const {
     return tiles * bytes_per_tile;
 }
 
-void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
+void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,
+                             std::uint32_t halo) {
     const Grid& grid = grids_[region];
-    const std::uint64_t side = limits_.largest_tile;
     for (std::uint64_t row = 0; row < grid.height; row += side) {
         for (std::uint64_t column = 0; column < grid.width; column += side) {
             Tile& tile = plan_->tiles.emplace_back();
@@ -340,8 +304,13 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind) {
             tile.grid = grid;
             tile.column = column;
             tile.row = row;
-            tile.width = static_cast<std::uint32_t>(std::min(side, grid.width - column));
-            tile.height = static_cast<std::uint32_t>(std::min(side, grid.height - row));
+            tile.halo = halo;
+            tile.width =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(side, grid.width - column)) +
+                2 * halo;
+            tile.height =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(side, grid.height - row)) +
+                2 * halo;
             if (kind == TileKind::field) {
                 tile.needed = NeededBlocks(tile.width, tile.height);
                 tile.needed.add_all();

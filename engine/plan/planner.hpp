@@ -21,6 +21,9 @@ struct PlanLimits {
     /// Cells along a side of tiles for boundary points, which fill their region thinly: small tiles
     /// leave out what holds no point, and each draws and tests the edges near it only.
     std::uint32_t points_tile = 64;
+    /// The same of tiles of a field with features, where each cell looks through all edges that can
+    /// be nearest in its tile, or with points, of which few tiles may hold any.
+    std::uint32_t features_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need
     std::uint32_t hierarchy_height = 12;
@@ -67,11 +70,21 @@ private:
     void spread_points(std::uint32_t index, const geometry::Box& within, ResultSummary& result);
     [[nodiscard]] localize::OverlapOptions overlap_options(double grow) const;
     void count(const localize::Effort& effort, ResultSummary& result) const;
-    void join_chain_boxes(const geometry::Box& within, double grow);
-    void add_regions(double cell, ResultSummary& result);
     void require_sides(double tolerance) const;
     [[nodiscard]] double bytes_of_tiles() const;
-    void cut_into_tiles(std::uint32_t region, TileKind kind);
+    /// Where nothing is asked for at every cell: drops the tiles of the query that hold no point.
+    void drop_tiles_without_points(std::uint32_t first_tile);
+    void join_chain_boxes(const geometry::Box& within, double grow);
+    void add_regions(double cell, ResultSummary& result);
+    /// Cuts a region into tiles of at most `side` x `side` cells, row by row; each is drawn with a
+    /// halo of cells around it.
+    void cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,
+                        std::uint32_t halo);
+    /// Cells along a side of a field's tiles, without the halo.
+    [[nodiscard]] std::uint32_t field_tile(const FieldParts& parts) const;
+    /// Spreads the points of a field over the tiles that it will be cut into.
+    [[nodiscard]] Status add_field_points(const DistanceFieldQuery& query, const Grid& grid,
+                                          std::uint32_t first_tile);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();
 
@@ -89,6 +102,7 @@ private:
     std::vector<Grid> grids_;
     std::vector<BoundaryPoint> samples_;
     PointTiles point_tiles_{64};
+    std::vector<std::uint32_t> kept_tiles_;
     std::vector<TileSize> sizes_;
     std::vector<AtlasPlace> places_;
 };

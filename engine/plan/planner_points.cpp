@@ -1,4 +1,5 @@
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 

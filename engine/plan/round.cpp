@@ -71,8 +71,11 @@ void Round::clear() {
     }
     tile_index.clear();
     runs.clear();
+    field_points.clear();
+    field_point_index.clear();
+    field_point_runs.clear();
+    field_words = 0;
     watched = 0;
-    field_values = 0;
     listed_cells = 0;
 }
 
@@ -105,6 +108,7 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
         }
     }
     add_points(plan, number, round);
+    add_field_points(plan, number, round);
 }
 
 DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
@@ -141,6 +145,30 @@ DrawRange RoundBuilder::add_distance_mesh(const Tile& tile,
         }
     }
     return since(first, mesh);
+}
+
+void RoundBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                    Round& round) const {
+    draw.field = true;
+    draw.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+    if (draw.sign == SignEncoding::feature_bit && nearest_.size() >= most_signed_features) {
+        throw Failure({StatusCode::too_large,
+                       std::to_string(nearest_.size()) +
+                           " edges can be nearest in one tile of a distance field; an id that "
+                           "carries the sign in its top bit has room for " +
+                           std::to_string(most_signed_features)});
+    }
+    draw.blended = query.field.blended;
+    const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
+    const auto reserve = [&](bool asked, std::uint64_t words, std::uint32_t& first) {
+        if (asked) {
+            first = static_cast<std::uint32_t>(round.field_words);
+            round.field_words += words;
+        }
+    };
+    reserve(query.field.values, cells, draw.first_value);
+    reserve(query.field.features, cells, draw.first_feature);
+    reserve(query.field.gradients, 2 * cells, draw.first_gradient);
 }
 
 void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
@@ -189,9 +217,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     data.outside = query.outside ? 1 : 0;
 
     if (tile.kind == TileKind::field) {
-        draw.field = true;
-        draw.first_value = round.field_values;
-        round.field_values += tile.width * tile.height;
+        add_field_output(query, tile, draw, round);
     }
     round.distance_draws.push_back(draw);
 }
@@ -263,6 +289,38 @@ void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& rou
                                         0});
                 round.point_index.push_back(i);
             }
+        }
+    }
+}
+
+void RoundBuilder::add_field_points(const Plan& plan, std::uint32_t number, Round& round) {
+    for (std::uint32_t index = 0; index < plan.queries.size(); ++index) {
+        const PlannedQuery& query = plan.queries[index];
+        if (query.field_point_count == 0) {
+            continue;
+        }
+        FieldPointRun run;
+        run.first = static_cast<std::uint32_t>(round.field_points.size());
+        run.query = index;
+        run.first_word = static_cast<std::uint32_t>(round.field_words);
+        run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+        run.parts = query.field;
+        const std::uint32_t end = query.first_field_point + query.field_point_count;
+        for (std::uint32_t i = query.first_field_point; i < end; ++i) {
+            const PlannedFieldPoint& point = plan.field_points[i];
+            const Tile& tile = plan.tiles[point.tile];
+            if (tile.place.round == number) {
+                const Vector local = (point.position - tile.origin()) / tile.grid.cell;
+                round.field_points.push_back(
+                    {static_cast<float>(local.x()), static_cast<float>(local.y()),
+                     tile_of_plan_[point.tile], point.column | point.row << 16U});
+                round.field_point_index.push_back(i);
+                ++run.count;
+            }
+        }
+        if (run.count > 0) {
+            round.field_point_runs.push_back(run);
+            round.field_words += std::uint64_t{run.count} * run.parts.words_per_point;
         }
     }
 }

@@ -27,6 +27,9 @@ struct EdgeRun {
     std::uint32_t count = 0;
 };
 
+/// In place of a position in the read-back.
+inline constexpr std::uint32_t not_asked = UINT32_MAX;
+
 /// How a shape is drawn into an overlap tile.
 enum class Part : std::uint8_t { volume, boundary };
 
@@ -51,8 +54,24 @@ struct TileDraw {
     Part part_b = Part::volume;
     bool list = false;               ///< overlap tiles: the samples are listed, not counted only
     std::uint32_t watch = no_watch;  ///< overlap tiles: the occlusion query around A, if any
-    bool field = false;              ///< a value is asked for at every cell
-    std::uint32_t first_value = 0;   ///< field tiles: where its values start in the read-back
+    // Field tiles only: where, in 32-bit words of the field's read-back, what is asked for at every
+    // cell starts.
+    bool field = false;
+    SignEncoding sign = SignEncoding::stencil;
+    bool blended = false;                      ///< the gradient image is drawn
+    std::uint32_t first_value = not_asked;     ///< a word a cell
+    std::uint32_t first_feature = not_asked;   ///< a word a cell
+    std::uint32_t first_gradient = not_asked;  ///< two words a cell
+};
+
+/// The points of one field query that a round answers.
+struct FieldPointRun {
+    std::uint32_t first = 0;  ///< in Round::field_points
+    std::uint32_t count = 0;
+    std::uint32_t query = 0;       ///< in Plan::queries
+    std::uint32_t first_word = 0;  ///< in the field's read-back
+    SignEncoding sign = SignEncoding::stencil;
+    FieldParts parts;
 };
 
 /// One filling of the atlas, in the form the device takes.
@@ -67,8 +86,11 @@ struct Round {
     std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
     std::vector<EdgeRun> runs;              ///< of A's edges: what ids of offset polygons stand for
     std::uint32_t watched = 0;              ///< overlap tiles with an occlusion query
-    std::uint32_t field_values = 0;         ///< values of all field tiles together
     std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
+    std::vector<PointData> field_points;
+    std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
+    std::vector<FieldPointRun> field_point_runs;
+    std::uint64_t field_words = 0;  ///< of the read-back of all fields together
 
     void clear();
 };
@@ -85,8 +107,12 @@ public:
 private:
     void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                            Round& round);
+    /// Makes room in the read-back for what is asked for at every cell.
+    void add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                          Round& round) const;
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw, Round& round);
     void add_points(const Plan& plan, std::uint32_t number, Round& round);
+    void add_field_points(const Plan& plan, std::uint32_t number, Round& round);
     [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                      geometry::Mesh& mesh) const;
     [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset, bool with_runs,

@@ -80,8 +80,29 @@ struct IntersectionQuery {
     IntersectionStrategy strategy = IntersectionStrategy::stencil;
 };
 
+/// Which buffer of the device says which cells lie inside (section 2.2.2 lists all three). They
+/// give the same sign everywhere.
+enum class SignEncoding {
+    stencil,      ///< the stencil buffer, set to 1
+    color,        ///< a colour buffer of its own, set to white
+    feature_bit,  ///< the top bit of the feature id in the image of nearest features
+};
+
+/// How the gradient of the signed distance is found (section 2.2.3). Gradients point to where the
+/// signed distance grows: away from B outside it, the way out inside.
+enum class GradientMethod {
+    /// From the nearest feature: the unit vector between a place and the nearest point of B's
+    /// boundary. Exact to rounding; where several points are nearest it is one of several.
+    analytic,
+    /// Half the difference of the signed distances at the two neighbours, along x and along y.
+    central_differences,
+    /// The same, for the whole image in blended passes on the device, at the precision of a pixel.
+    blended,
+};
+
 /// The signed distance field of B (section 2.2.2): distance to B's boundary at the centres of a
-/// grid of cells, negative inside B.
+/// grid of cells, negative inside B; and what follows from it, the image of nearest features (the
+/// Voronoi diagram) and the gradient (section 2.2.3). Refused where nothing is asked for.
 struct DistanceFieldQuery {
     Instance a;  ///< whose box is shared; may be left out (the default) where a rectangle is given
     Instance b;
@@ -89,7 +110,18 @@ struct DistanceFieldQuery {
     /// What the grid covers; its low corner is the low corner of cell (0, 0). Left out: what the
     /// bounding boxes of A and B have in common, grown by d on every side; an error where they have
     /// nothing in common.
-    std::optional<Rectangle> rectangle;
+    std::optional<Rectangle> rectangle = std::nullopt;
+    SignEncoding sign = SignEncoding::stencil;
+    /// Of the gradients asked for, at cells and at points.
+    GradientMethod gradient = GradientMethod::analytic;
+    bool values = true;      ///< the signed distance at every cell
+    bool features = false;   ///< the nearest feature at every cell
+    bool gradients = false;  ///< the gradient at every cell
+    /// Places where distance, sign and gradient are reconstructed from the four cells around, world
+    /// coordinates. Only those cells are read back for them. Each has to lie in the grid, edge
+    /// included (reconstruction takes cells from a border around the grid). Borrowed until run()
+    /// returns.
+    std::span<const Vector2> points = {};
 };
 
 /// Where the normal of a contact comes from.

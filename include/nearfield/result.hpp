@@ -95,13 +95,48 @@ struct IntersectionResult : ResultSummary {
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 
+/// The field at one of DistanceFieldQuery::points.
+struct FieldPoint {
+    Vector2 point;
+    /// Signed distance: bilinear between the four cell centres around the point.
+    double distance = 0.0;
+    /// The exact signed distance differs from `distance` by no more than this. A distance changes
+    /// by no more than the way walked, so each of the four cells confines it; this is what all four
+    /// leave open, at most DistanceFieldResult::error_bound + d.
+    double error_bound = 0.0;
+    /// The sign, 0 outside and 1 inside, bilinear between the same four cells: more than 0.5 is
+    /// negative. Right wherever the boundary is farther than 1.0824 d + the result's error_bound.
+    double inside = 0.0;
+    /// By DistanceFieldQuery::gradient. Analytic: at the point itself, from `feature`. The others:
+    /// bilinear between the gradients of the four cells.
+    Vector2 gradient;
+    Feature feature;     ///< of B's boundary, nearest to the point itself
+    bool unique = true;  ///< as PenetrationRecord::unique, of `feature` and the analytic gradient
+};
+
 /// Answer to a DistanceFieldQuery. `error_bound` bounds the difference from the exact signed
-/// distance at every cell centre.
+/// distance at every cell centre that was read back.
+///
+/// What is asked for at every cell has width * height entries, row by row from the lowest, and is
+/// empty where it was not asked for. Features are found among B's own edges. Which is nearest is
+/// decided in single precision in grid cells: where two are equally near to within d/1000, or to
+/// within 2^-18 of the distance where that is more, either may be named, and `unique` is 0.
 struct DistanceFieldResult : ResultSummary {
-    Vector2 origin;             ///< low corner of cell (0, 0)
-    std::uint32_t width = 0;    ///< cells along x
-    std::uint32_t height = 0;   ///< cells along y
-    std::vector<float> values;  ///< width * height, row by row from the lowest; negative inside B
+    Vector2 origin;                    ///< low corner of cell (0, 0)
+    std::uint32_t width = 0;           ///< cells along x
+    std::uint32_t height = 0;          ///< cells along y
+    std::vector<float> values;         ///< signed distance, negative inside B
+    std::vector<Feature> features;     ///< of B's boundary, nearest to the centre
+    std::vector<float> gradients;      ///< x and y of each cell, one after the other
+    std::vector<std::uint8_t> unique;  ///< 1 or 0; with features or analytic gradients
+    std::vector<FieldPoint> points;    ///< in the order asked
+    /// Bounds, for either component of a gradient at a cell, the difference from: the unit vector
+    /// between the centre and the nearest point of the feature named (analytic; on the boundary,
+    /// its outward normal), central differences of the exact signed distance (the other methods). 0
+    /// where no gradient was asked for.
+    double gradient_error_bound = 0.0;
+    /// The Vulkan format that a blended gradient went through ("R32G32_SFLOAT"); empty without one.
+    const char* gradient_format = "";
 };
 
 /// Which of the two shapes of a query.

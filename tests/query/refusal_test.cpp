@@ -81,6 +81,46 @@ TEST_F(Refusal, OfRectangles) {
     expect_refused(queries, StatusCode::invalid_query);
 }
 
+TEST_F(Refusal, OfFieldsThatAskForNothing) {
+    DistanceFieldQuery query{{}, pair_.instance_b(), 0.1, Rectangle{{0, 0}, {1, 1}}};
+    query.values = false;
+    expect_refused(std::vector{query}, StatusCode::invalid_query);
+    EXPECT_NE(run_alone(context(), query).status.message().find("asks for nothing"),
+              std::string::npos);
+}
+
+TEST_F(Refusal, OfPointsOutsideTheField) {
+    for (const Vector2& bad : {Vector2{-0.3, 0.5}, Vector2{0.5, 1.3}, Vector2{not_a_number, 0.5},
+                               Vector2{0.5, -infinity}, Vector2{0.5, 1e300}}) {
+        const std::vector<Vector2> points{{0.5, 0.5}, bad};
+        DistanceFieldQuery query{{}, pair_.instance_b(), 0.1, Rectangle{{0, 0}, {1, 1}}};
+        query.points = points;
+        expect_refused(std::vector{query}, StatusCode::invalid_query);
+        const DistanceFieldResult result = run_alone(context(), query);
+        EXPECT_NE(result.status.message().find("point 1"), std::string::npos)
+            << result.status.text();
+        EXPECT_TRUE(result.points.empty());
+    }
+}
+
+TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
+    Settings settings;
+    settings.memory_limit = std::uint64_t{32} << 20U;
+    Expected<Context> small = Context::create(host_device(), settings);
+    ASSERT_TRUE(small.ok()) << small.status().text();
+    const Expected<ShapeHandle> shape = small->add_shape(rectangle({0, 0}, {1, 1}));
+    ASSERT_TRUE(shape.ok());
+    // What fits as distances alone does not fit with features and gradients.
+    DistanceFieldQuery query{{}, {*shape, {}}, 0.0005, Rectangle{{0, 0}, {1, 1}}};
+    EXPECT_TRUE(run_alone(*small, query).status.ok());
+    query.features = query.gradients = true;
+    EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
+    const std::vector<Vector2> points(1'000'000, Vector2{0.5, 0.5});
+    query = {{}, {*shape, {}}, 0.01, Rectangle{{0, 0}, {1, 1}}};
+    query.points = points;
+    EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);
+}
+
 TEST_F(Refusal, OfUnknownShapes) {
     std::vector<PenetrationQuery> queries(3, pair_.penetration());
     queries[0].a.shape = {};

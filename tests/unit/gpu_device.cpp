@@ -2,7 +2,7 @@
 #include <engine/gpu/device.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 
 namespace nearfield {

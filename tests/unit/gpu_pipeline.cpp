@@ -3,8 +3,8 @@
 #include <engine/gpu/pipeline.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_canvas.hpp>
-#include <tests/unit/gpu_fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 #include <tests/unit/gpu_shaders.hpp>
 

@@ -3,8 +3,8 @@
 #include <engine/gpu/timestamps.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_compute_task.hpp>
-#include <tests/unit/gpu_fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
 
 #include <cstring>

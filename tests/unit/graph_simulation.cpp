@@ -37,6 +37,9 @@ Need need(Access access) {
             return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                     VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
                     VK_ACCESS_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::storage_read_in_fragment:
+            return {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
         case Access::vertex_buffer:
             return {VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT, 0,
                     VK_IMAGE_LAYOUT_UNDEFINED};

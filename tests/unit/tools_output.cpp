@@ -123,6 +123,21 @@ TEST(ToolsJson, NumbersThatJsonCannotHoldAreNull) {
     EXPECT_EQ(stream.str(), "[null, -0.5]");
 }
 
+TEST(ToolsNpy, WordsAndPairsSaySoInTheirHeaders) {
+    std::ostringstream words;
+    const std::vector<std::uint32_t> ids{1, 2, 0x80000003U, 4, 5, 6};
+    write_npy(words, ids, 3, 2);
+    EXPECT_NE(words.str().find("{'descr': '<u4', 'fortran_order': False, 'shape': (2, 3), }"),
+              std::string::npos);
+    EXPECT_EQ(words.str().substr(words.str().size() - 16, 4), std::string("\x03\x00\x00\x80", 4));
+    std::ostringstream pairs;
+    const std::vector<float> numbers(12, 1.0F);
+    write_npy_pairs(pairs, numbers, 3, 2);
+    EXPECT_NE(pairs.str().find("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3, 2), }"),
+              std::string::npos);
+    EXPECT_EQ(pairs.str().size() % 64, 48U);
+}
+
 TEST(ToolsNpy, ReadsBackAsWritten) {
     for (const std::uint32_t width : {1U, 3U, 100'000U}) {
         const std::uint32_t height = 2;

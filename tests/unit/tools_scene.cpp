@@ -47,6 +47,31 @@ TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
     EXPECT_EQ(scene.queries[2].request.rectangle->max, (Vector2{2, 3}));
 }
 
+TEST(ToolsScene, ReadsWhatADistanceFieldIsAskedFor) {
+    const TemporaryFolder folder;
+    folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
+    const std::string begin =
+        R"({"query": "distance-field", "a": "two", "b": "two", "tolerance": 2, )";
+    const auto read = [&](const std::string& members) {
+        return read_scene(folder.write("s.json", scene_text(begin + members + "}")));
+    };
+    const Scene scene =
+        read(R"("sign": "feature-bit", "gradient": "blended", "values": false, "features": true,
+                "gradients": true, "at": [[1, 2], [3, 4]])");
+    const QueryRequest& request = scene.queries.at(0).request;
+    EXPECT_EQ(request.sign, SignEncoding::feature_bit);
+    EXPECT_EQ(request.gradient, GradientMethod::blended);
+    EXPECT_FALSE(request.values);
+    EXPECT_TRUE(request.features);
+    EXPECT_TRUE(request.gradients);
+    EXPECT_EQ(request.at, (std::vector<Vector2>{{1, 2}, {3, 4}}));
+    const std::string file = folder.file("s.json") + ": queries[0].";
+    EXPECT_EQ(input_error([&] { return read(R"("at": [[1]])"); }),
+              file + "at[0]: expected [x, y] (two numbers)");
+    EXPECT_EQ(input_error([&] { return read(R"("gradient": "blended")"); }),
+              file + "gradient: there is no gradient asked for, by gradients or at");
+}
+
 TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
     const TemporaryFolder folder;
     folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");

@@ -14,8 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -39,6 +42,38 @@ void refuse_option(const std::optional<std::string>& value, const std::string& o
     }
 }
 
+/// What only a distance field has.
+void parse_field_request(const QueryArguments& arguments, QueryRequest& request) {
+    if (arguments.sign) {
+        request.sign = parse_sign(*arguments.sign, "--sign");
+    }
+    for (const std::string& point : arguments.at) {
+        request.at.push_back(parse_point(point, "--at"));
+    }
+    if (arguments.show) {
+        request.picture = parse_picture(*arguments.show, "--show");
+        if (!arguments.image) {
+            throw InputError("--show: there is no picture to show it in; add --image FILE.png");
+        }
+    }
+    const auto shown = [&](FieldPicture picture) {
+        return arguments.image && request.picture == picture;
+    };
+    request.features = arguments.features || shown(FieldPicture::voronoi);
+    request.gradients = arguments.gradient_field || shown(FieldPicture::gradient);
+    if (arguments.gradient) {
+        request.gradient = parse_gradient(*arguments.gradient, "--gradient");
+        if (!request.gradients && request.at.empty()) {
+            throw InputError(
+                "--gradient: there is no gradient asked for; add --gradient-field, --at or --show "
+                "gradient");
+        }
+    }
+    // Distances at every cell come back where something shows them, or where nothing else would.
+    request.values = arguments.field || shown(FieldPicture::field) ||
+                     (!request.features && !request.gradients && request.at.empty());
+}
+
 QueryRequest parse_request(const QueryArguments& arguments) {
     QueryRequest request;
     request.type = parse_query_type(arguments.type, "query");
@@ -48,6 +83,14 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     refuse_option(arguments.field, "--field", request, QueryType::distance_field);
     refuse_option(arguments.contact_distance, "--contact-distance", request, QueryType::contacts);
     refuse_option(arguments.normals, "--normals", request, QueryType::contacts);
+    refuse_option(arguments.sign, "--sign", request, QueryType::distance_field);
+    refuse_option(arguments.gradient, "--gradient", request, QueryType::distance_field);
+    refuse_option(arguments.gradient_field, "--gradient-field", request, QueryType::distance_field);
+    refuse_option(arguments.features, "--features", request, QueryType::distance_field);
+    refuse_option(arguments.show, "--show", request, QueryType::distance_field);
+    if (!arguments.at.empty()) {
+        refuse_option(arguments.at.front(), "--at", request, QueryType::distance_field);
+    }
     if (!arguments.tolerance) {
         throw InputError("-d: the tolerance is required");
     }
@@ -74,6 +117,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     if (arguments.rectangle) {
         request.rectangle = parse_rectangle(*arguments.rectangle, "--rect");
     }
+    parse_field_request(arguments, request);
     return request;
 }
 
@@ -111,7 +155,8 @@ void require_different_files(const QueryArguments& arguments) {
     for (const std::string& input : {arguments.file_a, arguments.file_b}) {
         taken.push_back(std::filesystem::weakly_canonical(input, ignored));
     }
-    for (const auto& output : {arguments.json, arguments.image, arguments.field}) {
+    for (const auto& output : {arguments.json, arguments.image, arguments.field,
+                               arguments.gradient_field, arguments.features}) {
         if (!output) {
             continue;
         }
@@ -171,6 +216,91 @@ std::string draw_answer(Context& context, const Answer& answer, const PlacedOutl
     }
     return draw_figure(figure);
 }
+
+void add_field_options(CLI::App& command, QueryArguments& arguments) {
+    command
+        .add_option("--sign", arguments.sign,
+                    "Of distance-field: which buffer says what lies inside: stencil, color (set to "
+                    "white) or feature-bit (the top bit of the feature id); default stencil")
+        ->type_name("NAME");
+    command
+        .add_option("--gradient", arguments.gradient,
+                    "Of distance-field: how gradients are found: analytic (from the nearest "
+                    "feature), central-differences, or blended (the whole image on the device); "
+                    "default analytic")
+        ->type_name("NAME");
+    command
+        .add_option("--gradient-field", arguments.gradient_field,
+                    "Of distance-field: write the gradient at every cell as float32 (height, "
+                    "width, 2); it points to where the signed distance grows; default none")
+        ->type_name("FILE.npy");
+    command
+        .add_option("--features", arguments.features,
+                    "Of distance-field: write the nearest feature of B at every cell (the Voronoi "
+                    "diagram) as uint32 (height, width): the index of an edge or, with bit 31 set, "
+                    "of a vertex; default none")
+        ->type_name("FILE.npy");
+    command
+        .add_option("--at", arguments.at,
+                    "Of distance-field: reconstruct distance, sign and gradient at a place of the "
+                    "grid; once a place, the JSON lists them as points; default none")
+        ->type_name("X,Y")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("--show", arguments.show,
+                    "Of distance-field: what the picture shows: field, voronoi (the nearest "
+                    "features in false colour) or gradient; default field")
+        ->type_name("NAME");
+}
+
+/// Features as the file has them.
+std::vector<std::uint32_t> encoded(const std::vector<Feature>& features) {
+    constexpr std::uint32_t vertex_bit = 1U << 31U;
+    std::vector<std::uint32_t> ids;
+    ids.reserve(features.size());
+    for (const Feature& feature : features) {
+        ids.push_back(feature.index | (feature.kind == Feature::Kind::vertex ? vertex_bit : 0U));
+    }
+    return ids;
+}
+
+/// The arrays of a distance field, each into the file that was opened for it.
+struct FieldFiles {
+    std::optional<OutputFile> values;
+    std::optional<OutputFile> gradients;
+    std::optional<OutputFile> features;
+
+    explicit FieldFiles(const QueryArguments& arguments) {
+        if (arguments.field) {
+            values.emplace(*arguments.field);
+        }
+        if (arguments.gradient_field) {
+            gradients.emplace(*arguments.gradient_field);
+        }
+        if (arguments.features) {
+            features.emplace(*arguments.features);
+        }
+    }
+
+    void write(const DistanceFieldResult& result) {
+        if (values) {
+            write_npy(values->stream(), std::span<const float>(result.values), result.width,
+                      result.height);
+            values->commit();
+        }
+        if (gradients) {
+            write_npy_pairs(gradients->stream(), result.gradients, result.width, result.height);
+            gradients->commit();
+        }
+        if (features) {
+            const std::vector<std::uint32_t> ids = encoded(result.features);
+            write_npy(features->stream(), std::span<const std::uint32_t>(ids), result.width,
+                      result.height);
+            features->commit();
+        }
+    }
+};
 
 }  // namespace
 
@@ -258,6 +388,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "Of distance-field: write the values, world units, as a NumPy array of "
                      "float32 (height, width), row 0 at the lowest y; default none")
         ->type_name("FILE.npy");
+    add_field_options(*command, arguments);
     return command;
 }
 
@@ -272,12 +403,9 @@ void run_query(const QueryArguments& arguments) {
     require_different_files(arguments);
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;
-    std::optional<OutputFile> field;
+    FieldFiles field_files(arguments);
     if (arguments.image) {
         image.emplace(*arguments.image);
-    }
-    if (arguments.field) {
-        field.emplace(*arguments.field);
     }
 
     Context context = take(Context::create_headless({}, settings));
@@ -294,10 +422,8 @@ void run_query(const QueryArguments& arguments) {
         image->stream() << draw_answer(context, answer, a, b);
         image->commit();
     }
-    if (field) {
-        const auto& values = std::get<DistanceFieldResult>(answer.result);
-        write_npy(field->stream(), values.values, values.width, values.height);
-        field->commit();
+    if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
+        field_files.write(*field);
     }
     if (std::ostream* json = report.json()) {
         write_query_json(*json, answer);

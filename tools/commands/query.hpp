@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace nearfield::tools {
 
@@ -28,6 +29,12 @@ struct QueryArguments {
     std::optional<std::string> field;
     std::optional<std::string> contact_distance;
     std::optional<std::string> normals;
+    std::optional<std::string> sign;
+    std::optional<std::string> gradient;
+    std::optional<std::string> gradient_field;
+    std::optional<std::string> features;
+    std::optional<std::string> show;
+    std::vector<std::string> at;
 };
 
 /// Adds the command `query` to the program; parsing fills `arguments`, which must outlive it.

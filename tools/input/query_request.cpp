@@ -41,6 +41,22 @@ constexpr std::array<Named<IntersectionStrategy>, intersection_strategies> strat
     {"depth", IntersectionStrategy::depth},
 }};
 
+constexpr std::array<Named<SignEncoding>, 3> encodings{{
+    {"stencil", SignEncoding::stencil},
+    {"color", SignEncoding::color},
+    {"feature-bit", SignEncoding::feature_bit},
+}};
+constexpr std::array<Named<GradientMethod>, 3> gradient_methods{{
+    {"analytic", GradientMethod::analytic},
+    {"central-differences", GradientMethod::central_differences},
+    {"blended", GradientMethod::blended},
+}};
+constexpr std::array<Named<FieldPicture>, 3> pictures{{
+    {"field", FieldPicture::field},
+    {"voronoi", FieldPicture::voronoi},
+    {"gradient", FieldPicture::gradient},
+}};
+
 template <class Value>
 Value parse_name(std::span<const Named<Value>> table, const std::string& name,
                  const std::string& what) {
@@ -87,6 +103,26 @@ IntersectionStrategy parse_strategy(const std::string& name, const std::string& 
     return parse_name<IntersectionStrategy>(strategies, name, what);
 }
 
+SignEncoding parse_sign(const std::string& name, const std::string& what) {
+    return parse_name<SignEncoding>(encodings, name, what);
+}
+
+GradientMethod parse_gradient(const std::string& name, const std::string& what) {
+    return parse_name<GradientMethod>(gradient_methods, name, what);
+}
+
+FieldPicture parse_picture(const std::string& name, const std::string& what) {
+    return parse_name<FieldPicture>(pictures, name, what);
+}
+
+std::string_view name_of(SignEncoding encoding) noexcept {
+    return find_name<SignEncoding>(encodings, encoding);
+}
+
+std::string_view name_of(GradientMethod method) noexcept {
+    return find_name<GradientMethod>(gradient_methods, method);
+}
+
 std::string_view name_of(QueryType type) noexcept {
     return find_name<QueryType>(query_types, type);
 }
@@ -119,7 +155,9 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
                                         request.strategy});
             break;
         case QueryType::distance_field:
-            batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle});
+            batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle, request.sign,
+                                         request.gradient, request.values, request.features,
+                                         request.gradients, request.at});
             break;
         case QueryType::contacts:
             batch.add(ContactQuery{a, b, request.tolerance,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace nearfield::tools {
 
@@ -18,6 +19,9 @@ enum class QueryType {
     separation
 };
 
+/// What the picture of a distance field shows.
+enum class FieldPicture { field, voronoi, gradient };
+
 /// One query as a person or a scene asks for it: all but its two shapes.
 struct QueryRequest {
     QueryType type = QueryType::penetration;
@@ -26,9 +30,17 @@ struct QueryRequest {
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
     bool records = true;                     ///< of penetration, intersection and contacts
-    std::optional<Rectangle> rectangle;      ///< of distance-field
     std::optional<double> contact_distance;  ///< of contacts; default: tolerance
     ContactNormals normals = ContactNormals::analytic;  ///< of contacts
+    // All of distance-field.
+    std::optional<Rectangle> rectangle;
+    SignEncoding sign = SignEncoding::stencil;
+    GradientMethod gradient = GradientMethod::analytic;
+    bool values = true;
+    bool features = false;
+    bool gradients = false;
+    std::vector<Vector2> at;
+    FieldPicture picture = FieldPicture::field;
 };
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
@@ -38,15 +50,20 @@ struct QueryRequest {
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
 [[nodiscard]] ContactNormals parse_normals(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionStrategy parse_strategy(const std::string& name, const std::string& what);
+[[nodiscard]] SignEncoding parse_sign(const std::string& name, const std::string& what);
+[[nodiscard]] GradientMethod parse_gradient(const std::string& name, const std::string& what);
+[[nodiscard]] FieldPicture parse_picture(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
+[[nodiscard]] std::string_view name_of(SignEncoding encoding) noexcept;
+[[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
 
 /// Throws InputError for a technique this version does not have.
 void check_technique(const std::string& name, const std::string& what);
 
-/// Adds a request between two instances; its result stands at the same place among the results as
-/// the query in the batch.
+/// Adds a request, which must outlive the batch's run, between two instances; its result stands at
+/// the same place among the results as the query in the batch.
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b);
 
 }  // namespace nearfield::tools

@@ -122,6 +122,35 @@ auto parse_member(const JsonPlace& place, const std::string& key, Parse parse) {
     return parse(member.string(), member.text());
 }
 
+void read_field_request(const JsonPlace& place, QueryRequest& request) {
+    if (place.has("rect")) {
+        request.rectangle = read_rectangle(place.member("rect"));
+    }
+    if (place.has("sign")) {
+        request.sign = parse_member(place, "sign", parse_sign);
+    }
+    for (const auto& [key, asked] : {std::pair{"values", &QueryRequest::values},
+                                     std::pair{"features", &QueryRequest::features},
+                                     std::pair{"gradients", &QueryRequest::gradients}}) {
+        if (place.has(key)) {
+            request.*asked = place.member(key).boolean();
+        }
+    }
+    if (place.has("at")) {
+        const JsonPlace points = place.member("at");
+        for (std::size_t i = 0; i < points.require_array().value().size(); ++i) {
+            const std::vector<double> point = numbers(points.element(i), 2, "[x, y] (two numbers)");
+            request.at.push_back({point[0], point[1]});
+        }
+    }
+    if (place.has("gradient")) {
+        request.gradient = parse_member(place, "gradient", parse_gradient);
+        if (!request.gradients && request.at.empty()) {
+            place.member("gradient").fail("there is no gradient asked for, by gradients or at");
+        }
+    }
+}
+
 QueryRequest read_request(const JsonPlace& place) {
     QueryRequest request;
     request.type = parse_member(place, "query", parse_query_type);
@@ -152,10 +181,9 @@ QueryRequest read_request(const JsonPlace& place) {
             break;
         case QueryType::distance_field:
             require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
-                                          "technique", "strategy", "records", "rect"});
-            if (place.has("rect")) {
-                request.rectangle = read_rectangle(place.member("rect"));
-            }
+                                          "technique", "strategy", "records", "rect", "sign",
+                                          "gradient", "gradients", "features", "values", "at"});
+            read_field_request(place, request);
             break;
         case QueryType::contacts:
             require_known_members(

@@ -66,6 +66,12 @@ Pose parse_pose(std::string_view text, const std::string& option) {
     return pose_from_degrees(numbers[0], numbers[1], numbers[2]);
 }
 
+Vector2 parse_point(std::string_view text, const std::string& option) {
+    double numbers[2] = {};
+    parse_list(text, option, "X,Y (two numbers)", numbers);
+    return {numbers[0], numbers[1]};
+}
+
 Rectangle parse_rectangle(std::string_view text, const std::string& option) {
     double numbers[4] = {};
     parse_list(text, option, "X0,Y0,X1,Y1 (four numbers)", numbers);

@@ -19,6 +19,9 @@ namespace nearfield::tools {
 /// "X0,Y0,X1,Y1": the low corner, then the high one.
 [[nodiscard]] Rectangle parse_rectangle(std::string_view text, const std::string& option);
 
+/// "X,Y"
+[[nodiscard]] Vector2 parse_point(std::string_view text, const std::string& option);
+
 /// A pose of x, y and degrees. Whole turns are taken off in degrees, where that is exact.
 [[nodiscard]] Pose pose_from_degrees(double x, double y, double degrees);
 

@@ -6,9 +6,15 @@
 
 namespace nearfield::tools {
 
-/// Writes a two-dimensional array of float32 in NumPy's format (version 1.0, little endian, C
-/// order): shape (height, width), row 0 first. Precondition: width * height values.
+/// Writes an array in NumPy's format (version 1.0, little endian, C order), row 0 first: of float32
+/// or of uint32 of the shape (height, width). Precondition: width * height values.
 void write_npy(std::ostream& stream, std::span<const float> values, std::uint32_t width,
                std::uint32_t height);
+void write_npy(std::ostream& stream, std::span<const std::uint32_t> values, std::uint32_t width,
+               std::uint32_t height);
+
+/// The same of float32 of the shape (height, width, 2). Precondition: 2 * width * height values.
+void write_npy_pairs(std::ostream& stream, std::span<const float> values, std::uint32_t width,
+                     std::uint32_t height);
 
 }  // namespace nearfield::tools

@@ -80,6 +80,32 @@ void write_result(JsonWriter& json, const DistanceFieldResult& result) {
     json.key("origin").value(result.origin);
     json.key("width").value(std::uint64_t{result.width});
     json.key("height").value(std::uint64_t{result.height});
+    if (result.points.empty()) {
+        return;
+    }
+    json.key("points").begin_array(JsonWriter::Layout::lines);
+    for (const FieldPoint& point : result.points) {
+        json.begin_object().key("point").value(point.point);
+        json.key("distance").value(point.distance).key("error_bound").value(point.error_bound);
+        json.key("inside").value(point.inside).key("gradient").value(point.gradient);
+        json.key("feature");
+        write_feature(json, point.feature);
+        json.key("unique").value(point.unique).end_object();
+    }
+    json.end_array();
+}
+
+/// How a field was made, as far as it was asked for.
+void write_methods(JsonWriter& json, const QueryRequest& request,
+                   const DistanceFieldResult& result) {
+    json.key("sign").value(name_of(request.sign));
+    if (request.gradients || !request.at.empty()) {
+        json.key("gradient").value(name_of(request.gradient));
+        json.key("gradient_error_bound").value(result.gradient_error_bound);
+        if (request.gradient == GradientMethod::blended) {
+            json.key("gradient_format").value(result.gradient_format);
+        }
+    }
 }
 
 void write_contact(JsonWriter& json, const ContactRecord& contact) {
@@ -163,6 +189,8 @@ void write_timings(JsonWriter& json, const Timings& timings) {
     json.end_object().end_object();
 }
 
+namespace {
+
 void write_localization(JsonWriter& json, const LocalizationStatistics& statistics) {
     json.key("localization").begin_object();
     json.key("nodes_evaluated").value(statistics.nodes_evaluated);
@@ -170,30 +198,31 @@ void write_localization(JsonWriter& json, const LocalizationStatistics& statisti
     json.key("edges_kept").value(statistics.edges_kept).end_object();
 }
 
-namespace {
-
-/// What every answer begins with: the query and what all results say.
-void write_common(JsonWriter& json, const QueryRequest& request, const ResultSummary& summary) {
+/// What an answer says, alone or in a scene, but for device and times.
+void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
+    const ResultSummary& summary = summary_of(result);
     json.key("query").value(name_of(request.type));
     json.key("tolerance").value(summary.tolerance);
     json.key("error_bound").value(summary.error_bound);
     json.key("cell").value(summary.cell);
     json.key("intersects").value(summary.intersects);
+    json.key("technique").value("raster");
     write_localization(json, summary.localization);
+    if (const auto* field = std::get_if<DistanceFieldResult>(&result)) {
+        write_methods(json, request, *field);
+    }
+    write_regions(json, summary);
+    std::visit([&json](const auto& any) { write_result(json, any); }, result);
 }
 
 }  // namespace
 
 void write_query_json(std::ostream& stream, const Answer& answer) {
-    const ResultSummary& summary = summary_of(answer.result);
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    write_common(json, answer.request, summary);
     json.key("device").value(std::string_view(answer.device));
-    json.key("technique").value("raster");
-    write_regions(json, summary);
     write_timings(json, answer.timings);
-    std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);
+    write_answer(json, answer.request, answer.result);
     json.end_object();
     stream << '\n';
 }
@@ -207,14 +236,10 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
     write_timings(json, timings);
     json.key("results").begin_array(JsonWriter::Layout::lines);
     for (const SceneAnswer& answer : answers) {
-        const ResultSummary& summary = summary_of(answer.result);
         json.begin_object(JsonWriter::Layout::lines);
         json.key("a").value(std::string_view(answer.a));
         json.key("b").value(std::string_view(answer.b));
-        write_common(json, answer.request, summary);
-        json.key("technique").value("raster");
-        write_regions(json, summary);
-        std::visit([&json](const auto& result) { write_result(json, result); }, answer.result);
+        write_answer(json, answer.request, answer.result);
         json.end_object();
     }
     json.end_array().end_object();

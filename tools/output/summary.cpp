@@ -59,6 +59,25 @@ void write_result(std::ostream& stream, const DistanceFieldResult& result) {
     write_item(stream, "grid",
                std::to_string(result.width) + " x " + std::to_string(result.height) + " cells of " +
                    short_number(result.cell));
+    if (result.gradient_error_bound > 0.0) {
+        const std::string format = result.gradient_format;
+        write_item(stream, "gradient",
+                   "error bound " + short_number(result.gradient_error_bound) +
+                       (format.empty() ? "" : ", blended in " + format));
+    }
+    constexpr std::size_t most_shown = 8;
+    for (std::size_t index = 0; index < result.points.size() && index < most_shown; ++index) {
+        const FieldPoint& point = result.points[index];
+        write_item(stream, "at " + point_text(point.point),
+                   short_number(point.distance) + " within " + short_number(point.error_bound) +
+                       ", inside " + short_number(point.inside) + ", gradient " +
+                       point_text(point.gradient) + ", " + feature_text(point.feature) +
+                       (point.unique ? "" : ", one of several"));
+    }
+    if (result.points.size() > most_shown) {
+        write_item(stream, "",
+                   "and " + std::to_string(result.points.size() - most_shown) + " more");
+    }
 }
 
 void write_result(std::ostream& stream, const ContactResult& result) {

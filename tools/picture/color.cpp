@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace nearfield::tools {
 namespace {
@@ -38,6 +39,18 @@ Color to_color(const Lab& lab) {
 }
 
 }  // namespace
+
+Color hue_color(double turns, double chroma, double lightness) {
+    const double angle = 2.0 * std::numbers::pi * turns;
+    return to_color({lightness, chroma * std::cos(angle), chroma * std::sin(angle)});
+}
+
+std::uint32_t pixel_of(const Color& color) {
+    const auto byte = [](double part) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(part, 0.0, 1.0) * 255.0));
+    };
+    return 0xFF000000U | byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
+}
 
 Color diverging_color(double position) {
     const std::array<Lab, 4>& side = position < 0.0 ? inside : outside;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace nearfield::tools {
 
 /// A colour in sRGB, each part from 0 to 1.
@@ -35,6 +37,13 @@ inline constexpr Color arrow = rgb(0x1B2430);
 inline constexpr Color sample = rgb(0x7B3FA0).with_alpha(0.62);
 inline constexpr Color highlight = rgb(0xFFD21F);
 }  // namespace palette
+
+/// A colour by its hue, in turns (0 and 1 are reddish), its distance from grey (0.1 is pastel) and
+/// its lightness from 0 to 1; equal steps look equally large.
+[[nodiscard]] Color hue_color(double turns, double chroma, double lightness);
+
+/// 0xAARRGGBB, opaque.
+[[nodiscard]] std::uint32_t pixel_of(const Color& color);
 
 /// The diverging colour map of signed distance: `position` from -1 (deepest inside) over 0 (the
 /// boundary, nearly white) to 1 (farthest outside). Lightness falls evenly to both sides.

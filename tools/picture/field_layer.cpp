@@ -1,3 +1,4 @@
+#include <tools/picture/cell_image.hpp>
 #include <tools/picture/color.hpp>
 #include <tools/picture/field_layer.hpp>
 
@@ -10,24 +11,6 @@ namespace nearfield::tools {
 namespace {
 
 constexpr double iso_lattice_step = 2.0;  // pixels: fine enough for smooth lines
-
-std::uint32_t pixel(const Color& color) {
-    const auto byte = [](double part) {
-        return static_cast<std::uint32_t>(std::lround(part * 255.0));
-    };
-    return 0xFF000000U | byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
-}
-
-Rectangle covered_page(const DistanceFieldResult& field, const View& view) {
-    const Vector2 high{field.origin.x + field.cell * field.width,
-                       field.origin.y + field.cell * field.height};
-    const Vector2 low_corner = view.to_page(field.origin);
-    const Vector2 high_corner = view.to_page(high);
-    return {{std::max(view.page().min.x, std::floor(low_corner.x)),
-             std::max(view.page().min.y, std::floor(high_corner.y))},
-            {std::min(view.page().max.x, std::ceil(high_corner.x)),
-             std::min(view.page().max.y, std::ceil(low_corner.y))}};
-}
 
 }  // namespace
 
@@ -88,7 +71,7 @@ void FieldLayer::draw_colors(Canvas& canvas) const {
     std::vector<std::uint32_t> table(1024);
     const double last = static_cast<double>(table.size() - 1);
     for (std::size_t index = 0; index < table.size(); ++index) {
-        table[index] = pixel(diverging_color(2.0 * static_cast<double>(index) / last - 1.0));
+        table[index] = pixel_of(diverging_color(2.0 * static_cast<double>(index) / last - 1.0));
     }
     std::vector<std::uint32_t> pixels;
     pixels.reserve(lattice.values.size());

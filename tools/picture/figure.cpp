@@ -1,5 +1,6 @@
 #include <tools/output/summary.hpp>
 #include <tools/picture/canvas.hpp>
+#include <tools/picture/cell_image.hpp>
 #include <tools/picture/color.hpp>
 #include <tools/picture/field_layer.hpp>
 #include <tools/picture/figure.hpp>
@@ -30,8 +31,10 @@ constexpr Rectangle color_strip{{1452.0, 172.0}, {1482.0, 1104.0}};
 /// Where the right panel stands: beside the colour bar, where the picture has a field.
 const Rectangle& detail_panel(const Answer& answer) {
     switch (answer.request.type) {
-        case QueryType::penetration:
         case QueryType::distance_field:
+            return answer.request.picture == FieldPicture::field ? panel_beside_colors
+                                                                 : panel_alone;
+        case QueryType::penetration:
         case QueryType::contacts:
             return panel_beside_colors;
         case QueryType::intersection:
@@ -68,6 +71,14 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
         case QueryType::separation:
             return "Separation of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::distance_field:
+            break;
+    }
+    switch (figure.answer.request.picture) {
+        case FieldPicture::voronoi:
+            return "Voronoi diagram of " + name(figure.b);
+        case FieldPicture::gradient:
+            return "Gradient of the distance to " + name(figure.b);
+        case FieldPicture::field:
             break;
     }
     return "Signed distance to " + name(figure.b);
@@ -125,8 +136,11 @@ void draw_regions(Canvas& canvas, const std::vector<Region>& regions, const View
 }
 
 void draw_overview(Canvas& canvas, const Figure& figure) {
-    const Rectangle both = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
-    const View view(with_margin(both, 0.05), overview_panel);
+    Rectangle all = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
+    for (const Region& region : summary_of(figure.answer.result).regions) {
+        all = united(all, {region.min, region.max});
+    }
+    const View view(with_margin(all, 0.05), overview_panel);
     canvas.fill(overview_panel, palette::panel);
     canvas.clip(overview_panel);
     const PageRings a = rings_on_page(figure.a, view);
@@ -152,6 +166,13 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
     if (field) {
         field->draw_colors(canvas);
         field->draw_iso_lines(canvas);
+    }
+    const auto* cells = std::get_if<DistanceFieldResult>(&figure.answer.result);
+    const FieldPicture picture = figure.answer.request.picture;
+    if (cells != nullptr && picture == FieldPicture::voronoi) {
+        draw_voronoi(canvas, *cells, view);
+    } else if (cells != nullptr && picture == FieldPicture::gradient) {
+        draw_gradient(canvas, *cells, view);
     }
     if (const auto* result = std::get_if<IntersectionResult>(&figure.answer.result)) {
         draw_samples(canvas, *result, view);
@@ -213,7 +234,8 @@ std::string draw_figure(const Figure& figure) {
     const View view(detail_rectangle(figure.answer, figure.a, figure.b),
                     detail_panel(figure.answer));
     std::optional<FieldLayer> field;
-    if (figure.field != nullptr && !figure.field->values.empty()) {
+    if (figure.field != nullptr && !figure.field->values.empty() &&
+        figure.answer.request.picture == FieldPicture::field) {
         field.emplace(*figure.field, view);
     }
     draw_header(canvas, figure);

@@ -1,8 +1,12 @@
 #include <tools/output/summary.hpp>
+#include <tools/picture/cell_image.hpp>
 #include <tools/picture/color.hpp>
 #include <tools/picture/legend.hpp>
 #include <tools/picture/marks.hpp>
 
+#include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <string>
 #include <variant>
 
@@ -78,6 +82,43 @@ void add_entries(std::vector<LegendEntry>& entries, const SeparationResult&) {
     entries.push_back({pair_mark(draw_closest_pair, false), "closest points of A and B"});
 }
 
+/// Three features of one kind, side by side.
+auto feature_colors(Feature::Kind kind) {
+    return [kind](Canvas& canvas, const Rectangle& area) {
+        const double width = (area.max.x - area.min.x) / 3.0;
+        for (std::uint32_t index = 0; index < 3; ++index) {
+            const double x = area.min.x + width * index;
+            canvas.fill({{x, area.min.y}, {x + width, area.max.y}}, feature_color({kind, index}));
+        }
+        canvas.stroke(area, {palette::frame, 1.5});
+    };
+}
+
+void draw_directions(Canvas& canvas, const Rectangle& area) {
+    const double width = area.max.x - area.min.x;
+    for (int column = 0; column < width; ++column) {
+        const double angle = 2.0 * std::numbers::pi * column / width;
+        const double x = area.min.x + column;
+        canvas.fill({{x, area.min.y}, {x + 1.0, area.max.y}},
+                    direction_color({std::cos(angle), std::sin(angle)}));
+    }
+    canvas.stroke(area, {palette::frame, 1.5});
+}
+
+void add_picture_entries(std::vector<LegendEntry>& entries, FieldPicture picture) {
+    if (picture == FieldPicture::voronoi) {
+        entries.push_back({feature_colors(Feature::Kind::edge), "nearest to an edge of B"});
+        entries.push_back({feature_colors(Feature::Kind::vertex), "nearest to a vertex of B"});
+    } else if (picture == FieldPicture::gradient) {
+        const auto arrow = [](Canvas& canvas, const Rectangle& area) {
+            draw_gradient_arrow(canvas, {(area.min.x + area.max.x) / 2.0, middle_y(area)},
+                                {1.0, 0.0});
+        };
+        entries.push_back({arrow, "where the distance grows"});
+        entries.push_back({draw_directions, "its direction: +x, +y, \u2212x, \u2212y"});
+    }
+}
+
 }  // namespace
 
 std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field) {
@@ -92,6 +133,7 @@ std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field
     }
     std::visit([&entries](const auto& result) { add_entries(entries, result); },
                figure.answer.result);
+    add_picture_entries(entries, figure.answer.request.picture);
     if (field != nullptr) {
         const auto colors = [](Canvas& canvas, const Rectangle& area) {
             const double width = area.max.x - area.min.x;

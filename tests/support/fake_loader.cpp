@@ -1,4 +1,4 @@
-#include <tests/unit/gpu_fake_loader.hpp>
+#include <tests/support/fake_loader.hpp>
 
 #include <utility>
 

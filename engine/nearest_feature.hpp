@@ -1,0 +1,41 @@
+#pragma once
+
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/segment.hpp>
+#include <engine/plan/plan.hpp>
+#include <nearfield/result.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+/// What follows, in double precision, from the edge that the device found nearest.
+namespace nearfield {
+
+/// The device decides on which side of the boundary a point lies in single precision, in cells of a
+/// tile. A point nearer to the boundary than this could lie on either side: it touches.
+[[nodiscard]] inline double touching_distance(const plan::Tile& tile) {
+    const double side = std::max({tile.width, tile.height, 64U});
+    return tile.grid.cell * std::ldexp(side, -21);
+}
+
+/// The point of an edge nearest to a point.
+[[nodiscard]] inline geometry::NearestOnSegment nearest_on_edge(
+    const geometry::PlacedPolygon& polygon, std::uint32_t edge, const geometry::Vector& point) {
+    return geometry::nearest_on_segment(point, polygon.vertex(edge),
+                                        polygon.vertex(polygon.polygon().next(edge)));
+}
+
+/// The part of the boundary that lies at a parameter of an edge.
+[[nodiscard]] inline Feature feature_at(const geometry::PlacedPolygon& polygon, std::uint32_t edge,
+                                        double parameter) {
+    if (parameter <= 0.0) {
+        return {Feature::Kind::vertex, edge};
+    }
+    if (parameter >= 1.0) {
+        return {Feature::Kind::vertex, polygon.polygon().next(edge)};
+    }
+    return {Feature::Kind::edge, edge};
+}
+
+}  // namespace nearfield

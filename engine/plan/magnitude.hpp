@@ -1,0 +1,22 @@
+#pragma once
+
+#include <engine/geometry/placed_polygon.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::plan {
+
+[[nodiscard]] inline double largest_magnitude(const geometry::Box& box) {
+    return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+}
+
+/// The largest number that placing a shape in the world goes through.
+[[nodiscard]] inline double largest_magnitude(const geometry::PlacedPolygon& placed,
+                                              const Pose& pose) {
+    return std::max({largest_magnitude(placed.box()),
+                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                     std::abs(pose.translation.y)});
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,181 @@
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/magnitude.hpp>
+#include <engine/plan/planner.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Vector;
+
+/// Bytes of what is asked for at every cell: in the result, and on the way there as drawn in tiles
+/// of at most `side` cells and their halos.
+double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, const Grid& grid,
+                      double side) {
+    const double result = (query.values ? sizeof(float) : 0.0) +
+                          (query.features ? sizeof(Feature) : 0.0) +
+                          (query.gradients ? 2.0 * sizeof(float) : 0.0) +
+                          (parts.features ? sizeof(std::uint8_t) : 0.0);
+    const double words =
+        (parts.values ? 1.0 : 0.0) + (parts.features ? 1.0 : 0.0) + (parts.gradients ? 2.0 : 0.0);
+    const auto drawn = [&](std::uint64_t cells) {
+        const auto count = static_cast<double>(cells);
+        return count + 2.0 * parts.halo * std::ceil(count / side);
+    };
+    return result * grid.cells() +
+           words * sizeof(std::uint32_t) * drawn(grid.width) * drawn(grid.height);
+}
+
+double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts) {
+    const double words = parts.words_per_point * sizeof(std::uint32_t);
+    return static_cast<double>(query.points.size()) *
+           (sizeof(FieldPoint) + sizeof(PlannedFieldPoint) + 2.0 * sizeof(PointData) + words);
+}
+
+std::string place(const Vector& point) {
+    return "(" + number(point.x()) + ", " + number(point.y()) + ")";
+}
+
+}  // namespace
+
+void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    Box box;
+    if (query.rectangle) {
+        box = Box(geometry::to_vector(query.rectangle->min),
+                  geometry::to_vector(query.rectangle->max));
+    } else {
+        const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
+        box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
+        if (box.isEmpty()) {
+            result.status = {StatusCode::invalid_query,
+                             "the bounding boxes of A and B have nothing in common; give the "
+                             "rectangle the distance field is to cover"};
+            return;
+        }
+        box.min().array() -= query.tolerance;
+        box.max().array() += query.tolerance;
+    }
+    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
+    if (!result.status.ok()) {
+        return;
+    }
+    result.status = check_resolution(
+        query.tolerance,
+        std::max(largest_magnitude(box),
+                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
+    if (!result.status.ok()) {
+        return;
+    }
+    boxes_.assign(1, box);
+    add_regions(planned.budget.cell, result);
+    const Grid& grid = grids_.front();
+    planned.field = field_parts(query);
+    const double side = field_tile(planned.field);
+    require_memory(
+        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field),
+        query.tolerance, 2.0);
+    result.origin = geometry::to_public(grid.origin);
+    result.width = static_cast<std::uint32_t>(grid.width);
+    result.height = static_cast<std::uint32_t>(grid.height);
+    const auto first_tile = static_cast<std::uint32_t>(plan_->tiles.size());
+    result.status = add_field_points(query, grid, first_tile);
+    if (!result.status.ok()) {
+        return;
+    }
+    const std::size_t cells = grid.width * grid.height;
+    result.values.resize(query.values ? cells : 0);
+    result.features.resize(query.features ? cells : 0);
+    result.gradients.resize(query.gradients ? 2 * cells : 0);
+    result.unique.resize(planned.field.features ? cells : 0);
+    result.points.resize(query.points.size());
+    cut_into_tiles(0, TileKind::field, field_tile(planned.field), planned.field.halo);
+    if (!planned.field.values && !planned.field.features) {
+        drop_tiles_without_points(first_tile);
+    }
+}
+
+void Planner::drop_tiles_without_points(std::uint32_t first_tile) {
+    const PlannedQuery& planned = plan_->queries[query_];
+    const std::span points(plan_->field_points.data() + planned.first_field_point,
+                           planned.field_point_count);
+    kept_tiles_.assign(plan_->tiles.size() - first_tile, 0);
+    for (const PlannedFieldPoint& point : points) {
+        kept_tiles_[point.tile - first_tile] = 1;
+    }
+    std::uint32_t next = first_tile;
+    for (std::uint32_t i = 0; i < kept_tiles_.size(); ++i) {
+        if (kept_tiles_[i] != 0) {
+            plan_->tiles[next] = plan_->tiles[first_tile + i];
+            kept_tiles_[i] = next++;
+        }
+    }
+    plan_->tiles.resize(next);
+    for (PlannedFieldPoint& point : points) {
+        point.tile = kept_tiles_[point.tile - first_tile];
+    }
+}
+
+std::uint32_t Planner::field_tile(const FieldParts& parts) const {
+    const std::uint32_t drawn = parts.features
+                                    ? std::min(limits_.features_tile, limits_.largest_tile)
+                                    : limits_.largest_tile;
+    return drawn - 2 * parts.halo;
+}
+
+Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& grid,
+                                 std::uint32_t first_tile) {
+    // A rectangle is a whole number of cells only up to rounding.
+    constexpr double slack = 1e-6;
+    PlannedQuery& planned = plan_->queries[query_];
+    const std::uint32_t halo = planned.field.halo;
+    const std::uint32_t side = field_tile(planned.field);
+    const std::uint64_t tiles_along = (grid.width + side - 1) / side;
+    const auto width = static_cast<double>(grid.width);
+    const auto height = static_cast<double>(grid.height);
+    const std::size_t first = plan_->field_points.size();
+    for (std::size_t i = 0; i < query.points.size(); ++i) {
+        const Vector position = geometry::to_vector(query.points[i]);
+        const Vector local = (position - grid.origin) / grid.cell;
+        if (!(local.minCoeff() >= -slack && local.x() <= width + slack &&
+              local.y() <= height + slack)) {
+            plan_->field_points.resize(first);
+            const Vector high = grid.origin + grid.cell * Vector(width, height);
+            return {StatusCode::invalid_query,
+                    "point " + std::to_string(i) + " " + place(position) +
+                        " is outside the grid of the field, which covers " + place(grid.origin) +
+                        " to " + place(high)};
+        }
+        // The cell the point lies in says which tile; the halo holds what else is looked at.
+        const auto cell = [](double coordinate, std::uint64_t count) {
+            const double last = static_cast<double>(count - 1);
+            return static_cast<std::uint64_t>(std::clamp(std::floor(coordinate), 0.0, last));
+        };
+        const std::uint64_t column = cell(local.x(), grid.width);
+        const std::uint64_t row = cell(local.y(), grid.height);
+        const bool to_the_left = local.x() < static_cast<double>(column) + 0.5;
+        const bool below = local.y() < static_cast<double>(row) + 0.5;
+        PlannedFieldPoint& point = plan_->field_points.emplace_back();
+        point.position = position;
+        point.tile =
+            first_tile + static_cast<std::uint32_t>(row / side * tiles_along + column / side);
+        point.column = static_cast<std::uint32_t>(column % side) + halo - (to_the_left ? 1U : 0U);
+        point.row = static_cast<std::uint32_t>(row % side) + halo - (below ? 1U : 0U);
+        point.across = local.x() - static_cast<double>(column) + (to_the_left ? 0.5 : -0.5);
+        point.up = local.y() - static_cast<double>(row) + (below ? 0.5 : -0.5);
+    }
+    planned.first_field_point = static_cast<std::uint32_t>(first);
+    planned.field_point_count = static_cast<std::uint32_t>(query.points.size());
+    return {};
+}
+
+}  // namespace nearfield::plan

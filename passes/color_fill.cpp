@@ -1,0 +1,72 @@
+#include <engine/gpu/pipeline.hpp>
+#include <passes/color_fill.hpp>
+#include <passes/tile_renderer.hpp>
+
+#include <shaders/color_frag.hpp>
+#include <shaders/mesh_vert.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+constexpr std::uint32_t black = 0;
+constexpr std::uint32_t white = 0xffffffff;
+
+}  // namespace
+
+ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+                     const Frame& frame)
+    : device_(&device), layout_(layout), frame_(&frame) {
+    gpu::GraphicsPipelineDescription description;
+    description.render_pass = render_pass;
+    description.layout = layout;
+    description.vertex_shader = shaders::mesh_vert;
+    description.fragment_shader = shaders::color_frag;
+
+    description.name = "nearfield white clear";
+    clear_ = gpu::make_graphics_pipeline(device, description);
+
+    // White over a colour is one minus that colour.
+    VkPipelineColorBlendAttachmentState invert{};
+    invert.blendEnable = VK_TRUE;
+    invert.srcColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;
+    invert.dstColorBlendFactor = VK_BLEND_FACTOR_ZERO;
+    invert.colorBlendOp = VK_BLEND_OP_ADD;
+    invert.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    invert.dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    invert.alphaBlendOp = VK_BLEND_OP_ADD;
+    invert.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
+    description.name = "nearfield white parity";
+    description.blend = invert;
+    parity_ = gpu::make_graphics_pipeline(device, description);
+}
+
+graph::Handle ColorFill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    graph::Handle image =
+        graph.create_image({"white inside", white_format, extent, VK_FORMAT_R8_UINT});
+    graph.add_pass(
+        "color fill", graph::PassKind::graphics,
+        [&](graph::PassBuilder& pass) {
+            pass.read(mesh, graph::Access::vertex_buffer);
+            image = pass.write(image, graph::Access::color_attachment);
+        },
+        [this](VkCommandBuffer commands) { record(commands); });
+    return image;
+}
+
+void ColorFill::record(VkCommandBuffer commands) const {
+    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::uint32_t value,
+                              plan::DrawRange plan::TileDraw::*range) {
+        renderer.bind(pipeline.get());
+        renderer.stencil(0, 0, 0);
+        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+            if (tile.sign == SignEncoding::color) {
+                renderer.draw(tile, tile.*range, 1.0F, value);
+            }
+        }
+    };
+    draw_all(clear_, black, &plan::TileDraw::rectangle);
+    draw_all(parity_, white, &plan::TileDraw::b);
+}
+
+}  // namespace nearfield::passes

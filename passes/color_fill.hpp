@@ -1,0 +1,37 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/frame.hpp>
+
+namespace nearfield::passes {
+
+/// The sign of the distance field in a colour buffer (section 2.2.2 of the paper, second encoding):
+/// the inside of B is white. Parity by blending: each row-crossing quad replaces a colour by one
+/// minus it. Reads the mesh; writes the white image in every field tile that asks for it.
+class ColorFill {
+public:
+    ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+              const Frame& frame);
+
+    /// Adds the pass; returns the image, sampled as unsigned bytes: 255 inside, 0 outside.
+    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+
+private:
+    void record(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    const Frame* frame_;
+    gpu::Owned<VkPipeline> clear_;
+    gpu::Owned<VkPipeline> parity_;
+};
+
+/// The format of the pass, for its render pass.
+inline constexpr VkFormat white_format = VK_FORMAT_R8_UNORM;
+
+/// Which bits of a texel of the image say "inside".
+inline constexpr std::uint32_t white_mask = 0xff;
+
+}  // namespace nearfield::passes

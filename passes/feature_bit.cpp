@@ -1,0 +1,94 @@
+#include <engine/gpu/pipeline.hpp>
+#include <passes/cone_mesh.hpp>
+#include <passes/feature_bit.hpp>
+#include <passes/stencil_pipelines.hpp>
+#include <passes/tile_renderer.hpp>
+
+#include <shaders/color_frag.hpp>
+#include <shaders/mesh_vert.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+constexpr std::uint32_t no_feature_outside = plan::most_signed_features;
+constexpr std::uint32_t white = 0xffffffff;
+
+constexpr VkColorComponentFlags id_bytes =
+    VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+
+}  // namespace
+
+FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
+                       const Frame& frame)
+    : device_(&device), layout_(layout), frame_(&frame) {
+    gpu::GraphicsPipelineDescription description;
+    description.render_pass = render_pass;
+    description.layout = layout;
+    description.vertex_shader = shaders::mesh_vert;
+    description.fragment_shader = shaders::color_frag;
+    description.depth_test = true;
+
+    description.name = "nearfield signed feature clear";
+    description.depth_compare = VK_COMPARE_OP_ALWAYS;
+    clear_ = gpu::make_graphics_pipeline(device, description);
+
+    VkPipelineColorBlendAttachmentState blend{};
+    blend.colorWriteMask = id_bytes;
+    description.name = "nearfield signed feature mesh";
+    description.depth_compare = VK_COMPARE_OP_LESS;
+    description.blend = blend;
+    draw_ = gpu::make_graphics_pipeline(device, description);
+
+    blend.blendEnable = VK_TRUE;
+    blend.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    blend.dstColorBlendFactor = VK_BLEND_FACTOR_ZERO;
+    blend.colorBlendOp = VK_BLEND_OP_ADD;
+    blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA;
+    blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    blend.alphaBlendOp = VK_BLEND_OP_ADD;
+    blend.colorWriteMask = VK_COLOR_COMPONENT_A_BIT;
+    description.name = "nearfield signed feature parity";
+    description.depth_test = false;
+    description.blend = blend;
+    parity_ = gpu::make_graphics_pipeline(device, description);
+}
+
+graph::Handle FeatureBit::declare(graph::Graph& graph, graph::Handle mesh,
+                                  VkExtent2D extent) const {
+    graph::Handle image =
+        graph.create_image({"signed features", signed_feature_format, extent, number_format});
+    const graph::Handle depth =
+        graph.create_image({"distance under signed features", distance_depth_format, extent});
+    graph.add_pass(
+        "signed cone mesh", graph::PassKind::graphics,
+        [&](graph::PassBuilder& pass) {
+            pass.read(mesh, graph::Access::vertex_buffer);
+            image = pass.write(image, graph::Access::color_attachment);
+            static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
+        },
+        [this](VkCommandBuffer commands) { record(commands); });
+    return image;
+}
+
+void FeatureBit::record(VkCommandBuffer commands) const {
+    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, auto&& draw) {
+        renderer.bind(pipeline.get());
+        renderer.stencil(0, 0, 0);
+        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+            if (tile.sign == SignEncoding::feature_bit) {
+                draw(tile);
+            }
+        }
+    };
+    draw_all(clear_, [&](const plan::TileDraw& tile) {
+        renderer.draw(tile, tile.rectangle, 1.0F, no_feature_outside);
+    });
+    draw_all(parity_,
+             [&](const plan::TileDraw& tile) { renderer.draw(tile, tile.b, 1.0F, white); });
+    draw_all(draw_, [&](const plan::TileDraw& tile) {
+        renderer.draw(tile, tile.distance, tile.depth_scale, 0);
+    });
+}
+
+}  // namespace nearfield::passes

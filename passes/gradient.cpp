@@ -1,0 +1,123 @@
+#include <engine/gpu/pipeline.hpp>
+#include <passes/gradient.hpp>
+#include <passes/tile_renderer.hpp>
+
+#include <shaders/gradient_frag.hpp>
+#include <shaders/mesh_vert.hpp>
+
+#include <array>
+#include <limits>
+
+namespace nearfield::passes {
+namespace {
+
+/// The push constants of gradient.frag, behind those of mesh.vert.
+struct Push {
+    std::int32_t corner[2];
+    std::int32_t size[2];
+    std::int32_t shift;
+    float factor;
+    float largest;
+};
+constexpr std::uint32_t push_offset = 32;
+
+constexpr float largest_half = 65504.0F;
+
+gpu::Owned<VkPipelineLayout> make_layout(const gpu::Device& device, VkDescriptorSetLayout set) {
+    const std::array<VkPushConstantRange, 2> push{
+        {{draw_push_stages, 0, draw_push_bytes},
+         {VK_SHADER_STAGE_FRAGMENT_BIT, push_offset, sizeof(Push)}}};
+    static_assert(draw_push_bytes <= push_offset);
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set;
+    info.pushConstantRangeCount = static_cast<std::uint32_t>(push.size());
+    info.pPushConstantRanges = push.data();
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+               "vkCreatePipelineLayout", "blended gradients");
+    gpu::Owned<VkPipelineLayout> owned(device, layout);
+    device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield gradient layout");
+    return owned;
+}
+
+VkPipelineColorBlendAttachmentState blending(VkBlendFactor source, VkBlendFactor destination,
+                                             VkBlendOp operation) {
+    VkPipelineColorBlendAttachmentState blend{};
+    blend.blendEnable = VK_TRUE;
+    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = source;
+    blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = destination;
+    blend.colorBlendOp = blend.alphaBlendOp = operation;
+    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT;
+    return blend;
+}
+
+}  // namespace
+
+Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
+                   const Frame& frame)
+    : device_(&device), frame_(&frame), layout_(make_layout(device, layout.set_layout())) {
+    gpu::GraphicsPipelineDescription description;
+    description.render_pass = render_pass;
+    description.layout = layout_.get();
+    description.vertex_shader = shaders::mesh_vert;
+    description.fragment_shader = shaders::gradient_frag;
+    description.name = "nearfield gradient shifted";
+    shifted_ = gpu::make_graphics_pipeline(device, description);
+    description.name = "nearfield gradient subtract";
+    description.blend =
+        blending(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_REVERSE_SUBTRACT);
+    subtract_ = gpu::make_graphics_pipeline(device, description);
+    description.name = "nearfield gradient multiply";
+    description.blend = blending(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_OP_ADD);
+    multiply_ = gpu::make_graphics_pipeline(device, description);
+}
+
+graph::Handle Gradient::declare(graph::Graph& graph, graph::Handle mesh, graph::Handle field,
+                                VkExtent2D extent) const {
+    graph::Handle image = graph.create_image({"gradient", device_->gradient_format(), extent});
+    graph.add_pass(
+        "gradient", graph::PassKind::graphics,
+        [&](graph::PassBuilder& pass) {
+            pass.read(mesh, graph::Access::vertex_buffer);
+            pass.read(field, graph::Access::storage_read_in_fragment);
+            image = pass.write(image, graph::Access::color_attachment);
+        },
+        [this](VkCommandBuffer commands) { record(commands); });
+    return image;
+}
+
+void Gradient::record(VkCommandBuffer commands) const {
+    const gpu::Functions& functions = device_->functions();
+    const TileRenderer renderer(*device_, layout_.get(), commands, *frame_);
+    // All sets of field passes share the buffer of values.
+    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
+                                      1, &frame_->gradients, 0, nullptr);
+    const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT
+                              ? largest_half
+                              : std::numeric_limits<float>::max();
+    const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::int32_t shift) {
+        renderer.bind(pipeline.get());
+        renderer.stencil(0, 0, 0);
+        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+            if (!tile.blended) {
+                continue;
+            }
+            const Push push{
+                {static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
+                {static_cast<std::int32_t>(tile.width), static_cast<std::int32_t>(tile.height)},
+                shift,
+                0.5F,
+                largest};
+            functions.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                         push_offset, sizeof(push), &push);
+            renderer.draw(tile, tile.rectangle, 1.0F, tile.first_value);
+        }
+    };
+    draw_all(shifted_, 1);
+    draw_all(subtract_, -1);
+    draw_all(multiply_, 0);
+}
+
+}  // namespace nearfield::passes

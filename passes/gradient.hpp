@@ -1,0 +1,35 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/frame.hpp>
+
+namespace nearfield::passes {
+
+/// The gradient of the whole distance image in three blended draws (section 2.2.3 of the paper):
+/// the image shifted by one pixel, minus the image shifted by one pixel the other way (so two
+/// pixels apart), times one half. Both components at once, along x in red and along y in green.
+/// Reads the field's values; writes the gradient image in every tile that asks for it.
+class Gradient {
+public:
+    Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
+             const Frame& frame);
+
+    /// Adds the pass; returns the gradient image.
+    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, graph::Handle field,
+                          VkExtent2D extent) const;
+
+private:
+    void record(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    const Frame* frame_;
+    gpu::Owned<VkPipelineLayout> layout_;
+    gpu::Owned<VkPipeline> shifted_;
+    gpu::Owned<VkPipeline> subtract_;
+    gpu::Owned<VkPipeline> multiply_;
+};
+
+}  // namespace nearfield::passes

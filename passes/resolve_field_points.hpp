@@ -1,0 +1,32 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/frame.hpp>
+#include <passes/resolve_field.hpp>
+
+namespace nearfield::passes {
+
+/// The cells that a field is reconstructed from at points (section 2.2.2 of the paper: only the
+/// pixels asked for are read back), and the feature nearest to each point. Reads the images, tiles,
+/// edge lists and points; writes a few words a point (plan::FieldParts).
+class ResolveFieldPoints {
+public:
+    ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+
+    /// Adds the pass; returns the field's buffer.
+    [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
+                                        const FieldImages& images, graph::Handle field) const;
+
+private:
+    void record(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    const Frame* frame_;
+    gpu::Owned<VkPipeline> pipeline_;
+};
+
+}  // namespace nearfield::passes

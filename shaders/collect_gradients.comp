@@ -1,0 +1,57 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// Copies gradients out of the image that they were blended in: of a whole tile, or of the four cells
+// around each of a number of points.
+
+#include "layout.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Point {
+    vec2 position;
+    uint tile;
+    uint cell;  // the low one of the four around, column | row << 16
+};
+
+layout(std430, set = 0, binding = 2) readonly buffer Points {
+    Point points[];
+};
+layout(std430, set = 0, binding = 3) writeonly buffer Field {
+    uint words[];
+} field;
+layout(set = 0, binding = 4) uniform sampler2D gradient_image;
+
+layout(push_constant) uniform Push {
+    uint first;            // cell of the tile, or cell around a point (four each)
+    uint end;
+    uint first_word;       // where the words of cell 0, or of point `origin`, start
+    uint origin;
+    uint words_per_point;  // 0: a whole tile
+    uint tile;
+} push;
+
+void write(uint word, uint tile_index, ivec2 cell) {
+    Tile tile = tiles[tile_index];
+    vec2 gradient = texelFetch(gradient_image, ivec2(tile.atlas_x, tile.atlas_y) + cell, 0).xy;
+    field.words[word] = floatBitsToUint(gradient.x);
+    field.words[word + 1u] = floatBitsToUint(gradient.y);
+}
+
+void main() {
+    uint index = push.first + gl_GlobalInvocationID.x;
+    if (index >= push.end) {
+        return;
+    }
+    if (push.words_per_point == 0u) {
+        uint width = tiles[push.tile].width;
+        write(push.first_word + 2u * index, push.tile, ivec2(index % width, index / width));
+        return;
+    }
+    uint corner = index & 3u;
+    Point point = points[index / 4u];
+    ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
+    // After the feature and the four values.
+    uint word = push.first_word + (index / 4u - push.origin) * push.words_per_point + 5u;
+    write(word + 2u * corner, point.tile, low + ivec2(corner & 1u, corner >> 1));
+}

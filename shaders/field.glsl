@@ -1,0 +1,77 @@
+// What the images of the raster passes say about a cell of a field tile. Stands after nearest.glsl;
+// the shader has declared feature_image, sign_image and push.sign_mask.
+
+// The bits of a texel of the sign image that say "inside"; all others are of no interest. This one
+// means that sign and feature share an image: the sign in the top bit, the feature in the low 24.
+const uint feature_bit_sign = 1u << 31;
+const uint feature_bit_id = (1u << 24) - 1u;
+
+// Two distances that single precision cannot tell apart far from B.
+const float relative_margin = 1.0 / 262144.0;
+
+uint feature_at(ivec2 texel) {
+    uint feature = texelFetch(feature_image, texel, 0).x;
+    if (push.sign_mask == feature_bit_sign) {
+        feature &= feature_bit_id;
+        return feature == feature_bit_id ? no_feature : feature;
+    }
+    return feature;
+}
+
+bool filled_at(ivec2 texel) {
+    return (texelFetch(sign_image, texel, 0).x & push.sign_mask) != 0u;
+}
+
+// Signed distance at the centre of a cell (section 2.2.2 of the paper): analytic, to the feature
+// that won the depth test here or at a neighbour; the sign comes from the fill.
+float field_value(Tile tile, ivec2 cell) {
+    ivec2 last = ivec2(tile.width, tile.height) - 1;
+    ivec2 corner = ivec2(tile.atlas_x, tile.atlas_y);
+    vec2 centre = vec2(cell) + 0.5;
+
+    // Neighbours give a second opinion where the flat triangles of a cone let the wrong feature win,
+    // and mostly an answer where rasterisation left a sample out between two triangles.
+    const ivec2 offsets[5] =
+        ivec2[5](ivec2(0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+    float nearest = infinity;
+    uint former = no_feature;
+    for (int i = 0; i < 5; ++i) {
+        ivec2 neighbour = clamp(cell + offsets[i], ivec2(0), last);
+        uint feature = feature_at(corner + neighbour);
+        if (feature != no_feature && feature != former) {
+            Edge edge = list_edge(tile.nearest, feature);
+            nearest = min(nearest, distance_to_segment(centre, edge.a, edge.b));
+            former = feature;
+        }
+    }
+    if (isinf(nearest)) {
+        for (uint i = 0u; i < tile.nearest.count; ++i) {
+            Edge edge = list_edge(tile.nearest, i);
+            nearest = min(nearest, distance_to_segment(centre, edge.a, edge.b));
+        }
+    }
+    return filled_at(corner + cell) ? -nearest : nearest;
+}
+
+// The nearest of B's own edges to a point in a cell, whether it is the only one, and on which side
+// of the boundary the point lies: one word, as plan::point_inside and so on say. The images only
+// save work.
+uint field_feature(Tile tile, vec2 p, ivec2 cell) {
+    ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
+    uint feature = feature_at(texel);
+    Nearest nearest = Nearest(infinity, vec2(0.0), 0u);
+    bool settled = false;
+    bool inside = filled_at(texel);
+    if (feature != no_feature) {
+        Edge edge = list_edge(tile.nearest, feature);
+        settled = distance_to_segment(vec2(cell) + 0.5, edge.a, edge.b) > tile.settled;
+        consider_run(p, edge, nearest);
+    }
+    if (!settled) {
+        inside = inside_by_crossings(p, tile.crossing);
+    }
+    nearest = find_nearest(p, tile.nearest, nearest);
+    float margin = max(tile.margin, relative_margin * nearest.distance);
+    uint unique = has_rival(p, tile.nearest, nearest, margin) ? 0u : unique_flag;
+    return (inside ? inside_flag : 0u) | unique | nearest.edge;
+}

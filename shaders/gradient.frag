@@ -1,0 +1,33 @@
+#version 450
+
+// The distance image shifted by a number of pixels, along x for the first component and along y for
+// the second; or a factor to blend by.
+
+layout(std430, set = 0, binding = 3) readonly buffer Field {
+    uint words[];
+} field;
+
+layout(push_constant) uniform Push {
+    layout(offset = 32) ivec2 corner;  // of the tile in the atlas
+    ivec2 size;
+    int shift;     // 0: write the factor
+    float factor;
+    float largest;  // magnitude that the format holds
+} push;
+
+layout(location = 0) flat in uint first_value;
+layout(location = 0) out vec2 color;
+
+float value_at(ivec2 cell) {
+    ivec2 inside = clamp(cell, ivec2(0), push.size - 1);
+    uint index = first_value + uint(inside.y * push.size.x + inside.x);
+    float value = uintBitsToFloat(field.words[index]);
+    return clamp(value, -push.largest, push.largest);
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_FragCoord.xy) - push.corner;
+    color = push.shift == 0 ? vec2(push.factor)
+                            : vec2(value_at(cell + ivec2(push.shift, 0)),
+                                   value_at(cell + ivec2(0, push.shift)));
+}

@@ -1,0 +1,59 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// What the host needs to reconstruct a field at a point, one thread a point: the nearest feature,
+// the values of the four cells around and, for central differences, of the eight around those.
+
+#include "layout.glsl"
+#include "nearest.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Point {
+    vec2 position;
+    uint tile;
+    uint cell;  // the low one of the four around, column | row << 16
+};
+
+layout(std430, set = 0, binding = 2) readonly buffer Points {
+    Point points[];
+};
+layout(std430, set = 0, binding = 3) writeonly buffer Field {
+    uint words[];
+} field;
+layout(set = 0, binding = 4) uniform usampler2D feature_image;
+layout(set = 0, binding = 5) uniform usampler2D sign_image;
+
+layout(push_constant) uniform Push {
+    uint first;
+    uint end;
+    uint sign_mask;
+    uint first_word;       // where the words of point `origin` start
+    uint origin;
+    uint words_per_point;  // plan::FieldParts
+    uint cells_per_point;  // 4, or 12 for central differences
+} push;
+
+#include "field.glsl"
+
+// The four cells around a point row by row, then what central differences at them look at beyond.
+const ivec2 around[12] = ivec2[12](ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(-1, 0),
+                                   ivec2(2, 0), ivec2(-1, 1), ivec2(2, 1), ivec2(0, -1),
+                                   ivec2(1, -1), ivec2(0, 2), ivec2(1, 2));
+
+void main() {
+    uint index = push.first + gl_GlobalInvocationID.x;
+    if (index >= push.end) {
+        return;
+    }
+    Point point = points[index];
+    Tile tile = tiles[point.tile];
+    ivec2 last = ivec2(tile.width, tile.height) - 1;
+    ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
+    uint word = push.first_word + (index - push.origin) * push.words_per_point;
+    ivec2 own = clamp(ivec2(floor(point.position)), ivec2(0), last);
+    field.words[word] = field_feature(tile, point.position, own);
+    for (uint i = 0u; i < push.cells_per_point; ++i) {
+        field.words[word + 1u + i] = floatBitsToUint(field_value(tile, low + around[i]));
+    }
+}

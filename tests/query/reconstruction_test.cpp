@@ -1,0 +1,284 @@
+#include <tests/query/field_laws.hpp>
+#include <tests/support/outlines.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 60606;
+
+class Reconstruction : public FieldLaws {
+protected:
+    /// Points all over a rectangle, its edge and corners among them.
+    static std::vector<Vector2> any_points(Random& random, const Rectangle& box, int count) {
+        std::vector<Vector2> points{
+            box.min, box.max, {box.min.x, box.max.y}, {0.5 * (box.min.x + box.max.x), box.min.y}};
+        for (int i = 0; i < count; ++i) {
+            points.push_back(
+                {random.between(box.min.x, box.max.x), random.between(box.min.y, box.max.y)});
+        }
+        return points;
+    }
+
+    static void expect_same(const FieldPoint& one, const FieldPoint& other, std::size_t index) {
+        EXPECT_EQ(one.point, other.point) << index;
+        EXPECT_EQ(one.distance, other.distance) << index;
+        EXPECT_EQ(one.error_bound, other.error_bound) << index;
+        EXPECT_EQ(one.inside, other.inside) << index;
+        EXPECT_EQ(one.gradient, other.gradient) << index;
+        EXPECT_EQ(one.feature.index, other.feature.index) << index;
+        EXPECT_EQ(one.unique, other.unique) << index;
+    }
+};
+
+TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
+    const int cases = random_cases(60);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + static_cast<std::uint64_t>(i));
+        const AnyField field(context(), random);
+        SCOPED_TRACE(field.text());
+        DistanceFieldQuery query = field.query();
+        const auto points = any_points(random, field.rectangle(), 40);
+        query.points = points;
+        query.values = i % 2 == 0;
+        query.sign = static_cast<SignEncoding>(i % 3);
+        query.gradient = static_cast<GradientMethod>(i / 3 % 3);
+        check_points(field.oracle(), query, run_alone(context(), query));
+    }
+}
+
+TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
+    Random random(seed);
+    const auto check = [&](const Rings& rings, double tolerance, const Rectangle& box) {
+        const PlacedShape shape(context(), rings, {});
+        DistanceFieldQuery query;
+        query.b = shape.instance();
+        query.tolerance = tolerance;
+        query.rectangle = box;
+        query.values = false;
+        const auto points = any_points(random, box, 200);
+        query.points = points;
+        check_points(shape.oracle(), query, run_alone(context(), query));
+    };
+    for (const auto& [name, rings] : every_family(seed)) {
+        SCOPED_TRACE(name);
+        check(rings, 0.04, {{-1.2, -1.2}, {1.2, 1.2}});
+    }
+    const Rings iceland = read_outline(NEARFIELD_TEST_DATA "/iceland_10m.geojson").rings;
+    const oracle::ShapeOracle outline(iceland, {});
+    check(iceland, 2.0, outline.box());
+}
+
+/// Cells in which two fields differ: in sign, or in anything.
+struct Differences {
+    int signs = 0;
+    int values = 0;
+};
+
+Differences differences(const DistanceFieldResult& one, const DistanceFieldResult& other) {
+    Differences found;
+    for (std::size_t i = 0; i < one.values.size(); ++i) {
+        found.signs += std::signbit(one.values[i]) != std::signbit(other.values[i]) ? 1 : 0;
+        found.values += one.values[i] != other.values[i] ? 1 : 0;
+    }
+    return found;
+}
+
+/// The three encodings give one sign everywhere: each in a batch of its own, where the whole field
+/// is the same bit for bit, and all three side by side in one atlas, where a tile's place may
+/// decide which of two equally near features is drawn.
+TEST_F(Reconstruction, SignEncodingsAgree) {
+    const int cases = random_cases(40);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + 500 + static_cast<std::uint64_t>(i));
+        const AnyField field(context(), random);
+        SCOPED_TRACE(field.text());
+        Batch batch;
+        std::vector<QueryHandle<DistanceFieldQuery>> handles;
+        DistanceFieldResult first;
+        for (const SignEncoding sign :
+             {SignEncoding::stencil, SignEncoding::color, SignEncoding::feature_bit}) {
+            DistanceFieldQuery query = field.query();
+            query.sign = sign;
+            handles.push_back(batch.add(query));
+            const DistanceFieldResult result = run_alone(context(), query);
+            ASSERT_TRUE(result.status.ok()) << result.status.text();
+            if (sign == SignEncoding::stencil) {
+                first = result;
+                check_field(field.oracle(), first.tolerance, first, 2000);
+            }
+            ASSERT_EQ(first.values.size(), result.values.size());
+            EXPECT_EQ(differences(first, result).signs, 0) << static_cast<int>(sign);
+            EXPECT_EQ(differences(first, result).values, 0) << static_cast<int>(sign);
+        }
+        Results results;
+        ASSERT_TRUE(context().run(batch, results).ok());
+        for (const auto handle : handles) {
+            ASSERT_TRUE(results[handle].status.ok()) << results[handle].status.text();
+            EXPECT_EQ(differences(first, results[handle]).signs, 0) << handle.index;
+        }
+    }
+}
+
+/// Fields of every kind beside other queries, so that all passes share one graph.
+TEST_F(Reconstruction, HoldsInOneBatchWithEverything) {
+    Random random(seed + 9);
+    const PlacedPair pair(
+        context(),
+        {{"A", star(random, 20, 0.5)}, {"B", star(random, 30, 0.4)}, {}, {{0.4, 0.2}, 0.5}, 0.04});
+    const Rectangle box{{-1, -1}, {1, 1}};
+    const auto points = any_points(random, box, 50);
+    Batch batch;
+    const auto penetration = batch.add(pair.penetration());
+    const auto intersection = batch.add(pair.intersection(IntersectionKind::volume_volume));
+    std::vector<DistanceFieldQuery> fields;
+    for (int i = 0; i < 9; ++i) {
+        DistanceFieldQuery query;
+        query.b = pair.instance_b();
+        query.tolerance = pair.tolerance();
+        query.rectangle = box;
+        query.sign = static_cast<SignEncoding>(i % 3);
+        query.gradient = static_cast<GradientMethod>(i / 3);
+        query.features = query.gradients = true;
+        query.points = points;
+        fields.push_back(query);
+    }
+    std::vector<QueryHandle<DistanceFieldQuery>> handles;
+    for (const DistanceFieldQuery& query : fields) {
+        handles.push_back(batch.add(query));
+    }
+    Results results;
+    for (int run = 0; run < 2; ++run) {
+        ASSERT_TRUE(context().run(batch, results).ok());
+        check_penetration(pair, PenetrationPoints::boundary, results[penetration]);
+        check_intersection(pair, IntersectionKind::volume_volume, results[intersection]);
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            SCOPED_TRACE(i);
+            const DistanceFieldResult& result = results[handles[i]];
+            check_field(pair.b(), pair.tolerance(), result, 500);
+            check_points(pair.b(), fields[i], result);
+            if (fields[i].gradient == GradientMethod::analytic) {
+                check_cells(pair.b(), fields[i], result, 500);
+            } else {
+                check_differences(pair.b(), result, 500);
+            }
+        }
+    }
+}
+
+TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
+    const int cases = random_cases(27);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + 800 + static_cast<std::uint64_t>(i));
+        const AnyField field(context(), random);
+        DistanceFieldQuery query = field.query();
+        query.sign = static_cast<SignEncoding>(i % 3);
+        query.gradient = static_cast<GradientMethod>(i / 3 % 3);
+        const auto points = any_points(random, field.rectangle(), 60);
+        query.points = points;
+        const auto whole = run_alone(context(), query);
+        query.values = false;
+        const auto alone = run_alone(context(), query);
+        ASSERT_TRUE(whole.status.ok()) << whole.status.text();
+        ASSERT_TRUE(alone.status.ok()) << alone.status.text();
+        EXPECT_TRUE(alone.values.empty());
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            expect_same(whole.points[k], alone.points[k], k);
+            // The image says the same where all four cells are in it.
+            const double x = (points[k].x - whole.origin.x) / whole.cell - 0.5;
+            const double y = (points[k].y - whole.origin.y) / whole.cell - 0.5;
+            if (x < 0 || y < 0 || x >= whole.width - 1.0 || y >= whole.height - 1.0) {
+                continue;
+            }
+            const auto column = static_cast<std::size_t>(x);
+            const auto row = static_cast<std::size_t>(y);
+            const auto value = [&](std::size_t right, std::size_t up) {
+                return static_cast<double>(whole.values[(row + up) * whole.width + column + right]);
+            };
+            const double u = x - static_cast<double>(column);
+            const double v = y - static_cast<double>(row);
+            const double expected = (1 - u) * (1 - v) * value(0, 0) + u * (1 - v) * value(1, 0) +
+                                    (1 - u) * v * value(0, 1) + u * v * value(1, 1);
+            EXPECT_NEAR(whole.points[k].distance, expected,
+                        1e-9 * (std::abs(expected) + whole.cell + std::abs(points[k].x) +
+                                std::abs(points[k].y)));
+        }
+    }
+}
+
+/// Several tiles and rounds, points everywhere, and only some tiles with points.
+TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
+    Random random(seed);
+    Settings settings;
+    settings.memory_limit = std::uint64_t{24} << 20U;
+    Expected<Context> small = Context::create(host_device(), settings);
+    ASSERT_TRUE(small.ok()) << small.status().text();
+    const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
+    const Rectangle box{{-20.0, 3.0}, {20.0, 5.0}};
+    for (const auto method :
+         {GradientMethod::analytic, GradientMethod::central_differences, GradientMethod::blended}) {
+        DistanceFieldQuery query;
+        query.b = shape.instance();
+        query.tolerance = 0.02;
+        query.rectangle = box;
+        query.values = false;
+        query.gradient = method;
+        auto points = any_points(random, box, 500);
+        query.points = points;
+        check_points(shape.oracle(), query, run_alone(*small, query));
+        points.erase(points.begin(), points.end() - 2);
+        query.points = points;
+        check_points(shape.oracle(), query, run_alone(*small, query));
+    }
+}
+
+/// The values behind a difference at a point are the field's own.
+TEST_F(Reconstruction, GradientsAtPointsAreBilinearBetweenCells) {
+    Random random(seed + 3);
+    const PlacedShape shape(context(), star(random, 20, 0.4), {});
+    for (const auto method : {GradientMethod::central_differences, GradientMethod::blended}) {
+        DistanceFieldQuery query;
+        query.b = shape.instance();
+        query.tolerance = 0.03;
+        query.rectangle = {{-1, -1}, {1, 1}};
+        query.gradient = method;
+        query.gradients = true;
+        const auto points = any_points(random, *query.rectangle, 100);
+        query.points = points;
+        const auto result = run_alone(context(), query);
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        int compared = 0;
+        for (const FieldPoint& point : result.points) {
+            const double x = (point.point.x - result.origin.x) / result.cell - 0.5;
+            const double y = (point.point.y - result.origin.y) / result.cell - 0.5;
+            if (x < 0 || y < 0 || x >= result.width - 1.0 || y >= result.height - 1.0) {
+                continue;
+            }
+            const auto column = static_cast<std::size_t>(x);
+            const auto row = static_cast<std::size_t>(y);
+            const double u = x - static_cast<double>(column);
+            const double v = y - static_cast<double>(row);
+            const std::array<double, 4> weights{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
+            Vector2 expected;
+            for (std::size_t corner = 0; corner < 4; ++corner) {
+                const std::size_t cell = (row + corner / 2) * result.width + column + corner % 2;
+                expected.x += weights[corner] * static_cast<double>(result.gradients[2 * cell]);
+                expected.y += weights[corner] * static_cast<double>(result.gradients[2 * cell + 1]);
+            }
+            EXPECT_NEAR(point.gradient.x, expected.x, 1e-6);
+            EXPECT_NEAR(point.gradient.y, expected.y, 1e-6);
+            ++compared;
+        }
+        EXPECT_GT(compared, 50);
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
