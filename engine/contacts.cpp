@@ -43,19 +43,46 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
 
 }  // namespace
 
-void ContactDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
-                            std::span<const std::uint32_t> words, ContactResult& result) {
-    const auto& asked = std::get<ContactQuery>(*query.query);
+void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
+                          std::span<const std::uint32_t> words, double cell) {
     const geometry::PlacedPolygon a(*query.a, query.pose_a);
     const geometry::PlacedPolygon b(*query.b, query.pose_b);
     touching_ =
-        std::max(std::ldexp(result.cell, -15), 1024.0 * (localize::placement_rounding(a, a.box()) +
-                                                         localize::placement_rounding(b, b.box())));
-    find_contacts_of_a(plan, query, words, asked.contact_distance);
-    find_contacts_of_b(plan, plan.queries[query.reverse], words, asked.contact_distance);
+        std::max(std::ldexp(cell, -15), 1024.0 * (localize::placement_rounding(a, a.box()) +
+                                                  localize::placement_rounding(b, b.box())));
+    const double near = std::get<ContactQuery>(*query.query).contact_distance;
+    find_contacts_of_a(plan, query, words, near);
+    find_contacts_of_b(plan, plan.queries[query.reverse], words, near);
+}
+
+void ContactDecoder::append_points(std::vector<Vector2>& points) const {
+    for (const auto* contacts : {&of_a_, &of_b_}) {
+        for (const PlacedContact& contact : *contacts) {
+            points.push_back(contact.record.point);
+        }
+    }
+}
+
+void ContactDecoder::set_normals(std::span<const FieldPoint> field) {
+    constexpr double hardly = 1e-3;
+    std::size_t i = 0;
+    for (auto* contacts : {&of_a_, &of_b_}) {
+        for (PlacedContact& contact : *contacts) {
+            const Vector gradient = geometry::to_vector(field[i++].gradient);
+            const double length = gradient.norm();
+            if (length > hardly) {
+                contact.record.normal = geometry::to_public(gradient / length);
+            } else {
+                contact.record.unique = false;
+            }
+        }
+    }
+}
+
+void ContactDecoder::write(const PlannedQuery& query, ContactResult& result) {
     result.count = static_cast<std::uint32_t>(of_a_.size() + of_b_.size());
     manifold_.build(*query.a, *query.b, of_a_, of_b_, result.cell, result.manifold);
-    if (asked.records) {
+    if (std::get<ContactQuery>(*query.query).records) {
         for (const auto* contacts : {&of_a_, &of_b_}) {
             for (const PlacedContact& contact : *contacts) {
                 result.records.push_back(contact.record);

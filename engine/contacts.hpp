@@ -15,9 +15,19 @@ namespace nearfield {
 /// Decodes contacts: what came back for points of either boundary in the field of the other.
 class ContactDecoder {
 public:
-    /// `words` by point of the plan.
-    void decode(const plan::Plan& plan, const plan::PlannedQuery& query,
-                std::span<const std::uint32_t> words, ContactResult& result);
+    /// Finds the contacts of a query, with analytic normals. `words` by point of the plan; `cell`:
+    /// the side of a grid cell, world units.
+    void find(const plan::Plan& plan, const plan::PlannedQuery& query,
+              std::span<const std::uint32_t> words, double cell);
+
+    /// Appends where the contacts found are: A's, then B's.
+    void append_points(std::vector<Vector2>& points) const;
+    /// Takes the field at the points of append_points(). Where there is hardly a gradient, between
+    /// walls, a contact keeps its normal and is not unique.
+    void set_normals(std::span<const FieldPoint> field);
+
+    /// Writes the contacts and their manifold.
+    void write(const plan::PlannedQuery& query, ContactResult& result);
 
 private:
     void find_contacts_of_a(const plan::Plan& plan, const plan::PlannedQuery& query,

@@ -1,14 +1,13 @@
+#include <engine/batch_runner.hpp>
 #include <engine/failure.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
+#include <engine/gradient_normals.hpp>
 #include <engine/graph/format.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/planner.hpp>
-#include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
-#include <engine/results.hpp>
 #include <engine/stopwatch.hpp>
 #include <nearfield/context.hpp>
 
@@ -55,6 +54,10 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     return limits;
 }
 
+const char* gradient_format(const gpu::Device& device) {
+    return graph::find_format(device.gradient_format())->name;
+}
+
 }  // namespace
 
 class Context::Implementation {
@@ -63,10 +66,9 @@ public:
                    const Settings& settings)
         : own_device_(std::move(own)),
           device_(host),
-          planner_(plan_limits(device_, settings)),
-          builder_(subpixel_grid(device_)),
           renderer_(device_),
-          decoder_(graph::find_format(device_.gradient_format())->name) {}
+          runner_(plan_limits(device_, settings), gradient_format(device_), renderer_),
+          normals_(plan_limits(device_, settings), gradient_format(device_), renderer_) {}
 
     Expected<ShapeHandle> add_shape(std::span<const Ring> rings, double deviation);
     Status update_shape(ShapeHandle handle, std::span<const Ring> rings, double deviation);
@@ -96,12 +98,9 @@ private:
     localize::BroadPhase broad_phase_;
     std::vector<geometry::Box> boxes_;
     std::vector<localize::BroadPhase::Pair> box_pairs_;
-    plan::Planner planner_;
-    plan::RoundBuilder builder_;
     Renderer renderer_;
-    plan::Plan plan_;
-    plan::Round round_;
-    ResultDecoder decoder_;
+    BatchRunner runner_;
+    GradientNormals normals_;
     bool lost_ = false;
 };
 
@@ -192,33 +191,11 @@ Status Context::Implementation::run(const Batch& batch, Results& results) {
 void Context::Implementation::run_batch(const Batch& batch, Results& results) {
     const Stopwatch start;
     Timings& timings = results.timings;
-    timings.plan = timings.record = timings.device = timings.decode = 0.0;
+    timings.localize = timings.plan = timings.record = timings.device = timings.decode = 0.0;
     timings.passes.clear();
-
-    planner_.plan(
-        batch.queries(), [this](ShapeHandle handle) { return find(handle); }, plan_,
-        results.results);
-    timings.localize = planner_.localize_milliseconds();
-    timings.plan = start.milliseconds() - timings.localize;
-
-    builder_.begin_batch();
-    decoder_.begin_batch(plan_);
-    for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
-        const Stopwatch build_start;
-        builder_.build(plan_, number, round_);
-        timings.plan += build_start.milliseconds();
-        renderer_.render(round_, plan_.extent, timings);
-
-        const Stopwatch decode_start;
-        decoder_.add_points(round_, renderer_.points());
-        decoder_.add_field(plan_, round_, renderer_.field_words(), results.results);
-        ResultDecoder::add_summaries(plan_, round_, renderer_.summaries(), results.results);
-        decoder_.add_samples(plan_, round_, renderer_.samples());
-        timings.decode += decode_start.milliseconds();
-    }
-    const Stopwatch decode_start;
-    decoder_.finish(plan_, results.results);
-    timings.decode += decode_start.milliseconds();
+    const plan::FindShape find_shape = [this](ShapeHandle handle) { return find(handle); };
+    runner_.run(batch.queries(), find_shape, results);
+    normals_.apply(runner_, find_shape, results);
     timings.total = start.milliseconds();
 }
 

@@ -177,7 +177,10 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
             }
         } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
             if (contact->status.ok()) {
-                contacts_.decode(plan, planned, words_, *contact);
+                if (std::get<ContactQuery>(*planned.query).normals == ContactNormals::analytic) {
+                    contacts_.find(plan, planned, words_, contact->cell);
+                    contacts_.write(planned, *contact);
+                }
                 contact->intersects = shapes_intersect(plan, planned, *contact);
             }
         } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {

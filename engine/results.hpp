@@ -33,7 +33,11 @@ public:
     void add_samples(const plan::Plan& plan, const plan::Round& round,
                      std::span<const plan::SampleData> samples);
 
-    /// After the last round: writes penetration and intersection results, closes those of fields.
+    /// By point of the plan, what the device said.
+    [[nodiscard]] std::span<const std::uint32_t> point_words() const { return words_; }
+
+    /// After the last round: writes what is not written yet, but for contacts whose normals are to
+    /// be gradients.
     void finish(const plan::Plan& plan, std::vector<AnyResult>& results);
 
 private:

@@ -96,6 +96,53 @@ TEST_F(Contacts, SharedEdgesTouchAtDistanceZero) {
     }
 }
 
+TEST_F(Contacts, NormalsByTheGradientAreThoseOfTheFieldNearWalls) {
+    // Away from corners central differences of a straight wall's distance are its normal.
+    const PlacedPair placed(context(), {{"A", rectangle({-1, 0.05}, {1, 2})},
+                                        {"B", rectangle({-10, -1}, {10, 0})},
+                                        {{0, 0}, 0.3},
+                                        {{0, 0}, 0.3},
+                                        0.02});
+    ContactQuery query = placed.contacts(0.2);
+    const ContactResult analytic = run_alone(context(), query);
+    query.normals = ContactNormals::gradient;
+    const ContactResult gradient = run_alone(context(), query);
+    ASSERT_TRUE(gradient.status.ok()) << gradient.status.text();
+    ASSERT_EQ(gradient.records.size(), analytic.records.size());
+    ASSERT_GT(gradient.records.size(), 50U);
+    for (std::size_t i = 0; i < gradient.records.size(); ++i) {
+        EXPECT_EQ(gradient.records[i].point, analytic.records[i].point);
+        EXPECT_EQ(gradient.records[i].distance, analytic.records[i].distance);
+        EXPECT_LT(oracle::distance(gradient.records[i].normal, analytic.records[i].normal), 1e-3);
+    }
+    ASSERT_EQ(gradient.manifold.size(), analytic.manifold.size());
+    EXPECT_LT(oracle::distance(gradient.manifold[0].normal, analytic.manifold[0].normal), 1e-3);
+}
+
+TEST_F(Contacts, NormalsByTheGradientPointOutOfRandomShapes) {
+    std::size_t compared = 0;
+    std::size_t close = 0;
+    for_each_case(seed, 30, [&](Random& random) {
+        const PlacedPair placed(context(), any_pair(random));
+        SCOPED_TRACE(describe(placed.pair()));
+        ContactQuery query = placed.contacts(3.0 * placed.tolerance());
+        const ContactResult analytic = run_alone(context(), query);
+        query.normals = ContactNormals::gradient;
+        const ContactResult gradient = run_alone(context(), query);
+        ASSERT_TRUE(gradient.status.ok()) << gradient.status.text();
+        ASSERT_EQ(gradient.records.size(), analytic.records.size());
+        for (std::size_t i = 0; i < gradient.records.size(); ++i) {
+            const Vector2& normal = gradient.records[i].normal;
+            EXPECT_NEAR(oracle::length(normal), 1.0, 1e-9);
+            ++compared;
+            close += oracle::dot(normal, analytic.records[i].normal) > 0.9 ? 1U : 0U;
+        }
+    });
+    // Thin features and corners are what central differences get wrong.
+    EXPECT_GT(compared, 500U);
+    EXPECT_GT(close, compared / 2);
+}
+
 TEST_F(Contacts, NothingFarApart) {
     const ContactResult result =
         check(rectangle({0, 0}, {1, 1}), rectangle({3, 0}, {4, 1}), 0.1, 1.5);
