@@ -119,6 +119,22 @@ void add_picture_entries(std::vector<LegendEntry>& entries, FieldPicture picture
     }
 }
 
+const char* meaning_of_regions(QueryType type) {
+    switch (type) {
+        case QueryType::distance_field:
+            return "grid of the field";
+        case QueryType::contacts:
+            return "region of potential contact";
+        case QueryType::closest_point:
+        case QueryType::separation:
+            return "where the closest can be";
+        case QueryType::penetration:
+        case QueryType::intersection:
+            break;
+    }
+    return "region of potential intersection";
+}
+
 }  // namespace
 
 std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field) {
@@ -127,9 +143,8 @@ std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field
         {swatch(palette::shape_b), "B: " + figure.b.name},
     };
     if (!summary_of(figure.answer.result).regions.empty()) {
-        const bool is_field = figure.answer.request.type == QueryType::distance_field;
         entries.push_back({line({palette::region, 2.0, {9.0, 7.0}}),
-                           is_field ? "grid of the field" : "region of potential intersection"});
+                           meaning_of_regions(figure.answer.request.type)});
     }
     std::visit([&entries](const auto& result) { add_entries(entries, result); },
                figure.answer.result);
