@@ -112,8 +112,8 @@ private:
 ///
 /// Turning or moving a path turns or moves its rings, to rounding. Segments are as few as an equal
 /// division needs for circles, and at most about twice as many as the fewest for the others, and a
-/// few more at each point where a curve turns back (docs/error_budget.md has the derivation). A contour with curves that would shrink to fewer than
-/// three vertices is divided further.
+/// few more at each point where a curve turns back (docs/error_budget.md has the derivation). A
+/// contour with curves that would shrink to fewer than three vertices is divided further.
 ///
 /// Errors: invalid_shape for a path that cannot be used (no contour, a number that is not finite or
 /// beyond `largest_coordinate`, a segment before the first point, a deviation that is not above 0
