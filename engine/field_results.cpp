@@ -93,8 +93,10 @@ double reconstruction_error(const std::array<double, 4>& values, double distance
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const double x = point.across - static_cast<double>(i % 2);
-        const double y = point.up - static_cast<double>(i / 2);
+        const std::size_t right = i % 2;
+        const std::size_t above = i / 2;
+        const double x = point.across - static_cast<double>(right);
+        const double y = point.up - static_cast<double>(above);
         const double reach = cell * std::hypot(x, y) + cell_error;
         low = std::max(low, values[i] - reach);
         high = std::min(high, values[i] + reach);
@@ -197,8 +199,9 @@ void FieldDecoder::add_features(const plan::PlannedQuery& planned, const Tile& t
     const PlacedPolygon b(*planned.b, planned.pose_b);
     const bool gradients = query.gradients && query.gradient == GradientMethod::analytic;
     for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
-        const Vector center(static_cast<double>(cell % result.width) + 0.5,
-                            static_cast<double>(cell / result.width) + 0.5);
+        const std::size_t column = cell % result.width;
+        const std::size_t row = cell / result.width;
+        const Vector center(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
         const NearestFeature nearest =
             decode(b, tile, tile.grid.origin + tile.grid.cell * center, words[drawn]);
         result.unique[cell] = nearest.unique ? 1 : 0;

@@ -29,7 +29,7 @@ public:
 
     /// The point of A that stands at a place of Plan::points; its word as the device wrote it, not
     /// zero.
-    [[nodiscard]] ResolvedPoint resolve(const plan::PlannedPoint& point, std::uint32_t word);
+    [[nodiscard]] ResolvedPoint resolve(const plan::PlannedPoint& planned, std::uint32_t word);
 
     [[nodiscard]] const geometry::PlacedPolygon& a() const { return *a_; }
     [[nodiscard]] const geometry::PlacedPolygon& b() const { return *b_; }

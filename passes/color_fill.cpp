@@ -9,7 +9,7 @@ namespace nearfield::passes {
 namespace {
 
 constexpr std::uint32_t black = 0;
-constexpr std::uint32_t white = 0xffffffff;
+constexpr std::uint32_t white_everywhere = 0xffffffff;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ void ColorFill::record(VkCommandBuffer commands) const {
         }
     };
     draw_all(clear_, black, &plan::TileDraw::rectangle);
-    draw_all(parity_, white, &plan::TileDraw::b);
+    draw_all(parity_, white_everywhere, &plan::TileDraw::b);
 }
 
 }  // namespace nearfield::passes

@@ -52,9 +52,9 @@ private:
 template <class Push>
 void dispatch_points(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t begin,
                      std::uint32_t end, Push&& push) {
-    constexpr std::uint32_t group_size = 64;
+    constexpr std::uint64_t group_size = 64;
     // The smallest maxComputeWorkGroupCount a device may have.
-    constexpr std::uint32_t most_groups = 65535;
+    constexpr std::uint64_t most_groups = 65535;
     for (std::uint64_t first = begin; first < end; first += most_groups * group_size) {
         push(static_cast<std::uint32_t>(first));
         const std::uint64_t groups = (end - first + group_size - 1) / group_size;

@@ -11,7 +11,7 @@ namespace nearfield::passes {
 namespace {
 
 constexpr std::uint32_t no_feature_outside = plan::most_signed_features;
-constexpr std::uint32_t white = 0xffffffff;
+constexpr std::uint32_t all_bits = 0xffffffff;
 
 constexpr VkColorComponentFlags id_bytes =
     VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
@@ -85,7 +85,7 @@ void FeatureBit::record(VkCommandBuffer commands) const {
         renderer.draw(tile, tile.rectangle, 1.0F, no_feature_outside);
     });
     draw_all(parity_,
-             [&](const plan::TileDraw& tile) { renderer.draw(tile, tile.b, 1.0F, white); });
+             [&](const plan::TileDraw& tile) { renderer.draw(tile, tile.b, 1.0F, all_bits); });
     draw_all(draw_, [&](const plan::TileDraw& tile) {
         renderer.draw(tile, tile.distance, tile.depth_scale, 0);
     });

@@ -12,7 +12,7 @@ namespace nearfield::passes {
 namespace {
 
 /// The push constants of gradient.frag, behind those of mesh.vert.
-struct Push {
+struct GradientPush {
     std::int32_t corner[2];
     std::int32_t size[2];
     std::int32_t shift;
@@ -26,7 +26,7 @@ constexpr float largest_half = 65504.0F;
 gpu::Owned<VkPipelineLayout> make_layout(const gpu::Device& device, VkDescriptorSetLayout set) {
     const std::array<VkPushConstantRange, 2> push{
         {{draw_push_stages, 0, draw_push_bytes},
-         {VK_SHADER_STAGE_FRAGMENT_BIT, push_offset, sizeof(Push)}}};
+         {VK_SHADER_STAGE_FRAGMENT_BIT, push_offset, sizeof(GradientPush)}}};
     static_assert(draw_push_bytes <= push_offset);
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -104,7 +104,7 @@ void Gradient::record(VkCommandBuffer commands) const {
             if (!tile.blended) {
                 continue;
             }
-            const Push push{
+            const GradientPush push{
                 {static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
                 {static_cast<std::int32_t>(tile.width), static_cast<std::int32_t>(tile.height)},
                 shift,
