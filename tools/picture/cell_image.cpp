@@ -88,10 +88,15 @@ void draw_gradient(Canvas& canvas, const DistanceFieldResult& field, const View&
     draw_cells(canvas, field, view,
                [&](std::size_t cell) { return direction_color(gradient_at(field, cell)); });
     const Rectangle page = covered_page(field, view);
-    for (double y = page.min.y + 0.5 * arrow_spacing; y < page.max.y; y += arrow_spacing) {
-        for (double x = page.min.x + 0.5 * arrow_spacing; x < page.max.x; x += arrow_spacing) {
-            const std::size_t cell = cell_at(field, view.to_world({x, y}));
-            draw_gradient_arrow(canvas, {x, y}, gradient_at(field, cell));
+    const auto places = [](double low, double high) {
+        return static_cast<int>(std::ceil((high - low) / arrow_spacing - 0.5));
+    };
+    for (int row = 0; row < places(page.min.y, page.max.y); ++row) {
+        for (int column = 0; column < places(page.min.x, page.max.x); ++column) {
+            const Vector2 middle{page.min.x + (column + 0.5) * arrow_spacing,
+                                 page.min.y + (row + 0.5) * arrow_spacing};
+            draw_gradient_arrow(canvas, middle,
+                                gradient_at(field, cell_at(field, view.to_world(middle))));
         }
     }
 }
