@@ -99,8 +99,11 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
     write_pair(query, closest, result);
     result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
     result.sampled_distance = sampled;
-    result.unique =
-        finder_.is_unique(closest, result.tolerance * plan::uniqueness_margin, result.tolerance);
+    const exact::Side side = std::holds_alternative<SeparationQuery>(*query.query)
+                                 ? exact::Side::either
+                                 : exact::Side::a;
+    result.unique = finder_.is_unique(closest, side, result.tolerance * plan::uniqueness_margin,
+                                      result.tolerance);
 }
 
 void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 namespace nearfield {
@@ -39,14 +40,14 @@ void for_each(std::span<const PlacedContact> contacts, const Stretch& stretch, c
 
 /// One end of a stretch: the contact farthest along a direction. A distance from B counts twice
 /// against it, so that where A turns away from B its corner is the end, and where B does, its
-/// corner's neighbourhood.
+/// corner's neighbourhood; depth counts a little for it.
 class EndFinder {
 public:
     explicit EndFinder(const Vector& along) : along_(along) {}
 
     void look_at(const ContactRecord& contact, std::size_t order) {
-        const double merit =
-            along_.dot(to_vector(point_on_a(contact))) - 2.0 * signed_distance(contact);
+        const double merit = along_.dot(to_vector(point_on_a(contact))) +
+                             (contact.inside ? contact.distance / 8.0 : -2.0 * contact.distance);
         if (merit > merit_) {
             merit_ = merit;
             point_ = point_on_a(contact);
@@ -139,10 +140,38 @@ void ManifoldBuilder::add_cluster(std::span<const PlacedContact> contacts, const
     cluster.count = static_cast<std::uint32_t>(stretch.count());
 }
 
+/// The stretch that begins before a place on A's boundary and the one that begins behind it, round
+/// the place's ring: it lies on one of them, or near an end of one, or on none.
+std::span<const std::size_t> ManifoldBuilder::candidates(const Polygon& a,
+                                                         std::span<const PlacedContact> of_a,
+                                                         const plan::BoundaryPoint& place) {
+    const auto begins_before = [&](std::size_t i, const plan::BoundaryPoint& other) {
+        return is_before(of_a[stretches_[i].first].place, other);
+    };
+    const std::uint32_t ring = a.ring_of(place.edge);
+    const auto begin =
+        std::lower_bound(by_start_.begin(), by_start_.end(),
+                         plan::BoundaryPoint{a.ring_begin(ring), 0.0}, begins_before);
+    const auto end = std::lower_bound(begin, by_start_.end(),
+                                      plan::BoundaryPoint{a.ring_end(ring), 0.0}, begins_before);
+    candidate_count_ = 0;
+    if (begin != end) {
+        const auto next = std::lower_bound(begin, end, place, begins_before);
+        candidates_[candidate_count_++] = next == begin ? *(end - 1) : *(next - 1);
+        candidates_[candidate_count_++] = next == end ? *begin : *next;
+    }
+    return {candidates_.data(), candidate_count_};
+}
+
 void ManifoldBuilder::join_contacts_of_b(const Polygon& a, std::span<const PlacedContact> of_a,
                                          std::span<const PlacedContact> of_b,
                                          std::span<ContactCluster> clusters) {
     left_over_.clear();
+    by_start_.resize(stretches_.size());
+    std::iota(by_start_.begin(), by_start_.end(), std::size_t{0});
+    std::sort(by_start_.begin(), by_start_.end(), [&](std::size_t i, std::size_t j) {
+        return is_before(of_a[stretches_[i].first].place, of_a[stretches_[j].first].place);
+    });
     const auto lies_on = [&](const PlacedContact& contact, const Stretch& stretch) {
         const PlacedContact& first = of_a[stretch.first];
         const PlacedContact& last = of_a[stretch.last()];
@@ -159,10 +188,13 @@ void ManifoldBuilder::join_contacts_of_b(const Polygon& a, std::span<const Place
     };
     for (const PlacedContact& contact : of_b) {
         bool found = false;
-        for (std::size_t i = 0; i < stretches_.size() && !found; ++i) {
+        for (const std::size_t i : candidates(a, of_a, contact.on_a)) {
             found = lies_on(contact, stretches_[i]);
-            if (found && signed_distance(contact.record) < signed_distance(clusters[i].extreme)) {
-                clusters[i].extreme = contact.record;
+            if (found) {
+                if (signed_distance(contact.record) < signed_distance(clusters[i].extreme)) {
+                    clusters[i].extreme = contact.record;
+                }
+                break;
             }
         }
         if (!found) {

@@ -4,6 +4,7 @@
 #include <engine/plan/boundary_points.hpp>
 #include <nearfield/result.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -55,8 +56,15 @@ private:
                             std::span<const PlacedContact> of_b,
                             std::span<ContactCluster> clusters);
 
+    [[nodiscard]] std::span<const std::size_t> candidates(const geometry::Polygon& a,
+                                                          std::span<const PlacedContact> of_a,
+                                                          const plan::BoundaryPoint& place);
+
     double spacing_ = 0.0;
     std::vector<Stretch> stretches_;
+    std::vector<std::size_t> by_start_;  // stretches by where they begin along A's boundary
+    std::array<std::size_t, 2> candidates_{};
+    std::size_t candidate_count_ = 0;
     std::vector<PlacedContact> left_over_;  // contacts of B that lie on no stretch of A
 };
 

@@ -31,7 +31,10 @@ struct Nearer {
     ClosestPair best;
     double bound;
 
-    [[nodiscard]] double squared_bound() const { return bound; }
+    // Nothing is closer than a common point.
+    [[nodiscard]] double squared_bound() const {
+        return best.squared_distance == 0.0 ? -1.0 : bound;
+    }
     [[nodiscard]] static bool is_leaf(const LazyTree& tree, std::uint32_t node) {
         return Leaf::is_leaf(tree[node]);
     }
@@ -59,7 +62,8 @@ struct Nearer {
 struct Rival {
     LazyTree& tree_a;
     LazyTree& tree_b;
-    Vector point_a;
+    const ClosestPair& closest;
+    Side side;
     double squared_limit;
     double squared_apart;
     bool found = false;
@@ -69,19 +73,22 @@ struct Rival {
         return Leaf::is_leaf(tree[node]);
     }
 
-    void consider(const Vector& on_a, double squared) {
-        found =
-            found || (squared <= squared_limit && (on_a - point_a).squaredNorm() > squared_apart);
+    void consider(const Vector& on_a, const Vector& on_b, double squared) {
+        const bool elsewhere =
+            (on_a - closest.point_a).squaredNorm() > squared_apart ||
+            (side == Side::either && (on_b - closest.point_b).squaredNorm() > squared_apart);
+        found = found || (squared <= squared_limit && elsewhere);
     }
 
     void use(std::uint32_t node_a, std::uint32_t node_b, double) {
         for_each_pair(tree_a, node_a, tree_b, node_b, [this](const Edge& a, const Edge& b) {
             for (const Vector& end : {a.start, a.end}) {
-                consider(end, geometry::nearest_on_segment(end, b.start, b.end).squared_distance);
+                const auto nearest = geometry::nearest_on_segment(end, b.start, b.end);
+                consider(end, nearest.point, nearest.squared_distance);
             }
             for (const Vector& end : {b.start, b.end}) {
                 const auto nearest = geometry::nearest_on_segment(end, a.start, a.end);
-                consider(nearest.point, nearest.squared_distance);
+                consider(nearest.point, end, nearest.squared_distance);
             }
         });
     }
@@ -101,9 +108,10 @@ ClosestPair ClosestPairFinder::find(const PlacedPolygon& a, const PlacedPolygon&
     return nearer.best;
 }
 
-bool ClosestPairFinder::is_unique(const ClosestPair& closest, double margin, double apart) {
+bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double margin,
+                                  double apart) {
     const double limit = std::sqrt(closest.squared_distance) + margin;
-    Rival rival{tree_a_, tree_b_, closest.point_a, limit * limit, apart * apart};
+    Rival rival{tree_a_, tree_b_, closest, side, limit * limit, apart * apart};
     localize::PairSearch(tree_a_, tree_b_, rival).run();
     return !rival.found;
 }

@@ -18,6 +18,9 @@ struct ClosestPair {
     double squared_distance = std::numeric_limits<double>::infinity();
 };
 
+/// Whose closest point is asked about.
+enum class Side : std::uint8_t { a, either };
+
 /// The closest points of two boundaries, exact up to the rounding of double precision: the
 /// hierarchies of localisation, driven down to single edges. Keeps its memory from call to call.
 class ClosestPairFinder {
@@ -28,9 +31,10 @@ public:
                      double at_most);
 
     /// Of the pair that the last find() gave: false where two other boundary points are no farther
-    /// apart than it and `margin`, the one of A more than `apart` away from the pair's own. The
-    /// polygons are still those of find().
-    [[nodiscard]] bool is_unique(const ClosestPair& closest, double margin, double apart);
+    /// apart than it and `margin`, and the one of A, or one of either, is more than `apart` away
+    /// from the pair's own. The polygons are still those of find().
+    [[nodiscard]] bool is_unique(const ClosestPair& closest, Side side, double margin,
+                                 double apart);
 
 private:
     localize::LazyTree tree_a_;

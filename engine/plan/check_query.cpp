@@ -103,6 +103,11 @@ Status check_query(const AnyQuery& query) {
         return check_field(*field);
     }
     if (const auto* contact = std::get_if<ContactQuery>(&query); contact && status.ok()) {
+        if (contact->normals != ContactNormals::analytic &&
+            contact->normals != ContactNormals::gradient) {
+            return invalid("the normals are no enumerator: " +
+                           std::to_string(static_cast<int>(contact->normals)));
+        }
         return check_length(contact->contact_distance, "the contact distance");
     }
     if (const auto* intersection = std::get_if<IntersectionQuery>(&query);

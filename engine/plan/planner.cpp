@@ -100,6 +100,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
     for (query_ = 0; query_ < queries.size(); ++query_) {
         PlannedQuery& planned = plan.queries[query_];
         planned = {};
+        query_bytes_ = 0.0;
         planned.query = &queries[query_];
         std::visit(
             [&](const auto& query) {
@@ -135,13 +136,14 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
 
 void Planner::require_memory(double bytes, double tolerance, double growth) {
     plan_->result_bytes += bytes;
+    query_bytes_ += bytes;
     const double limit = memory_for_results_;
     if (plan_->result_bytes <= limit) {
         return;
     }
     // Memory grows with (1/d)^growth: what this query alone would take at a coarser tolerance.
-    const double smallest = tolerance * std::pow(bytes / limit, 1.0 / growth);
-    std::string hint = bytes > limit
+    const double smallest = tolerance * std::pow(query_bytes_ / limit, 1.0 / growth);
+    std::string hint = query_bytes_ > limit
                            ? "; the smallest tolerance that fits is about " +
                                  number(static_cast<float>(smallest * 1.05))
                            : "; together with the queries before it the batch is too large";

@@ -60,7 +60,12 @@ private:
 
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
-    void add_closest_points(std::uint32_t index, ResultSummary& result);
+    /// The chains that can hold the closest point, and how many samples they take at the most.
+    [[nodiscard]] double find_closest_chains(std::uint32_t index,
+                                             std::vector<localize::Chain>& chains,
+                                             ResultSummary& result);
+    void add_closest_points(std::uint32_t index, const std::vector<localize::Chain>& chains,
+                            ResultSummary& result);
 
     /// Whether deviations and coordinates leave room for the tolerance; if not, the result says so.
     [[nodiscard]] bool check_numbers(ResultSummary& result) const;
@@ -91,12 +96,14 @@ private:
     PlanLimits limits_;
     AtlasPacker packer_;
     double memory_for_results_ = 0.0;  // bytes
+    double query_bytes_ = 0.0;         // that the query at hand needs
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
 
     // Scratch.
     localize::ClosestChains closest_;
+    std::array<std::vector<localize::Chain>, 2> closest_chains_;  // of A, of B
     std::vector<localize::Chain> chains_;
     std::vector<geometry::Box> boxes_;
     std::vector<Grid> grids_;

@@ -4,6 +4,7 @@
 #include <engine/stopwatch.hpp>
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 namespace nearfield::plan {
@@ -25,6 +26,9 @@ Box grown(Box box, double by) {
     box.max().array() += by;
     return box;
 }
+
+// Of either boundary, for a search that is finished exactly.
+constexpr double most_search_samples = 4096.0;
 
 }  // namespace
 
@@ -130,17 +134,28 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     }
 }
 
-void Planner::add_closest_points(std::uint32_t index, ResultSummary& result) {
+double Planner::find_closest_chains(std::uint32_t index, std::vector<localize::Chain>& chains,
+                                    ResultSummary& result) {
     const PlannedQuery& planned = plan_->queries[index];
     const PlacedPolygon a(*planned.a, planned.pose_a);
     const PlacedPolygon b(*planned.b, planned.pose_b);
     const Stopwatch start;
-    // A little more than all of A, so that rounding drops no point.
-    const Box everything = grown(a.box(), result.cell);
     chains_.clear();
     count(closest_.find(a, b, overlap_options(0.0), chains_), result);
-    join_chain_boxes(everything, 0.0);
     localize_milliseconds_ += start.milliseconds();
+    chains.assign(chains_.begin(), chains_.end());
+    return most_samples(a, chains, result.cell, grown(a.box(), result.cell));
+}
+
+void Planner::add_closest_points(std::uint32_t index, const std::vector<localize::Chain>& chains,
+                                 ResultSummary& result) {
+    PlannedQuery& planned = plan_->queries[index];
+    planned.budget = search_budget(result.cell / std::numbers::sqrt2);
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    // A little more than all of A, so that rounding drops no point.
+    const Box everything = grown(a.box(), result.cell);
+    chains_.assign(chains.begin(), chains.end());
+    join_chain_boxes(everything, 0.0);
     sample_boundary(a, everything, result);
     spread_points(index, everything, result);
 }
@@ -172,10 +187,17 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     if (result.intersects) {
         return;  // at distance 0: nothing to search for
     }
+    const std::uint32_t reverse = both_ways ? add_reverse() : PlannedQuery::none;
+    double samples = find_closest_chains(query_, closest_chains_[0], result);
     if (both_ways) {
-        add_closest_points(add_reverse(), result);
+        samples = std::max(samples, find_closest_chains(reverse, closest_chains_[1], result));
     }
-    add_closest_points(query_, result);
+    // The exact search takes over from wherever the samples leave off: more of them gain nothing.
+    result.cell *= std::max(1.0, samples / most_search_samples);
+    if (both_ways) {
+        add_closest_points(reverse, closest_chains_[1], result);
+    }
+    add_closest_points(query_, closest_chains_[0], result);
 }
 
 }  // namespace nearfield::plan

@@ -146,7 +146,8 @@ struct ClosestPointQuery {
     Instance a;
     Instance b;
     /// d, world units, > 0: half the diagonal of a cell of the grid that the search is rendered
-    /// with. The answer is exact whatever it is.
+    /// with; coarser where that would take more than 4,096 samples of a boundary
+    /// (ResultSummary::cell says what it was). The answer is exact whatever it is.
     double tolerance = 0.0;
 };
 

@@ -158,8 +158,8 @@ struct ContactRecord {
 /// told by a few points.
 struct ContactCluster {
     /// Its two ends, points of A's boundary in the order of A's vertices: the contacts farthest
-    /// along the stretch, at right angles to `normal`, where a contact's distance from B (negative
-    /// inside) counts twice against it. The same point where there is but one.
+    /// along the stretch, at right angles to `normal`, where a contact's distance outside B counts
+    /// twice against it and its depth an eighth for it. The same point where there is but one.
     Vector2 first;
     Vector2 last;
     Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B
@@ -201,7 +201,8 @@ struct ClosestPointResult : ResultSummary {
 };
 
 /// Answer to a SeparationQuery; the rest as in ClosestPointResult. Swapping A and B gives the same
-/// distance.
+/// distance. `unique` is about both points: false where another pair, one of its points farther
+/// than d from this pair's, is as close up to d/1000.
 struct SeparationResult : ResultSummary {
     double distance = 0.0;
     Vector2 point_a;    ///< of A

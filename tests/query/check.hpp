@@ -14,6 +14,13 @@ namespace nearfield::test {
 /// Status, tolerance, bound, cell and the grids of regions.
 void check_summary(Report& report, const ResultSummary& result, double tolerance);
 
+/// The same where cells may be as large as `cell`.
+void check_summary(Report& report, const ResultSummary& result, double tolerance, double cell);
+
+/// As above for a search that is finished exactly, whose cells may be of any size; and
+/// `intersects`.
+void check_search_summary(Report& report, const ResultSummary& result, const PlacedPair& pair);
+
 /// As above, and `intersects`.
 void check_summary(Report& report, const ResultSummary& result, const PlacedPair& pair);
 

@@ -11,19 +11,26 @@ namespace {
 using oracle::Nearest;
 using oracle::ShapeOracle;
 
-/// True where a point of A farther than `apart` from `point` is within `limit` of B; looked for at
-/// the vertices of both, where there is one if there is any.
-bool has_rival(const ShapeOracle& a, const ShapeOracle& b, const Vector2& point, double limit,
-               double apart) {
-    for (std::uint32_t i = 0; i < a.size(); ++i) {
-        const Vector2 v = a.vertex(i);
-        if (oracle::distance(v, point) > apart && b.nearest(v).distance <= limit) {
-            return true;
+/// True where a pair of boundary points within `limit` of each other has a point farther than
+/// `apart` from that of the closest pair; looked for at the vertices of both, where there is one if
+/// there is any.
+bool has_rival(const PlacedPair& pair, const SeparationResult& result, double limit, double apart) {
+    const auto elsewhere = [&](const Vector2& on_a, const Vector2& on_b) {
+        return oracle::distance(on_a, result.point_a) > apart ||
+               oracle::distance(on_b, result.point_b) > apart;
+    };
+    for (std::uint32_t i = 0; i < pair.a().size(); ++i) {
+        const Vector2 v = pair.a().vertex(i);
+        for (const Nearest& nearest : pair.b().edges_within(v, limit)) {
+            if (elsewhere(v, nearest.point)) {
+                return true;
+            }
         }
     }
-    for (std::uint32_t i = 0; i < b.size(); ++i) {
-        for (const Nearest& nearest : a.edges_within(b.vertex(i), limit)) {
-            if (oracle::distance(nearest.point, point) > apart) {
+    for (std::uint32_t i = 0; i < pair.b().size(); ++i) {
+        const Vector2 v = pair.b().vertex(i);
+        for (const Nearest& nearest : pair.a().edges_within(v, limit)) {
+            if (elsewhere(nearest.point, v)) {
                 return true;
             }
         }
@@ -77,13 +84,13 @@ void check_apart(Report& report, const PlacedPair& pair, const SeparationResult&
                    result.distance);
     const double d = pair.tolerance();
     if (result.unique) {
-        report.require(!has_rival(pair.a(), pair.b(), result.point_a,
-                                  result.distance + 0.9e-3 * d - 2 * allowed, 1.01 * d + allowed),
+        report.require(!has_rival(pair, result, result.distance + 0.9e-3 * d - 2 * allowed,
+                                  1.01 * d + allowed),
                        "called unique, and another pair is as close");
     } else {
-        report.require(has_rival(pair.a(), pair.b(), result.point_a,
-                                 result.distance + 1.1e-3 * d + 2 * allowed, 0.99 * d - allowed),
-                       "called not unique, and no other pair is as close");
+        report.require(
+            has_rival(pair, result, result.distance + 1.1e-3 * d + 2 * allowed, 0.99 * d - allowed),
+            "called not unique, and no other pair is as close");
     }
 }
 
@@ -91,7 +98,7 @@ void check_apart(Report& report, const PlacedPair& pair, const SeparationResult&
 
 void check_separation(const PlacedPair& pair, const SeparationResult& result) {
     Report report("separation");
-    check_summary(report, result, pair);
+    check_search_summary(report, result, pair);
     if (!result.status.ok()) {
         return;
     }

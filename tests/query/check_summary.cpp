@@ -1,16 +1,20 @@
 #include <tests/query/check.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace nearfield::test {
 
 void check_summary(Report& report, const ResultSummary& result, double tolerance) {
+    check_summary(report, result, tolerance, tolerance * std::numbers::sqrt2);
+}
+
+void check_summary(Report& report, const ResultSummary& result, double tolerance, double cell) {
     report.require(result.status.ok(), "status: ", result.status.text());
     if (!result.status.ok()) {
         return;
     }
-    const double cell = tolerance * std::numbers::sqrt2;
     report.require(result.tolerance == tolerance, "tolerance is ", result.tolerance);
     report.require(result.error_bound >= 0.0 && result.error_bound <= tolerance * (1 + 1e-12),
                    "error bound ", result.error_bound, " for d = ", tolerance);
@@ -31,11 +35,24 @@ void check_summary(Report& report, const ResultSummary& result, double tolerance
     }
 }
 
-void check_summary(Report& report, const ResultSummary& result, const PlacedPair& pair) {
-    check_summary(report, result, pair.tolerance());
+namespace {
+
+void check_intersects(Report& report, const ResultSummary& result, const PlacedPair& pair) {
     const Truth truth = pair.intersects();
     report.require(truth == Truth::too_close_to_call || result.intersects == (truth == Truth::yes),
                    "intersects is ", result.intersects);
+}
+
+}  // namespace
+
+void check_summary(Report& report, const ResultSummary& result, const PlacedPair& pair) {
+    check_summary(report, result, pair.tolerance());
+    check_intersects(report, result, pair);
+}
+
+void check_search_summary(Report& report, const ResultSummary& result, const PlacedPair& pair) {
+    check_summary(report, result, pair.tolerance(), std::numeric_limits<double>::infinity());
+    check_intersects(report, result, pair);
 }
 
 }  // namespace nearfield::test

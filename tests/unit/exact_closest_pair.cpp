@@ -86,7 +86,7 @@ TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     const auto unique = [&](const samples::Rings& rings) {
         const Polygon polygon = samples::polygon(rings);
         const PlacedPolygon b(polygon, {});
-        return finder.is_unique(finder.find(a, b, infinity), 1e-3, 0.5);
+        return finder.is_unique(finder.find(a, b, infinity), Side::a, 1e-3, 0.5);
     };
     EXPECT_TRUE(unique({{{5.0, 2.0}, {6.0, 4.0}, {4.0, 4.0}}}));
     EXPECT_FALSE(unique({samples::rectangle(2.0, 2.0, 3.0, 4.0)}));

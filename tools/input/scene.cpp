@@ -69,9 +69,15 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
     if (place.has("deviation")) {
         return read_above_zero(place.member("deviation"));
     }
+    const bool is_placed =
+        std::any_of(scene.instances.begin(), scene.instances.end(),
+                    [&](const SceneInstance& instance) { return instance.shape == shape; });
     double smallest = std::numeric_limits<double>::infinity();
     for (const SceneQuery& query : scene.queries) {
-        if (scene.instances[query.a].shape == shape || scene.instances[query.b].shape == shape) {
+        const bool takes_part = query.all_pairs ? is_placed
+                                                : scene.instances[query.a].shape == shape ||
+                                                      scene.instances[query.b].shape == shape;
+        if (takes_part) {
             smallest = std::min(smallest, query.request.tolerance);
         }
     }
