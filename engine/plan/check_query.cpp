@@ -1,4 +1,5 @@
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/technique.hpp>
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,11 @@ Status check_rectangle(const Rectangle& rectangle) {
 }  // namespace
 
 Status check_pose(const Pose& pose, const std::string& whose) {
+    // Nearly always; then no message is put together.
+    if (std::isfinite(pose.angle) && std::abs(pose.translation.x) <= largest_coordinate &&
+        std::abs(pose.translation.y) <= largest_coordinate) {
+        return {};
+    }
     if (!std::isfinite(pose.angle)) {
         return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
     }
@@ -81,8 +87,34 @@ Status check_field(const DistanceFieldQuery& query) {
 }
 
 template <class Query>
+Status check_technique(const Query& query) {
+    switch (query.technique) {
+        case Technique::automatic:
+        case Technique::raster:
+            return {};
+        case Technique::cpu:
+            break;
+        default:
+            return invalid("the technique is no enumerator: " +
+                           std::to_string(static_cast<int>(query.technique)));
+    }
+    if (cpu_answers(query)) {
+        return {};
+    }
+    const char* const what = std::is_same_v<Query, IntersectionQuery> ? "intersections"
+                             : std::is_same_v<Query, DistanceFieldQuery>
+                                 ? "distance fields"
+                                 : "contacts with normals by gradient";
+    return invalid(std::string("the technique cpu does not answer ") + what +
+                   "; ask for raster or automatic");
+}
+
+template <class Query>
 Status check_pair(const Query& query) {
-    Status status = check_length(query.tolerance, "the tolerance");
+    Status status = check_technique(query);
+    if (status.ok()) {
+        status = check_length(query.tolerance, "the tolerance");
+    }
     if (status.ok()) {
         status = check_pose(query.a.pose, "A");
     }
