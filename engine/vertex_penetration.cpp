@@ -79,11 +79,11 @@ void VertexPenetration::find_penetrating(const PlacedEdges& a, const PlacedEdges
             result.records.push_back(penetration_record(resolved));
         }
         if (resolved.distance > deepest.distance) {
+            resolved.unique = resolved.unique && (keep_records || is_unique(b, resolved));
             deepest = resolved;
         }
     }
     if (result.count > 0) {
-        deepest.unique = is_unique(b, deepest);
         result.deepest = penetration_record(deepest);
     }
 }
@@ -116,7 +116,9 @@ bool VertexPenetration::is_unique(const PlacedEdges& b, const ResolvedPoint& res
     }
     const double limit = resolved.distance + margin_;
     for (std::uint32_t i = 0; i < b.count; ++i) {
-        if (exact::is_rival(geometry::nearest_on_segment(resolved.point, b.start(i), b.end(i)),
+        // What is clearly farther needs no closer look.
+        if (squared_distances_[i] <= 1.001 * limit * limit &&
+            exact::is_rival(geometry::nearest_on_segment(resolved.point, b.start(i), b.end(i)),
                             nearest, limit)) {
             return false;
         }

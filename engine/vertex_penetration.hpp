@@ -26,12 +26,13 @@ private:
     void find_penetrating(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
                           PenetrationResult& result, bool keep_records);
     [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, const geometry::Vector& point);
+    /// Of the point last resolved.
     [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, const ResolvedPoint& resolved);
 
     exact::PlacedInstances instances_;
-    exact::Boundary boundary_;  // of B, where it has many edges
-    std::vector<double> squared_distances_;
-    double margin_ = 0.0;  // of uniqueness
+    exact::Boundary boundary_;               // of B, where it has many edges
+    std::vector<double> squared_distances_;  // of the point last resolved, by edge of a small B
+    double margin_ = 0.0;                    // of uniqueness
 };
 
 }  // namespace nearfield

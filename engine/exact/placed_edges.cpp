@@ -1,3 +1,4 @@
+#include <engine/exact/lanes.hpp>
 #include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
@@ -17,7 +18,12 @@ using geometry::Polygon;
 using geometry::Vector;
 
 constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t arrays = 4;  // start and end, x and y
+constexpr std::size_t arrays = 9;  // start, end, low and high, x and y; inverse length
+
+/// The length of an array, filled up to whole lanes.
+std::size_t padded(std::size_t edges) {
+    return (edges + lane_count - 1) / lane_count * lane_count;
+}
 
 bool same(const Pose& a, const Pose& b) {
     return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
@@ -29,46 +35,54 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 32U);
 }
 
-Box box_of(const PlacedEdges& edges, std::uint32_t edge) {
-    return {edges.start(edge).cwiseMin(edges.end(edge)),
-            edges.start(edge).cwiseMax(edges.end(edge))};
-}
-
 /// The edges whose boxes meet a box.
 class EdgesIn {
 public:
     EdgesIn(const PlacedEdges& edges, const Box& box) {
-        for (std::uint32_t i = 0; i < edges.count; ++i) {
-            const Box of_edge = box_of(edges, i);
-            if (localize::boxes_meet(of_edge, box, 0.0)) {
-                edges_[count_] = i;
-                boxes_[count_] = of_edge;
-                ++count_;
+        const Lanes low_x = both(box.min().x());
+        const Lanes low_y = both(box.min().y());
+        const Lanes high_x = both(box.max().x());
+        const Lanes high_y = both(box.max().y());
+        for (std::uint32_t i = 0; i < edges.count; i += lane_count) {
+            const LaneMask meets =
+                (load(edges.low_x + i) <= high_x) & (load(edges.high_x + i) >= low_x) &
+                (load(edges.low_y + i) <= high_y) & (load(edges.high_y + i) >= low_y);
+            for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
+                edges_[count_] = i + lane;
+                count_ += static_cast<std::uint32_t>(meets[lane] & 1);
             }
         }
     }
 
-    [[nodiscard]] std::uint32_t count() const { return count_; }
-    [[nodiscard]] std::uint32_t edge(std::uint32_t i) const { return edges_[i]; }
-    [[nodiscard]] const Box& box(std::uint32_t i) const { return boxes_[i]; }
+    [[nodiscard]] std::span<const std::uint32_t> edges() const { return {edges_.data(), count_}; }
 
 private:
-    std::array<std::uint32_t, most_edges_one_by_one> edges_;
-    std::array<Box, most_edges_one_by_one> boxes_;
+    // One more: the next is written before it is known whether it counts.
+    std::array<std::uint32_t, most_edges_one_by_one + 1> edges_;
     std::uint32_t count_ = 0;
 };
+
+bool edges_meet(const PlacedEdges& a, std::uint32_t i, const PlacedEdges& b, std::uint32_t j,
+                double margin) {
+    const bool boxes_meet =
+        a.low_x[i] - margin <= b.high_x[j] && b.low_x[j] <= a.high_x[i] + margin &&
+        a.low_y[i] - margin <= b.high_y[j] && b.low_y[j] <= a.high_y[i] + margin;
+    return boxes_meet &&
+           geometry::segments_meet(a.start(i), a.end(i), b.start(j), b.end(j), margin);
+}
 
 bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, double margin) {
     Box common = a.box.intersection(b.box);
     common.min().array() -= 2.0 * margin;
     common.max().array() += 2.0 * margin;
     const EdgesIn of_a(a, common);
+    if (of_a.edges().empty()) {
+        return false;
+    }
     const EdgesIn of_b(b, common);
-    for (std::uint32_t i = 0; i < of_a.count(); ++i) {
-        for (std::uint32_t j = 0; j < of_b.count(); ++j) {
-            if (localize::boxes_meet(of_a.box(i), of_b.box(j), margin) &&
-                geometry::segments_meet(a.start(of_a.edge(i)), a.end(of_a.edge(i)),
-                                        b.start(of_b.edge(j)), b.end(of_b.edge(j)), margin)) {
+    for (const std::uint32_t i : of_a.edges()) {
+        for (const std::uint32_t j : of_b.edges()) {
+            if (edges_meet(a, i, b, j, margin)) {
                 return true;
             }
         }
@@ -79,39 +93,48 @@ bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, double margin) 
 }  // namespace
 
 bool contains(const PlacedEdges& edges, const Vector& point) {
-    // Without branches, and all of one width, for the compiler's vectors.
-    std::uint64_t crossings = 0;
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        const double side = (edges.end_x[i] - edges.start_x[i]) * (point.y() - edges.start_y[i]) -
-                            (edges.end_y[i] - edges.start_y[i]) * (point.x() - edges.start_x[i]);
-        const bool start_above = edges.start_y[i] > point.y();
-        const bool end_above = edges.end_y[i] > point.y();
+    const Lanes x = both(point.x());
+    const Lanes y = both(point.y());
+    LaneMask odd{};
+    for (std::uint32_t i = 0; i < edges.count; i += lane_count) {
+        const Lanes start_x = load(edges.start_x + i);
+        const Lanes start_y = load(edges.start_y + i);
+        const Lanes end_x = load(edges.end_x + i);
+        const Lanes end_y = load(edges.end_y + i);
+        const LaneMask left =
+            (end_x - start_x) * (y - start_y) - (end_y - start_y) * (x - start_x) > 0.0;
+        const LaneMask start_above = start_y > y;
+        const LaneMask end_above = end_y > y;
         // Left of an edge that goes up, right of one that goes down: the ray to the right hits it.
-        const bool hit = (side > 0.0) == end_above;
-        crossings += static_cast<std::uint64_t>((start_above != end_above) & hit);
+        odd ^= (start_above ^ end_above) & ~(left ^ end_above);
     }
-    return (crossings & 1U) != 0;
+    return ((odd[0] ^ odd[1]) & 1) != 0;
 }
 
 std::uint32_t find_nearest(const PlacedEdges& edges, const Vector& point,
                            std::span<double> squared) {
-    double* const distances = squared.data();
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        const double along_x = edges.end_x[i] - edges.start_x[i];
-        const double along_y = edges.end_y[i] - edges.start_y[i];
-        const double to_x = point.x() - edges.start_x[i];
-        const double to_y = point.y() - edges.start_y[i];
-        const double length = along_x * along_x + along_y * along_y;
-        const double along = along_x * to_x + along_y * to_y;
-        // An edge of no length is its start: then both are 0.
-        const double parameter =
-            std::min(std::max(along, 0.0), length) / (length > 0.0 ? length : 1.0);
-        const double off_x = to_x - parameter * along_x;
-        const double off_y = to_y - parameter * along_y;
-        distances[i] = off_x * off_x + off_y * off_y;
+    const Lanes x = both(point.x());
+    const Lanes y = both(point.y());
+    const Lanes zero = both(0.0);
+    const Lanes one = both(1.0);
+    Lanes least = both(std::numeric_limits<double>::infinity());
+    for (std::uint32_t i = 0; i < edges.count; i += lane_count) {
+        const Lanes along_x = load(edges.end_x + i) - load(edges.start_x + i);
+        const Lanes along_y = load(edges.end_y + i) - load(edges.start_y + i);
+        const Lanes to_x = x - load(edges.start_x + i);
+        const Lanes to_y = y - load(edges.start_y + i);
+        Lanes parameter = (along_x * to_x + along_y * to_y) * load(edges.inverse_length + i);
+        parameter = parameter > zero ? parameter : zero;
+        parameter = parameter < one ? parameter : one;
+        const Lanes off_x = to_x - parameter * along_x;
+        const Lanes off_y = to_y - parameter * along_y;
+        const Lanes distance = off_x * off_x + off_y * off_y;
+        least = distance < least ? distance : least;
+        store(distance, squared.data() + i);
     }
-    return static_cast<std::uint32_t>(std::min_element(distances, distances + edges.count) -
-                                      distances);
+    const double smallest = std::min(least[0], least[1]);
+    const auto found = std::find(squared.begin(), squared.begin() + edges.count - 1, smallest);
+    return static_cast<std::uint32_t>(found - squared.begin());
 }
 
 bool meet_without_vertex_inside(const PlacedEdges& a, const PlacedEdges& b) {
@@ -177,12 +200,18 @@ void PlacedInstances::rehash() {
 void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
     const PlacedPolygon placed(polygon, pose);
     const std::size_t count = polygon.size();
+    const std::size_t length = padded(count);
     const std::size_t first = coordinates_.size();
-    coordinates_.resize(first + arrays * count);
+    coordinates_.resize(first + arrays * length);
     double* const start_x = coordinates_.data() + first;
-    double* const start_y = start_x + count;
-    double* const end_x = start_y + count;
-    double* const end_y = end_x + count;
+    double* const start_y = start_x + length;
+    double* const end_x = start_y + length;
+    double* const end_y = end_x + length;
+    double* const low_x = end_y + length;
+    double* const low_y = low_x + length;
+    double* const high_x = low_y + length;
+    double* const high_y = high_x + length;
+    double* const inverse_length = high_y + length;
     Box box;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vector vertex = placed.vertex(i);
@@ -198,15 +227,34 @@ void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
         end_x[last] = start_x[begin];
         end_y[last] = start_y[begin];
     }
+    // What fills up the last lanes is the last vertex once more: an edge of no length.
+    for (std::size_t i = count; i < length; ++i) {
+        start_x[i] = end_x[i] = end_x[count - 1];
+        start_y[i] = end_y[i] = end_y[count - 1];
+    }
+    for (std::size_t i = 0; i < length; ++i) {
+        low_x[i] = std::min(start_x[i], end_x[i]);
+        low_y[i] = std::min(start_y[i], end_y[i]);
+        high_x[i] = std::max(start_x[i], end_x[i]);
+        high_y[i] = std::max(start_y[i], end_y[i]);
+        const double along_x = end_x[i] - start_x[i];
+        const double along_y = end_y[i] - start_y[i];
+        const double squared = along_x * along_x + along_y * along_y;
+        inverse_length[i] = squared > 0.0 ? 1.0 / squared : 0.0;
+    }
     entries_.push_back({pose, placed, box, localize::placement_rounding(placed, box), first});
 }
 
 PlacedEdges PlacedInstances::operator[](std::uint32_t index) const {
     const Entry& entry = entries_[index];
-    const std::uint32_t count = entry.placed.polygon().size();
-    const double* const start_x = coordinates_.data() + entry.first;
-    return {entry.placed, entry.box,       entry.rounding,       count,
-            start_x,      start_x + count, start_x + 2U * count, start_x + 3U * count};
+    const std::size_t count = entry.placed.polygon().size();
+    const auto array = [&](std::size_t number) {
+        return coordinates_.data() + entry.first + number * padded(count);
+    };
+    return {entry.placed, entry.box, entry.rounding, static_cast<std::uint32_t>(count),
+            array(0),     array(1),  array(2),       array(3),
+            array(4),     array(5),  array(6),       array(7),
+            array(8)};
 }
 
 }  // namespace nearfield::exact

@@ -9,8 +9,9 @@
 namespace nearfield::exact {
 
 /// A polygon at a pose with all its edges placed in the world, a contiguous array for each
-/// coordinate, so that the compiler turns loops over them into vector instructions. For polygons
-/// of few edges (see most_edges_one_by_one) that is faster than any tree.
+/// coordinate, so that several are worked on at once. For polygons of few edges (see
+/// most_edges_one_by_one) that is faster than any tree. Every array goes on, up to whole lanes
+/// (lanes.hpp), with edges of no length at the last edge's end.
 struct PlacedEdges {
     geometry::PlacedPolygon placed;
     geometry::Box box;
@@ -20,6 +21,11 @@ struct PlacedEdges {
     const double* start_y = nullptr;
     const double* end_x = nullptr;
     const double* end_y = nullptr;
+    const double* low_x = nullptr;  ///< by edge: its box
+    const double* low_y = nullptr;
+    const double* high_x = nullptr;
+    const double* high_y = nullptr;
+    const double* inverse_length = nullptr;  ///< by edge: 1 / squared length, 0 for no length
 
     [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
         return {start_x[edge], start_y[edge]};
@@ -36,7 +42,7 @@ inline constexpr std::uint32_t most_edges_one_by_one = 64;
 [[nodiscard]] bool contains(const PlacedEdges& edges, const geometry::Vector& point);
 
 /// Writes the squared distance of a point to every edge, up to rounding, and returns the edge with
-/// the least. `squared` holds as many as there are edges.
+/// the least. `squared` has room for whole lanes.
 std::uint32_t find_nearest(const PlacedEdges& edges, const geometry::Vector& point,
                            std::span<double> squared);
 

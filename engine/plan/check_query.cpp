@@ -14,9 +14,9 @@ Status invalid(const std::string& message) {
     return {StatusCode::invalid_query, message};
 }
 
-Status check_length(double length, const std::string& what) {
+Status check_length(double length, const char* what) {
     if (!(length > 0.0 && length <= largest_coordinate)) {
-        return invalid(what + " is " + number(length) +
+        return invalid(std::string(what) + " is " + number(length) +
                        "; it must be a finite number above 0 and at most " +
                        number(largest_coordinate));
     }
