@@ -49,38 +49,37 @@ void VertexPenetration::answer(const plan::PlannedQuery& query, PenetrationResul
 
 void VertexPenetration::find_penetrating(const PlacedEdges& a, const PlacedEdges& b,
                                          PenetrationResult& result, bool keep_records) {
+    if (!a.box.intersects(b.box)) {
+        return;
+    }
+    if (!is_small(b)) {
+        boundary_.set(b.placed);
+    }
     const double touching = a.rounding + b.rounding;
-    const Vector low = b.box.min();
-    const Vector high = b.box.max();
-    bool boundary_is_set = false;
     ResolvedPoint deepest;
-    for (std::uint32_t i = 0; i < a.count; ++i) {
-        const Vector point = a.start(i);
-        const bool in_box = (point.x() >= low.x()) & (point.x() <= high.x()) &
-                            (point.y() >= low.y()) & (point.y() <= high.y());
-        if (!in_box) {
-            continue;
-        }
-        if (!is_small(b) && !boundary_is_set) {
-            boundary_.set(b.placed);
-            boundary_is_set = true;
-        }
-        if (!(is_small(b) ? contains(b, point) : boundary_.contains(point))) {
-            continue;
-        }
-        result.intersects = true;
-        ResolvedPoint resolved = resolve(b, point);
-        if (resolved.distance <= touching) {
-            continue;
-        }
-        ++result.count;
-        if (keep_records) {
-            resolved.unique = is_unique(b, resolved);
-            result.records.push_back(penetration_record(resolved));
-        }
-        if (resolved.distance > deepest.distance) {
-            resolved.unique = resolved.unique && (keep_records || is_unique(b, resolved));
-            deepest = resolved;
+    for (std::uint32_t first = 0; first < a.count; first += exact::most_edges_one_by_one) {
+        const exact::Selection in_box = vertices_in(a, first, b.box);
+        for (const std::uint32_t vertex : in_box.indices()) {
+            const Vector point = a.start(vertex);
+            if (!(is_small(b) ? contains(b, point) : boundary_.contains(point))) {
+                continue;
+            }
+            result.intersects = true;
+            ResolvedPoint resolved = resolve(b, point);
+            if (resolved.distance <= touching) {
+                continue;
+            }
+            ++result.count;
+            const bool is_deepest = resolved.distance > deepest.distance;
+            if (keep_records || is_deepest) {
+                resolved.unique = is_unique(b, resolved);
+            }
+            if (keep_records) {
+                result.records.push_back(penetration_record(resolved));
+            }
+            if (is_deepest) {
+                deepest = resolved;
+            }
         }
     }
     if (result.count > 0) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace nearfield::exact {
 namespace {
@@ -25,6 +26,17 @@ std::size_t padded(std::size_t edges) {
     return (edges + lane_count - 1) / lane_count * lane_count;
 }
 
+/// The least and the greatest; far quicker than a box that is extended in memory.
+std::pair<double, double> range_of(std::span<const double> values) {
+    double low = values.front();
+    double high = low;
+    for (const double value : values) {
+        low = value < low ? value : low;
+        high = value > high ? value : high;
+    }
+    return {low, high};
+}
+
 bool same(const Pose& a, const Pose& b) {
     return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
            a.angle == b.angle;
@@ -35,32 +47,36 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 32U);
 }
 
-/// The edges whose boxes meet a box.
-class EdgesIn {
-public:
-    EdgesIn(const PlacedEdges& edges, const Box& box) {
-        const Lanes low_x = both(box.min().x());
-        const Lanes low_y = both(box.min().y());
-        const Lanes high_x = both(box.max().x());
-        const Lanes high_y = both(box.max().y());
-        for (std::uint32_t i = 0; i < edges.count; i += lane_count) {
-            const LaneMask meets =
-                (load(edges.low_x + i) <= high_x) & (load(edges.high_x + i) >= low_x) &
-                (load(edges.low_y + i) <= high_y) & (load(edges.high_y + i) >= low_y);
-            for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
-                edges_[count_] = i + lane;
-                count_ += static_cast<std::uint32_t>(meets[lane] & 1);
-            }
+/// The boxes of edges, or vertices as boxes of no extent.
+struct Boxes {
+    const double* low_x;
+    const double* low_y;
+    const double* high_x;
+    const double* high_y;
+};
+
+/// Those of the boxes first, ..., end - 1 that meet a box.
+Selection boxes_in(const Boxes& boxes, std::uint32_t first, std::uint32_t end, const Box& box) {
+    const Lanes low_x = both(box.min().x());
+    const Lanes low_y = both(box.min().y());
+    const Lanes high_x = both(box.max().x());
+    const Lanes high_y = both(box.max().y());
+    Selection selection;
+    for (std::uint32_t i = first; i < end; i += lane_count) {
+        const LaneMask meets =
+            (load(boxes.low_x + i) <= high_x) & (load(boxes.high_x + i) >= low_x) &
+            (load(boxes.low_y + i) <= high_y) & (load(boxes.high_y + i) >= low_y);
+        for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
+            selection.add(i + lane, meets[lane] != 0);
         }
     }
+    selection.cut_off(end);
+    return selection;
+}
 
-    [[nodiscard]] std::span<const std::uint32_t> edges() const { return {edges_.data(), count_}; }
-
-private:
-    // One more: the next is written before it is known whether it counts.
-    std::array<std::uint32_t, most_edges_one_by_one + 1> edges_;
-    std::uint32_t count_ = 0;
-};
+Selection edges_in(const PlacedEdges& edges, const Box& box) {
+    return boxes_in({edges.low_x, edges.low_y, edges.high_x, edges.high_y}, 0, edges.count, box);
+}
 
 bool edges_meet(const PlacedEdges& a, std::uint32_t i, const PlacedEdges& b, std::uint32_t j,
                 double margin) {
@@ -75,13 +91,13 @@ bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, double margin) 
     Box common = a.box.intersection(b.box);
     common.min().array() -= 2.0 * margin;
     common.max().array() += 2.0 * margin;
-    const EdgesIn of_a(a, common);
-    if (of_a.edges().empty()) {
+    const Selection of_a = edges_in(a, common);
+    if (of_a.indices().empty()) {
         return false;
     }
-    const EdgesIn of_b(b, common);
-    for (const std::uint32_t i : of_a.edges()) {
-        for (const std::uint32_t j : of_b.edges()) {
+    const Selection of_b = edges_in(b, common);
+    for (const std::uint32_t i : of_a.indices()) {
+        for (const std::uint32_t j : of_b.indices()) {
             if (edges_meet(a, i, b, j, margin)) {
                 return true;
             }
@@ -91,6 +107,11 @@ bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, double margin) 
 }
 
 }  // namespace
+
+Selection vertices_in(const PlacedEdges& edges, std::uint32_t first, const Box& box) {
+    return boxes_in({edges.start_x, edges.start_y, edges.start_x, edges.start_y}, first,
+                    std::min(edges.count, first + most_edges_one_by_one), box);
+}
 
 bool contains(const PlacedEdges& edges, const Vector& point) {
     const Lanes x = both(point.x());
@@ -212,13 +233,14 @@ void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
     double* const high_x = low_y + length;
     double* const high_y = high_x + length;
     double* const inverse_length = high_y + length;
-    Box box;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Vector vertex = placed.vertex(i);
         start_x[i] = vertex.x();
         start_y[i] = vertex.y();
-        box.extend(vertex);
     }
+    const auto [low_x_of_all, high_x_of_all] = range_of({start_x, count});
+    const auto [low_y_of_all, high_y_of_all] = range_of({start_y, count});
+    const Box box(Vector(low_x_of_all, low_y_of_all), Vector(high_x_of_all, high_y_of_all));
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const std::uint32_t begin = polygon.ring_begin(ring);
         const std::uint32_t last = polygon.ring_end(ring) - 1;

@@ -2,6 +2,7 @@
 
 #include <engine/geometry/placed_polygon.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,6 +38,34 @@ struct PlacedEdges {
 
 /// So many edges are looked at one by one for a single point.
 inline constexpr std::uint32_t most_edges_one_by_one = 64;
+
+/// Some of the edges, or vertices, of a polygon, by index and in order.
+class Selection {
+public:
+    void add(std::uint32_t index, bool selected) {
+        indices_[count_] = index;
+        count_ += selected ? 1U : 0U;
+    }
+    /// Drops what fills up the last lanes.
+    void cut_off(std::uint32_t end) {
+        while (count_ > 0 && indices_[count_ - 1] >= end) {
+            --count_;
+        }
+    }
+    [[nodiscard]] std::span<const std::uint32_t> indices() const {
+        return {indices_.data(), count_};
+    }
+
+private:
+    // One more: the next is written before it is known whether it counts.
+    std::array<std::uint32_t, most_edges_one_by_one + 1> indices_;
+    std::uint32_t count_ = 0;
+};
+
+/// Of the vertices first, first + 1, ..., at most most_edges_one_by_one of them, those in a box.
+/// `first` is a multiple of that number.
+[[nodiscard]] Selection vertices_in(const PlacedEdges& edges, std::uint32_t first,
+                                    const geometry::Box& box);
 
 /// By the odd-even rule, as Boundary::contains.
 [[nodiscard]] bool contains(const PlacedEdges& edges, const geometry::Vector& point);
