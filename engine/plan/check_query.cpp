@@ -111,14 +111,16 @@ Status check_technique(const Query& query) {
 
 template <class Query>
 Status check_pair(const Query& query) {
-    Status status = check_technique(query);
-    if (status.ok()) {
-        status = check_length(query.tolerance, "the tolerance");
+    if (Status status = check_technique(query); !status.ok()) {
+        return status;
     }
-    if (status.ok()) {
-        status = check_pose(query.a.pose, "A");
+    if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
+        return status;
     }
-    return status.ok() ? check_pose(query.b.pose, "B") : status;
+    if (Status status = check_pose(query.a.pose, "A"); !status.ok()) {
+        return status;
+    }
+    return check_pose(query.b.pose, "B");
 }
 
 }  // namespace

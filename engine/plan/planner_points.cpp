@@ -47,7 +47,12 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     if (planned.on_cpu && query.points == PenetrationPoints::vertices) {
-        return;  // VertexPenetration finds them itself
+        // VertexPenetration finds them itself.
+        if (query.records) {
+            require_memory(sizeof(PenetrationRecord) * static_cast<double>(planned.a->size()),
+                           query.tolerance, 1.0);
+        }
+        return;
     }
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
