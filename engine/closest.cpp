@@ -98,7 +98,7 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
     const ClosestPair closest = finder_.find(a, b, sampled);
     write_pair(query, closest, result);
     result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
-    result.sampled_distance = sampled;
+    result.sampled_distance = query.on_cpu ? result.distance : sampled;
     const exact::Side side = std::holds_alternative<SeparationQuery>(*query.query)
                                  ? exact::Side::either
                                  : exact::Side::a;

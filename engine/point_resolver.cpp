@@ -1,3 +1,4 @@
+#include <engine/localize/hierarchy.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/point_resolver.hpp>
 
@@ -23,6 +24,9 @@ void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& quer
     a_.emplace(*query.a, query.pose_a);
     b_.emplace(*query.b, query.pose_b);
     boundary_is_set_ = false;
+    rounding_ = query.on_cpu ? localize::placement_rounding(*a_, a_->box()) +
+                                   localize::placement_rounding(*b_, b_->box())
+                             : 0.0;
 }
 
 exact::Boundary& PointResolver::boundary_of_b() {
@@ -45,15 +49,16 @@ ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uin
         unique = boundary_of_b().is_unique(point, nearest, tolerance * plan::uniqueness_margin);
     }
     const double distance = std::sqrt(nearest.on_edge.squared_distance);
-    return {point,
-            nearest.on_edge.point,
-            distance,
-            nearest.edge,
-            nearest.on_edge.parameter,
-            feature_at(*b_, nearest.edge, nearest.on_edge.parameter),
-            (word & plan::point_inside) != 0 &&
-                distance > touching_distance(plan_->tiles[planned.tile]),
-            unique};
+    return {
+        point,
+        nearest.on_edge.point,
+        distance,
+        nearest.edge,
+        nearest.on_edge.parameter,
+        feature_at(*b_, nearest.edge, nearest.on_edge.parameter),
+        (word & plan::point_inside) != 0 &&
+            distance > (query_->on_cpu ? rounding_ : touching_distance(plan_->tiles[planned.tile])),
+        unique};
 }
 
 }  // namespace nearfield

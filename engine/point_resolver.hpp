@@ -22,6 +22,17 @@ struct ResolvedPoint {
     bool unique = true;
 };
 
+/// A penetrating point as the result has it.
+[[nodiscard]] inline PenetrationRecord penetration_record(const ResolvedPoint& resolved) {
+    const geometry::Vector way = resolved.nearest - resolved.point;
+    return {geometry::to_public(resolved.point),
+            resolved.distance,
+            geometry::to_public(way / resolved.distance),
+            geometry::to_public(resolved.nearest),
+            resolved.feature,
+            resolved.unique};
+}
+
 /// Makes exact what the device said about the points of one query, or of one direction of it.
 class PointResolver {
 public:
@@ -43,6 +54,7 @@ private:
     std::optional<geometry::PlacedPolygon> b_;
     exact::Boundary boundary_;
     bool boundary_is_set_ = false;
+    double rounding_ = 0.0;  // of the points and the boundary; only where no device has its own
 };
 
 }  // namespace nearfield

@@ -16,16 +16,6 @@ using geometry::Vector;
 using plan::PlannedQuery;
 using plan::Tile;
 
-PenetrationRecord make_record(const ResolvedPoint& resolved) {
-    const Vector way = resolved.nearest - resolved.point;
-    return {geometry::to_public(resolved.point),
-            resolved.distance,
-            geometry::to_public(way / resolved.distance),
-            geometry::to_public(resolved.nearest),
-            resolved.feature,
-            resolved.unique};
-}
-
 /// The edge of A nearest to a point, among a run of edges.
 std::uint32_t nearest_edge(const PlannedQuery& query, plan::EdgeRun run, const Vector& point) {
     if (run.count == 1) {
@@ -69,6 +59,7 @@ bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultS
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
+    vertices_.begin_batch();
     fields_.begin_batch(plan);
 }
 
@@ -117,6 +108,11 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
 void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
                                        PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+    if (planned.on_cpu &&
+        std::get<PenetrationQuery>(*planned.query).points == PenetrationPoints::vertices) {
+        vertices_.answer(planned, result);
+        return;
+    }
     resolver_.begin(plan, planned);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
@@ -127,7 +123,7 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
         if (!resolved.inside) {
             continue;  // it touches the boundary
         }
-        const PenetrationRecord record = make_record(resolved);
+        const PenetrationRecord record = penetration_record(resolved);
         if (result.count == 0 || record.depth > result.deepest.depth) {
             result.deepest = record;
         }
@@ -157,6 +153,7 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
 }
 
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
+    exact_points_.answer(plan, words_);
     finish_intersections(plan, results);
     for (std::size_t i = 0; i < results.size(); ++i) {
         const PlannedQuery& planned = plan.queries[i];

@@ -2,10 +2,12 @@
 
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
+#include <engine/exact_points.hpp>
 #include <engine/field_results.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/point_resolver.hpp>
+#include <engine/vertex_penetration.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -55,7 +57,9 @@ private:
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
+    ExactPoints exact_points_;
     PointResolver resolver_;
+    VertexPenetration vertices_;
     ContactDecoder contacts_;
     ClosestDecoder closest_;
     std::vector<FoundSample> samples_;

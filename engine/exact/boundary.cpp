@@ -31,9 +31,10 @@ void Boundary::set(const geometry::PlacedPolygon& polygon) {
     tree_.plant(polygon, std::numeric_limits<std::uint32_t>::max());
 }
 
-NearestPoint Boundary::nearest(const Vector& point) {
-    NearestPoint best;
-    best.on_edge.squared_distance = std::numeric_limits<double>::infinity();
+NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) {
+    NearestPoint best{first_guess, geometry::nearest_on_segment(
+                                       point, polygon().vertex(first_guess),
+                                       polygon().vertex(polygon().polygon().next(first_guess)))};
     find_nearest(localize::LazyTree::root, point, best);
     return best;
 }
@@ -78,14 +79,11 @@ bool Boundary::has_rival(std::uint32_t node, const Vector& point, const NearestP
         return has_rival(first, point, nearest, limit) ||
                has_rival(first + 1, point, nearest, limit);
     }
-    // How far apart two points of one straight wall can be, both within the limit.
-    const double along_wall = limit * limit - nearest.on_edge.squared_distance;
     const Leaf leaf(polygon(), tree_[node]);
     for (std::uint32_t i = 0; i < leaf.count(); ++i) {
         const Edge edge = leaf.edge(i);
-        const auto other = geometry::nearest_on_segment(point, edge.start, edge.end);
-        if (other.squared_distance <= limit * limit &&
-            (other.point - nearest.on_edge.point).squaredNorm() > 4.0 * along_wall) {
+        if (is_rival(geometry::nearest_on_segment(point, edge.start, edge.end), nearest.on_edge,
+                     limit)) {
             return true;
         }
     }

@@ -14,6 +14,16 @@ struct NearestPoint {
     geometry::NearestOnSegment on_edge;
 };
 
+/// The rule of PenetrationRecord::unique: true where a point `other` of an edge makes the nearest
+/// one not unique, both as near as `limit` or nearer.
+[[nodiscard]] inline bool is_rival(const geometry::NearestOnSegment& other,
+                                   const geometry::NearestOnSegment& nearest, double limit) {
+    // How far apart two points of one straight wall can be, both within the limit.
+    const double along_wall = limit * limit - nearest.squared_distance;
+    return other.squared_distance <= limit * limit &&
+           (other.point - nearest.point).squaredNorm() > 4.0 * along_wall;
+}
+
 /// Exact answers about single points and one boundary, in double precision, from its hierarchy
 /// driven down to single edges: the time grows with what lies near, not with the shape. Keeps its
 /// memory from polygon to polygon.
@@ -24,8 +34,10 @@ public:
 
     [[nodiscard]] const geometry::PlacedPolygon& polygon() const { return tree_.polygon(); }
 
-    /// The nearest point; of equally near ones any.
-    [[nodiscard]] NearestPoint nearest(const geometry::Vector& point);
+    /// The nearest point; of equally near ones any. The nearer `first_guess`, an edge, is to the
+    /// point, the less is looked at.
+    [[nodiscard]] NearestPoint nearest(const geometry::Vector& point,
+                                       std::uint32_t first_guess = 0);
 
     /// False where another boundary point is as near to `point` as `nearest` up to `margin` and
     /// farther from it than the same straight wall explains (PenetrationRecord::unique).

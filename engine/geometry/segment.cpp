@@ -16,6 +16,16 @@ Box box_of(const Vector& a, const Vector& b) {
     return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
+/// True where segment cd lies on one side of the line through a and b, out of its reach.
+bool beside(const Vector& a, const Vector& b, const Vector& c, const Vector& d, double margin) {
+    const Vector along = b - a;
+    // The sum of the coordinates is no less than the length, and costs no root.
+    const double reach = margin * along.lpNorm<1>();
+    const double side_c = cross(along, c - a);
+    const double side_d = cross(along, d - a);
+    return (side_c > reach && side_d > reach) || (side_c < -reach && side_d < -reach);
+}
+
 }  // namespace
 
 NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a, const Vector& b) {
@@ -42,6 +52,19 @@ bool segments_intersect(const Vector& a, const Vector& b, const Vector& c, const
         return false;
     }
     return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
+}
+
+bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vector& d,
+                   double margin) {
+    if (beside(a, b, c, d, margin) || beside(c, d, a, b, margin)) {
+        return false;
+    }
+    // Segments that do not cross are nearest at an end of one of them.
+    const auto near = [&](const Vector& p, const Vector& from, const Vector& to) {
+        return nearest_on_segment(p, from, to).squared_distance <= margin * margin;
+    };
+    return segments_intersect(a, b, c, d) || near(a, c, d) || near(b, c, d) || near(c, a, b) ||
+           near(d, a, b);
 }
 
 ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Vector& c,

@@ -35,4 +35,8 @@ struct ClosestOfSegments {
 [[nodiscard]] bool segments_intersect(const Vector& a, const Vector& b, const Vector& c,
                                       const Vector& d);
 
+/// True where the closed segments ab and cd come as close to each other as `margin`.
+[[nodiscard]] bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vector& d,
+                                 double margin);
+
 }  // namespace nearfield::geometry

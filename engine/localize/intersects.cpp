@@ -11,11 +11,9 @@ namespace nearfield::localize {
 namespace {
 
 using geometry::Box;
-using geometry::cross;
-using geometry::nearest_on_segment;
 using geometry::PlacedPolygon;
 using geometry::Polygon;
-using geometry::segments_intersect;
+using geometry::segments_meet;
 using geometry::Vector;
 
 /// Pairs of so few edges are tested one by one: computing smaller boxes would cost as much.
@@ -77,37 +75,13 @@ private:
             const Box box = a.box(i);
             for (std::uint32_t j = 0; j < b.edges; ++j) {
                 if (boxes_meet(box, b.box(j), margin_) &&
-                    edges_meet(a.vertices[i], a.vertices[i + 1], b.vertices[j],
-                               b.vertices[j + 1])) {
+                    segments_meet(a.vertices[i], a.vertices[i + 1], b.vertices[j],
+                                  b.vertices[j + 1], margin_)) {
                     return true;
                 }
             }
         }
         return false;
-    }
-
-    /// True where segment cd lies on one side of the line through a and b, out of its reach.
-    [[nodiscard]] bool beside(const Vector& a, const Vector& b, const Vector& c,
-                              const Vector& d) const {
-        const Vector along = b - a;
-        // The sum of the coordinates is no less than the length, and costs no root.
-        const double reach = margin_ * along.lpNorm<1>();
-        const double side_c = cross(along, c - a);
-        const double side_d = cross(along, d - a);
-        return (side_c > reach && side_d > reach) || (side_c < -reach && side_d < -reach);
-    }
-
-    [[nodiscard]] bool edges_meet(const Vector& a, const Vector& b, const Vector& c,
-                                  const Vector& d) const {
-        if (beside(a, b, c, d) || beside(c, d, a, b)) {
-            return false;
-        }
-        // Segments that do not cross are nearest at an end of one of them.
-        const auto near = [&](const Vector& p, const Vector& from, const Vector& to) {
-            return nearest_on_segment(p, from, to).squared_distance <= margin_ * margin_;
-        };
-        return segments_intersect(a, b, c, d) || near(a, c, d) || near(b, c, d) || near(c, a, b) ||
-               near(d, a, b);
     }
 
     Hierarchy& a_;

@@ -1,4 +1,5 @@
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/technique.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,9 @@ Status invalid(const std::string& message) {
     return {StatusCode::invalid_query, message};
 }
 
-Status check_length(double length, const std::string& what) {
+Status check_length(double length, const char* what) {
     if (!(length > 0.0 && length <= largest_coordinate)) {
-        return invalid(what + " is " + number(length) +
+        return invalid(std::string(what) + " is " + number(length) +
                        "; it must be a finite number above 0 and at most " +
                        number(largest_coordinate));
     }
@@ -49,6 +50,11 @@ Status check_rectangle(const Rectangle& rectangle) {
 }  // namespace
 
 Status check_pose(const Pose& pose, const std::string& whose) {
+    // Nearly always; then no message is put together.
+    if (std::isfinite(pose.angle) && std::abs(pose.translation.x) <= largest_coordinate &&
+        std::abs(pose.translation.y) <= largest_coordinate) {
+        return {};
+    }
     if (!std::isfinite(pose.angle)) {
         return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
     }
@@ -81,12 +87,40 @@ Status check_field(const DistanceFieldQuery& query) {
 }
 
 template <class Query>
-Status check_pair(const Query& query) {
-    Status status = check_length(query.tolerance, "the tolerance");
-    if (status.ok()) {
-        status = check_pose(query.a.pose, "A");
+Status check_technique(const Query& query) {
+    switch (query.technique) {
+        case Technique::automatic:
+        case Technique::raster:
+            return {};
+        case Technique::cpu:
+            break;
+        default:
+            return invalid("the technique is no enumerator: " +
+                           std::to_string(static_cast<int>(query.technique)));
     }
-    return status.ok() ? check_pose(query.b.pose, "B") : status;
+    if (cpu_answers(query)) {
+        return {};
+    }
+    const char* const what = std::is_same_v<Query, IntersectionQuery> ? "intersections"
+                             : std::is_same_v<Query, DistanceFieldQuery>
+                                 ? "distance fields"
+                                 : "contacts with normals by gradient";
+    return invalid(std::string("the technique cpu does not answer ") + what +
+                   "; ask for raster or automatic");
+}
+
+template <class Query>
+Status check_pair(const Query& query) {
+    if (Status status = check_technique(query); !status.ok()) {
+        return status;
+    }
+    if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
+        return status;
+    }
+    if (Status status = check_pose(query.a.pose, "A"); !status.ok()) {
+        return status;
+    }
+    return check_pose(query.b.pose, "B");
 }
 
 }  // namespace

@@ -11,12 +11,15 @@ namespace nearfield::plan {
     return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
-/// The largest number that placing a shape in the world goes through.
+/// The largest number that placing a shape in the world goes through; `box`: of the placed shape.
+[[nodiscard]] inline double largest_magnitude(const geometry::PlacedPolygon& placed,
+                                              const Pose& pose, const geometry::Box& box) {
+    return std::max({largest_magnitude(box), placed.polygon().centre().cwiseAbs().maxCoeff(),
+                     std::abs(pose.translation.x), std::abs(pose.translation.y)});
+}
 [[nodiscard]] inline double largest_magnitude(const geometry::PlacedPolygon& placed,
                                               const Pose& pose) {
-    return std::max({largest_magnitude(placed.box()),
-                     placed.polygon().centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                     std::abs(pose.translation.y)});
+    return largest_magnitude(placed, pose, placed.box());
 }
 
 }  // namespace nearfield::plan

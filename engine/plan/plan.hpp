@@ -49,6 +49,8 @@ struct Tile {
 
 /// A boundary point and the tile its cell belongs to.
 struct PlannedPoint {
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< of points that the CPU answers
+
     BoundaryPoint point;
     std::uint32_t tile = 0;
 };
@@ -79,6 +81,8 @@ struct PlannedQuery {
     std::uint32_t point_count = 0;
     /// Points outside B are resolved as well.
     bool outside = false;
+    /// Technique::cpu: nothing is rendered for it.
+    bool on_cpu = false;
     /// Where the other direction stands in Plan::queries: points of B in the field of A.
     std::uint32_t reverse = none;
     FieldParts field;  ///< of a distance field

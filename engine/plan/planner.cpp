@@ -3,6 +3,7 @@
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/technique.hpp>
 #include <engine/stopwatch.hpp>
 
 #include <algorithm>
@@ -107,6 +108,8 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                 using Query = std::decay_t<decltype(query)>;
                 auto& result = reuse<typename ResultOf<Query>::type>(results[query_]);
                 result.tolerance = query.tolerance;
+                result.technique = technique_of(query);
+                planned.on_cpu = result.technique == Technique::cpu;
                 result.status = check_query(queries[query_]);
                 planned.a = find_shape(query.a.shape);
                 planned.b = find_shape(query.b.shape);

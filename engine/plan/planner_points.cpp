@@ -47,11 +47,19 @@ bool Planner::check_numbers(ResultSummary& result) const {
 
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    const PlacedPolygon a(*planned.a, query.a.pose);
-    const PlacedPolygon b(*planned.b, query.b.pose);
     planned.budget = penetration_budget(query, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
+    if (planned.on_cpu && query.points == PenetrationPoints::vertices) {
+        // VertexPenetration finds them itself.
+        if (query.records) {
+            require_memory(sizeof(PenetrationRecord) * static_cast<double>(planned.a->size()),
+                           query.tolerance, 1.0);
+        }
+        return;
+    }
+    const PlacedPolygon a(*planned.a, query.a.pose);
+    const PlacedPolygon b(*planned.b, query.b.pose);
     if (!check_numbers(result)) {
         return;
     }
@@ -97,10 +105,18 @@ void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within,
 
 void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummary& result) {
     PlannedQuery& planned = plan_->queries[index];
-    add_regions(result.cell, result);
+    const PlacedPolygon a(*planned.a, planned.pose_a);
     planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
-    point_tiles_.spread(PlacedPolygon(*planned.a, planned.pose_a), samples_, within, boxes_, grids_,
-                        index, *plan_);
+    if (planned.on_cpu) {
+        for (const BoundaryPoint& sample : samples_) {
+            if (within.contains(position(a, sample))) {
+                plan_->points.push_back({sample, PlannedPoint::no_tile});
+            }
+        }
+    } else {
+        add_regions(result.cell, result);
+        point_tiles_.spread(a, samples_, within, boxes_, grids_, index, *plan_);
+    }
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
@@ -184,8 +200,8 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     chains_.clear();
     count(effort, result);
     localize_milliseconds_ += start.milliseconds();
-    if (result.intersects) {
-        return;  // at distance 0: nothing to search for
+    if (result.intersects || planned.on_cpu) {
+        return;  // at distance 0, or left to the exact search: nothing to render
     }
     const std::uint32_t reverse = both_ways ? add_reverse() : PlannedQuery::none;
     double samples = find_closest_chains(query_, closest_chains_[0], result);

@@ -275,7 +275,7 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
 
 void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& round) {
     for (const PlannedQuery& query : plan.queries) {
-        if (query.point_count == 0) {
+        if (query.point_count == 0 || query.on_cpu) {
             continue;
         }
         const PlacedPolygon a(*query.a, query.pose_a);

@@ -18,6 +18,26 @@ namespace nearfield {
 /// up, together; a query where they take more is refused.
 inline constexpr double most_deviation = 0.25;
 
+/// What answers a query (ResultSummary::technique says what did).
+///
+/// Raster and CPU give the same records: the same points, depths and distances that differ by less
+/// than d/1000, the same sides but for points that touch the other boundary.
+enum class Technique {
+    /// Penetration, closest point and separation, and contacts with analytic normals: cpu. Fields,
+    /// intersections and contacts with gradient normals: raster. docs/performance.md has the
+    /// measurements behind it.
+    automatic,
+    /// The paper's: fields drawn on the device, refined on the CPU.
+    raster,
+    /// The hierarchies of localisation driven to single edges, in double precision; the device has
+    /// no part in it. The results have no regions, since no grid is sampled. Refused
+    /// (invalid_query) for intersections, distance fields and gradient normals of contacts.
+    cpu,
+};
+
+/// The name of a technique as it stands in the enumeration ("raster").
+[[nodiscard]] const char* to_string(Technique technique) noexcept;
+
 /// Which points of A a penetration query looks at.
 enum class PenetrationPoints {
     boundary,  ///< samples along A's boundary, consecutive ones at most one cell (d * sqrt 2) apart
@@ -32,6 +52,7 @@ struct PenetrationQuery {
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
     PenetrationPoints points = PenetrationPoints::boundary;
     bool records = true;  ///< false: keep the summary (count, deepest) and leave the records out
+    Technique technique = Technique::automatic;
 };
 
 /// What of each shape takes part in an intersection (the paper's section 2.2.1).
@@ -78,6 +99,7 @@ struct IntersectionQuery {
     /// none, so memory does not grow with the grid.
     bool records = true;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;
+    Technique technique = Technique::automatic;
 };
 
 /// Which buffer of the device says which cells lie inside (section 2.2.2 lists all three). They
@@ -122,6 +144,7 @@ struct DistanceFieldQuery {
     /// included (reconstruction takes cells from a border around the grid). Borrowed until run()
     /// returns.
     std::span<const Vector2> points = {};
+    Technique technique = Technique::automatic;
 };
 
 /// Where the normal of a contact comes from.
@@ -139,6 +162,7 @@ struct ContactQuery {
     double contact_distance = 0.0;  ///< how close counts as contact, world units, > 0
     ContactNormals normals = ContactNormals::analytic;
     bool records = true;  ///< false: keep the summary and the manifold, leave the records out
+    Technique technique = Technique::automatic;
 };
 
 /// The point of A that is closest to B (section 2.2.4, "Closest Point").
@@ -149,6 +173,7 @@ struct ClosestPointQuery {
     /// with; coarser where that would take more than 4,096 samples of a boundary
     /// (ResultSummary::cell says what it was). The answer is exact whatever it is.
     double tolerance = 0.0;
+    Technique technique = Technique::automatic;
 };
 
 /// The least distance between two shapes, and where it is (section 2.2.4, "Separation Distance and
@@ -157,6 +182,7 @@ struct SeparationQuery {
     Instance a;
     Instance b;
     double tolerance = 0.0;  ///< as for ClosestPointQuery
+    Technique technique = Technique::automatic;
 };
 
 /// Names a query of a batch and, by its type, the kind of result it has.

@@ -34,9 +34,10 @@ struct ResultSummary {
     /// shapes with a deviation can do the opposite where they are no farther apart, or no deeper in
     /// each other, than their deviations together. False for a distance field without a shape A.
     bool intersects = false;
-    double cell = 0.0;  ///< side of a grid cell
+    double cell = 0.0;  ///< side of a grid cell; samples of a boundary are no farther apart
     std::vector<Region> regions;
     LocalizationStatistics localization;
+    Technique technique = Technique::raster;  ///< what answered; never automatic
 };
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
@@ -196,7 +197,7 @@ struct ClosestPointResult : ResultSummary {
     /// than d, is as close to B up to d/1000.
     bool unique = true;
     /// The least distance at the points of A that were rendered: larger than `distance` by a cell
-    /// at the most. 0 where the shapes intersect.
+    /// at the most. 0 where the shapes intersect; `distance` where nothing was rendered.
     double sampled_distance = 0.0;
 };
 

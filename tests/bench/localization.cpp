@@ -90,6 +90,7 @@ Times measure(nearfield::Context& context, const Scene& scene) {
     const Extent b = width_of(scene.b);
     const double shared = scene.overlap * std::min(a.high - a.low, b.high - b.low);
     nearfield::PenetrationQuery query;
+    query.technique = nearfield::Technique::raster;
     query.a = {take(context.add_shape(scene.a)), {}};
     query.b = {take(context.add_shape(scene.b)), {{a.high - shared - b.low, 0.0}, 0.0}};
     query.tolerance = (a.high - a.low) / 500.0;

@@ -69,6 +69,22 @@ TEST_F(Bench, PrintsASummaryAndWritesAFile) {
     EXPECT_EQ(Json::parse(folder_.read("bench.json")).at("frames"), 2);
 }
 
+TEST_F(Bench, TheTechniqueOfTheCommandLineIsThatOfAllQueries) {
+    std::string text = good_scene;
+    text = text.substr(0, text.find("            {\"query\": \"intersection\"")) + "]}";
+    text.erase(text.rfind(','), 1);
+    const std::string scene = folder_.write("two.json", text);
+    const Arguments bench{"bench", "--scene", scene, "--frames", "1"};
+    EXPECT_EQ(answer(bench).at("technique"), "cpu");
+    EXPECT_EQ(answer(bench + Arguments{"--technique", "raster"}).at("technique"), "raster");
+    const Json answers = answer({"scene", scene, "--technique", "raster"});
+    EXPECT_EQ(answers.at("technique"), "raster");
+    EXPECT_EQ(answers.at("results").at(1).at("technique"), "raster");
+    EXPECT_EQ(answer({"bench", "--scene", folder_.write("scene.json", good_scene), "--frames", "1"})
+                  .at("technique"),
+              "mixed");
+}
+
 TEST_F(Bench, RefusesScenesByFileAndPlace) {
     expect_bad_scene("]\n}", "\n}", {"scene.json:13:1: "});
     expect_bad_scene("\"shape\": \"house\"", "\"shape\": \"home\"", {"instances.B.shape", "home"});
@@ -90,7 +106,8 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
 }
 
 TEST_F(Bench, RefusesWhatLaterVersionsAnswer) {
-    expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2].technique", "this version"});
+    expect_bad_scene("\"raster\"", "\"compute\"", {"queries[2].technique", "this version"});
+    expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2]", "technique cpu", "intersections"});
     const std::string scene = folder_.write("scene.json", good_scene);
     expect_refused({"bench", "--scene", scene, "--technique", "compute"},
                    {"--technique", "this version"});

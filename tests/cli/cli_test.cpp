@@ -13,8 +13,8 @@ CliTest::CliTest()
           R"({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]]})")),
       b_(folder_.write("b square.wkt", "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))\n")) {}
 
-Arguments CliTest::squares(const std::string& type) const {
-    return {"query", type, a_, b_};
+Arguments CliTest::squares(const std::string& type, const std::string& technique) const {
+    return {"query", type, a_, b_, "--technique", technique};
 }
 
 Json CliTest::answer(const Arguments& query) {

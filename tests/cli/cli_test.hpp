@@ -22,8 +22,9 @@ class CliTest : public testing::Test {
 protected:
     CliTest();
 
-    /// "query TYPE A B", the unit square twice.
-    [[nodiscard]] Arguments squares(const std::string& type) const;
+    /// "query TYPE A B --technique TECHNIQUE", the unit square twice.
+    [[nodiscard]] Arguments squares(const std::string& type,
+                                    const std::string& technique = "raster") const;
 
     /// The JSON of a query. Anything but exit status 0 and one JSON value, alone on the standard
     /// output, fails the test and gives null.

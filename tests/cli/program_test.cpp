@@ -65,16 +65,32 @@ TEST_F(Device, WithoutADriverTheExitStatusIs3AndNothingIsWritten) {
 }
 
 TEST_F(Device, TheTechniquesOfThisVersionAgree) {
-    const Arguments query = squares("penetration") + Arguments{"-d", "0.1", "--pose-b", "0.6,0,5"};
-    Json left_out = answer(query);
-    ASSERT_TRUE(left_out.is_object());
-    left_out.erase("timings_ms");
-    for (const auto& technique : {"raster", "automatic"}) {
-        Json json = answer(query + Arguments{"--technique", technique});
-        ASSERT_TRUE(json.is_object());
-        json.erase("timings_ms");
-        EXPECT_EQ(json, left_out) << technique;
+    for (const auto& [type, chosen] :
+         {std::pair{"penetration", "cpu"}, std::pair{"contacts", "cpu"},
+          std::pair{"intersection", "raster"}}) {
+        const Arguments more{"-d", "0.1", "--pose-b", "0.6,0,5"};
+        const Json raster = answer(squares(type, "raster") + more);
+        const Json automatic = answer(squares(type, "automatic") + more);
+        ASSERT_TRUE(raster.is_object() && automatic.is_object());
+        EXPECT_EQ(raster.at("technique"), "raster");
+        EXPECT_EQ(automatic.at("technique"), chosen);
+        EXPECT_EQ(automatic.at("intersects"), raster.at("intersects"));
     }
+    const Arguments more{"-d", "0.1", "--pose-b", "0.6,0,5"};
+    const Json raster = answer(squares("penetration", "raster") + more);
+    const Json cpu = answer(squares("penetration", "cpu") + more);
+    ASSERT_TRUE(raster.is_object() && cpu.is_object());
+    EXPECT_EQ(cpu.at("technique"), "cpu");
+    EXPECT_EQ(cpu.at("count"), raster.at("count"));
+    EXPECT_EQ(cpu.at("deepest").at("depth"), raster.at("deepest").at("depth"));
+    expect_refused(squares("intersection", "cpu") + Arguments{"-d", "0.1"},
+                   {"technique cpu", "intersections"});
+    expect_refused(squares("distance-field", "cpu") + Arguments{"-d", "0.1"},
+                   {"technique cpu", "distance fields"});
+    expect_refused(squares("contacts", "cpu") + Arguments{"-d", "0.1", "--normals", "gradient"},
+                   {"technique cpu", "gradient"});
+    expect_refused(squares("penetration", "fast") + Arguments{"-d", "0.1"},
+                   {"--technique", "fast", "raster", "cpu", "automatic"});
 }
 
 class LocalizationOptions : public CliTest {};

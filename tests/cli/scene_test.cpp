@@ -38,7 +38,8 @@ TEST_F(SceneCommand, AnswersEveryQueryAsTheQueryCommandDoes) {
     EXPECT_TRUE(results.at(4).at("samples").empty());
     EXPECT_GT(results.at(4).at("count").get<int>(), 0);
     for (const char* type : {"penetration", "contacts", "distance-field"}) {
-        Arguments arguments = squares(type) + Arguments{"-d", "0.05", "--pose-b", "0.6,0.3,0"};
+        Arguments arguments =
+            squares(type, "automatic") + Arguments{"-d", "0.05", "--pose-b", "0.6,0.3,0"};
         if (std::string(type) == "contacts") {
             arguments = arguments + Arguments{"--contact-distance", "0.1"};
         }

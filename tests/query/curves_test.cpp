@@ -57,6 +57,7 @@ TEST_F(Curves, PenetrationOfCirclesIsWithinItsBoundOfTheAnalyticAnswer) {
         for (const double share : {0.02, 0.12}) {
             const double d = 0.15;
             PenetrationQuery query;
+            query.technique = Technique::raster;
             query.a = add(a, share * d);
             query.b = add(b, share * d);
             query.tolerance = d;
@@ -159,6 +160,7 @@ TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
 
 TEST_F(Curves, TooMuchDeviationIsRefusedByName) {
     PenetrationQuery query;
+    query.technique = Technique::raster;
     query.a = add({{0, 0}, 2}, 0.03);
     query.b = add({{1, 0}, 2}, 0.03);
     query.tolerance = 0.2;

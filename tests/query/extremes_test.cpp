@@ -68,6 +68,7 @@ TEST_F(Extremes, TolerancesThatCoordinatesCannotResolveAreRefused) {
     const auto near = context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     ASSERT_TRUE(far.ok() && near.ok());
     PenetrationQuery query;
+    query.technique = Technique::raster;
     query.a.shape = *far;
     query.a.pose.translation = {-5e11, -5e11};
     query.b.shape = *near;

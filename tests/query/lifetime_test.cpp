@@ -31,6 +31,7 @@ TEST_F(Lifetime, AnUpdatedShapeIsAsGoodAsNew) {
         Expected<ShapeHandle> fresh = context().add_shape(now);
         ASSERT_TRUE(fresh.ok());
         PenetrationQuery query;
+        query.technique = Technique::raster;
         query.tolerance = 0.03;
         for (const bool as_a : {true, false}) {
             const auto ask = [&](ShapeHandle shape) {
@@ -59,6 +60,7 @@ TEST_F(Lifetime, ARemovedShapeStaysUnknown) {
     EXPECT_EQ(context().update_shape(removed.value(), square).code(), StatusCode::unknown_shape);
     EXPECT_EQ(context().remove_shape({}).code(), StatusCode::unknown_shape);
     PenetrationQuery query;
+    query.technique = Technique::raster;
     query.a.shape = removed.value();
     query.b.shape = next.value();
     query.tolerance = 0.1;

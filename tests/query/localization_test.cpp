@@ -60,6 +60,7 @@ TEST_F(Localization, StatisticsCountAndOrientedBoxesNeedLess) {
         const auto b = made->add_shape({&beside, 1});
         ASSERT_TRUE(a.ok() && b.ok());
         PenetrationQuery query;
+        query.technique = Technique::raster;
         query.a = {*a, {}};
         query.b = {*b, {}};
         query.tolerance = 0.05;
@@ -80,6 +81,7 @@ TEST_F(Localization, FarShapesCostTheirTopLevelBoxes) {
     const auto shape = context().add_shape({&square, 1});
     ASSERT_TRUE(shape.ok());
     PenetrationQuery query;
+    query.technique = Technique::raster;
     query.a = {*shape, {}};
     query.b = {*shape, {{5, 0}, 0.0}};
     query.tolerance = 0.1;

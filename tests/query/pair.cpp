@@ -25,8 +25,9 @@ Vector2 any_offset(Random& random) {
 
 }  // namespace
 
-PlacedPair::PlacedPair(Context& context, Pair pair)
+PlacedPair::PlacedPair(Context& context, Pair pair, Technique technique)
     : context_(&context),
+      technique_(technique),
       pair_(std::move(pair)),
       oracle_a_(pair_.a.rings, pair_.pose_a),
       oracle_b_(pair_.b.rings, pair_.pose_b),
@@ -59,6 +60,7 @@ PenetrationQuery PlacedPair::penetration(PenetrationPoints points) const {
     query.b = instance_b();
     query.tolerance = tolerance();
     query.points = points;
+    query.technique = technique_;
     return query;
 }
 
@@ -68,6 +70,7 @@ IntersectionQuery PlacedPair::intersection(IntersectionKind kind) const {
     query.b = instance_b();
     query.tolerance = tolerance();
     query.kind = kind;
+    query.technique = technique_;
     return query;
 }
 
@@ -77,15 +80,16 @@ ContactQuery PlacedPair::contacts(double contact_distance) const {
     query.b = instance_b();
     query.tolerance = tolerance();
     query.contact_distance = contact_distance;
+    query.technique = technique_;
     return query;
 }
 
 SeparationQuery PlacedPair::separation() const {
-    return {instance_a(), instance_b(), tolerance()};
+    return {instance_a(), instance_b(), tolerance(), technique_};
 }
 
 ClosestPointQuery PlacedPair::closest_point() const {
-    return {instance_a(), instance_b(), tolerance()};
+    return {instance_a(), instance_b(), tolerance(), technique_};
 }
 
 Pose pose_at(const Vector2& own, const Vector2& world, double angle) {

@@ -24,7 +24,8 @@ enum class Truth { no, yes, too_close_to_call };
 /// A pair known to a context for as long as this lives, and the oracle's view of it.
 class PlacedPair {
 public:
-    PlacedPair(Context& context, Pair pair);
+    /// The queries ask for the technique.
+    PlacedPair(Context& context, Pair pair, Technique technique = Technique::raster);
     ~PlacedPair();
     PlacedPair(const PlacedPair&) = delete;
     PlacedPair& operator=(const PlacedPair&) = delete;
@@ -49,6 +50,7 @@ public:
 
 private:
     Context* context_;
+    Technique technique_;
     Pair pair_;
     oracle::ShapeOracle oracle_a_;
     oracle::ShapeOracle oracle_b_;

@@ -25,6 +25,7 @@ protected:
         penetration_.a.shape = {0, 0};
         penetration_.b = {{1, 0}, {{6.0, 3.0}, 0.3}};
         penetration_.tolerance = 0.01;
+        penetration_.technique = Technique::raster;
     }
 
     void run(std::vector<AnyQuery> queries) {

@@ -88,14 +88,15 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
 }
 
 void write_bench_json(std::ostream& stream, const Measurement& measurement,
-                      const BenchArguments& arguments, const std::string& device) {
+                      const BenchArguments& arguments, const std::string& device,
+                      std::string_view technique) {
     const auto [fastest, slowest] =
         std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.key("scene").value(std::string_view(arguments.scene));
     json.key("device").value(std::string_view(device));
-    json.key("technique").value("raster");
+    json.key("technique").value(technique);
     json.key("frames").value(std::uint64_t{arguments.frames});
     json.key("median_ms").value(median(measurement.frames_ms));
     json.key("min_ms").value(*fastest);
@@ -106,11 +107,11 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
 }
 
 void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
-                         const std::string& device) {
+                         const std::string& device, std::string_view technique) {
     const auto [fastest, slowest] =
         std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
     stream << "device            " << device << '\n'
-           << "technique         raster\n"
+           << "technique         " << technique << '\n'
            << "queries           " << scene.queries.size() << '\n'
            << "frames            " << measurement.frames_ms.size() << '\n'
            << "median            " << short_number(median(measurement.frames_ms)) << " ms a frame ("
@@ -130,7 +131,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->type_name("FILE.json");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster or automatic; default automatic, which is raster in this version")
+                     "raster, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME");
     add_localization_options(*command, arguments.localization);
     command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
@@ -150,11 +151,10 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 }
 
 void run_bench(const BenchArguments& arguments) {
-    if (arguments.technique) {
-        check_technique(*arguments.technique, "--technique");
-    }
+    const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.localization);
-    const Scene scene = read_scene(arguments.scene);
+    Scene scene = read_scene(arguments.scene);
+    set_technique(scene, technique);
     if (scene.queries.empty()) {
         throw InputError(arguments.scene + ": queries: there is none to measure");
     }
@@ -163,9 +163,10 @@ void run_bench(const BenchArguments& arguments) {
     SceneRunner runner(scene, arguments.scene, context);
     const Measurement measurement = measure(runner, arguments);
     if (std::ostream* json = report.json()) {
-        write_bench_json(*json, measurement, arguments, context.device_name());
+        write_bench_json(*json, measurement, arguments, context.device_name(), runner.technique());
     }
-    write_bench_summary(report.summary(), measurement, scene, context.device_name());
+    write_bench_summary(report.summary(), measurement, scene, context.device_name(),
+                        runner.technique());
     report.commit();
 }
 

@@ -96,7 +96,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     }
     request.tolerance = parse_positive(*arguments.tolerance, "-d");
     if (arguments.technique) {
-        check_technique(*arguments.technique, "--technique");
+        request.technique = parse_technique(*arguments.technique, "--technique");
     }
     if (arguments.strategy) {
         request.strategy = parse_strategy(*arguments.strategy, "--strategy");
@@ -340,7 +340,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("X,Y,DEGREES");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster or automatic; default automatic, which is raster in this version")
+                     "raster, cpu or automatic; default automatic: cpu for penetration, contacts, "
+                     "closest-point and separation, raster for the rest")
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,

@@ -20,6 +20,10 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         ->required()
         ->type_name("FILE.json");
     command
+        ->add_option("--technique", arguments.technique,
+                     "raster, cpu or automatic, of all queries; default as the scene says")
+        ->type_name("NAME");
+    command
         ->add_option("--json", arguments.json,
                      "Write the answers as JSON; - for the standard output, the summary then goes "
                      "to the standard error; default none")
@@ -28,7 +32,9 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
 }
 
 void run_scene(const SceneArguments& arguments) {
-    const Scene scene = read_scene(arguments.scene);
+    const std::optional<Technique> technique = parse_technique_option(arguments.technique);
+    Scene scene = read_scene(arguments.scene);
+    set_technique(scene, technique);
     ReportTarget report(arguments.json);
     Context context = take(Context::create_headless());
     SceneRunner runner(scene, arguments.scene, context);
@@ -36,9 +42,11 @@ void run_scene(const SceneArguments& arguments) {
     runner.require_results();
     const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {
-        write_scene_json(*json, answers, runner.timings(), context.device_name());
+        write_scene_json(*json, answers, runner.timings(), context.device_name(),
+                         runner.technique());
     }
-    write_scene_summary(report.summary(), answers, runner.timings(), context.device_name());
+    write_scene_summary(report.summary(), answers, runner.timings(), context.device_name(),
+                        runner.technique());
     report.commit();
 }
 

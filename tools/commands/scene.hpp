@@ -10,6 +10,7 @@ namespace nearfield::tools {
 /// What the command line says about a scene; texts are parsed when the command runs.
 struct SceneArguments {
     std::string scene;
+    std::optional<std::string> technique;
     std::optional<std::string> json;
 };
 

@@ -3,11 +3,22 @@
 #include <tools/input/query_request.hpp>
 #include <tools/output/answer.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <utility>
 
 namespace nearfield::tools {
+
+std::optional<Technique> parse_technique_option(const std::optional<std::string>& name) {
+    return name ? std::optional(parse_technique(*name, "--technique")) : std::nullopt;
+}
+
+void set_technique(Scene& scene, std::optional<Technique> technique) {
+    for (SceneQuery& query : scene.queries) {
+        query.request.technique = technique.value_or(query.request.technique);
+    }
+}
 
 SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
     : scene_(scene), file_(std::move(file)), context_(context) {
@@ -84,6 +95,17 @@ std::vector<SceneAnswer> SceneRunner::answers() const {
                            scene_.instances[entry.b].name, results_.results[index]});
     }
     return answers;
+}
+
+std::string_view SceneRunner::technique() const {
+    if (results_.results.empty()) {
+        return "none";
+    }
+    const Technique first = summary_of(results_.results.front()).technique;
+    const bool same = std::all_of(
+        results_.results.begin(), results_.results.end(),
+        [first](const AnyResult& result) { return summary_of(result).technique == first; });
+    return same ? to_string(first) : "mixed";
 }
 
 std::string SceneRunner::place_of(const SceneShape& shape) const {

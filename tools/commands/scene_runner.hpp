@@ -5,10 +5,19 @@
 #include <tools/input/scene.hpp>
 #include <tools/output/answer.hpp>
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nearfield::tools {
+
+/// Reads the option --technique, where it is given.
+[[nodiscard]] std::optional<Technique> parse_technique_option(
+    const std::optional<std::string>& name);
+
+/// Asks all queries of a scene for a technique, where one is given.
+void set_technique(Scene& scene, std::optional<Technique> technique);
 
 /// A scene in a context, run frame by frame.
 class SceneRunner {
@@ -26,6 +35,9 @@ public:
     /// The answers of the last frame in the order of the scene's queries, and where one asks for
     /// all pairs in the order of its pairs. Valid until the next frame.
     [[nodiscard]] std::vector<SceneAnswer> answers() const;
+    /// What answered the queries of the last frame; "mixed" where it is not the same for all,
+    /// "none" where there are none.
+    [[nodiscard]] std::string_view technique() const;
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
 
 private:

@@ -20,6 +20,11 @@ constexpr std::array<Named<QueryType>, 6> query_types{{
     {"closest-point", QueryType::closest_point},
     {"separation", QueryType::separation},
 }};
+constexpr std::array<Named<Technique>, 3> techniques{{
+    {"automatic", Technique::automatic},
+    {"raster", Technique::raster},
+    {"cpu", Technique::cpu},
+}};
 constexpr std::array<Named<PenetrationPoints>, 2> points_names{{
     {"boundary", PenetrationPoints::boundary},
     {"vertices", PenetrationPoints::vertices},
@@ -77,10 +82,6 @@ std::string_view find_name(std::span<const Named<Value>> table, Value value) noe
         ->first;
 }
 
-bool is_one_of(const std::string& name, std::initializer_list<std::string_view> names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 }  // namespace
 
 QueryType parse_query_type(const std::string& name, const std::string& what) {
@@ -135,40 +136,38 @@ std::string_view name_of(IntersectionStrategy strategy) noexcept {
     return find_name<IntersectionStrategy>(strategies, strategy);
 }
 
-void check_technique(const std::string& name, const std::string& what) {
-    if (is_one_of(name, {"compute", "cpu"})) {
-        throw InputError(what + ": this version answers by the raster technique only, not by " +
-                         name);
+Technique parse_technique(const std::string& name, const std::string& what) {
+    if (name == "compute") {
+        throw InputError(what + ": this version does not answer by the technique compute");
     }
-    if (!is_one_of(name, {"raster", "automatic"})) {
-        throw InputError(what + ": \"" + name + "\" is none of raster, automatic");
-    }
+    return parse_name<Technique>(techniques, name, what);
 }
 
 void add_query(Batch& batch, const QueryRequest& request, const Instance& a, const Instance& b) {
     switch (request.type) {
         case QueryType::penetration:
-            batch.add(PenetrationQuery{a, b, request.tolerance, request.points, request.records});
+            batch.add(PenetrationQuery{a, b, request.tolerance, request.points, request.records,
+                                       request.technique});
             break;
         case QueryType::intersection:
             batch.add(IntersectionQuery{a, b, request.tolerance, request.kind, request.records,
-                                        request.strategy});
+                                        request.strategy, request.technique});
             break;
         case QueryType::distance_field:
             batch.add(DistanceFieldQuery{a, b, request.tolerance, request.rectangle, request.sign,
                                          request.gradient, request.values, request.features,
-                                         request.gradients, request.at});
+                                         request.gradients, request.at, request.technique});
             break;
         case QueryType::contacts:
             batch.add(ContactQuery{a, b, request.tolerance,
                                    request.contact_distance.value_or(request.tolerance),
-                                   request.normals, request.records});
+                                   request.normals, request.records, request.technique});
             break;
         case QueryType::closest_point:
-            batch.add(ClosestPointQuery{a, b, request.tolerance});
+            batch.add(ClosestPointQuery{a, b, request.tolerance, request.technique});
             break;
         case QueryType::separation:
-            batch.add(SeparationQuery{a, b, request.tolerance});
+            batch.add(SeparationQuery{a, b, request.tolerance, request.technique});
             break;
     }
 }

@@ -26,6 +26,7 @@ enum class FieldPicture { field, voronoi, gradient };
 struct QueryRequest {
     QueryType type = QueryType::penetration;
     double tolerance = 0.0;
+    Technique technique = Technique::automatic;
     PenetrationPoints points = PenetrationPoints::boundary;         ///< of penetration
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
@@ -59,8 +60,7 @@ struct QueryRequest {
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
 
-/// Throws InputError for a technique this version does not have.
-void check_technique(const std::string& name, const std::string& what);
+[[nodiscard]] Technique parse_technique(const std::string& name, const std::string& what);
 
 /// Adds a request, which must outlive the batch's run, between two instances; its result stands at
 /// the same place among the results as the query in the batch.

@@ -162,7 +162,7 @@ QueryRequest read_request(const JsonPlace& place) {
     request.type = parse_member(place, "query", parse_query_type);
     request.tolerance = read_above_zero(place.member("tolerance"));
     if (place.has("technique")) {
-        parse_member(place, "technique", check_technique);
+        request.technique = parse_member(place, "technique", parse_technique);
     }
     if (place.has("strategy")) {
         request.strategy = parse_member(place, "strategy", parse_strategy);

@@ -206,7 +206,7 @@ void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult
     json.key("error_bound").value(summary.error_bound);
     json.key("cell").value(summary.cell);
     json.key("intersects").value(summary.intersects);
-    json.key("technique").value("raster");
+    json.key("technique").value(to_string(summary.technique));
     write_localization(json, summary.localization);
     if (const auto* field = std::get_if<DistanceFieldResult>(&result)) {
         write_methods(json, request, *field);
@@ -228,11 +228,12 @@ void write_query_json(std::ostream& stream, const Answer& answer) {
 }
 
 void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers,
-                      const Timings& timings, const std::string& device) {
+                      const Timings& timings, const std::string& device,
+                      std::string_view technique) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.key("device").value(std::string_view(device));
-    json.key("technique").value("raster");
+    json.key("technique").value(technique);
     write_timings(json, timings);
     json.key("results").begin_array(JsonWriter::Layout::lines);
     for (const SceneAnswer& answer : answers) {

@@ -167,7 +167,7 @@ void write_summary(std::ostream& stream, const Answer& answer) {
     const ResultSummary& summary = summary_of(answer.result);
     write_item(stream, "query", std::string(name_of(answer.request.type)));
     write_item(stream, "device", answer.device);
-    write_item(stream, "technique", "raster");
+    write_item(stream, "technique", to_string(summary.technique));
     write_item(
         stream, "tolerance",
         short_number(summary.tolerance) + ", error bound " + short_number(summary.error_bound));
@@ -178,9 +178,10 @@ void write_summary(std::ostream& stream, const Answer& answer) {
 }
 
 void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
-                         const Timings& timings, const std::string& device) {
+                         const Timings& timings, const std::string& device,
+                         std::string_view technique) {
     write_item(stream, "device", device);
-    write_item(stream, "technique", "raster");
+    write_item(stream, "technique", std::string(technique));
     write_item(stream, "queries", std::to_string(answers.size()));
     for (const SceneAnswer& answer : answers) {
         stream << '\n';

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace nearfield::tools {
 
@@ -18,7 +19,8 @@ void write_summary(std::ostream& stream, const Answer& answer);
 
 /// Writes what the answers of a scene say, for people.
 void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
-                         const Timings& timings, const std::string& device);
+                         const Timings& timings, const std::string& device,
+                         std::string_view technique);
 
 /// Writes the stages of a batch and their passes, for people, an item a line.
 void write_timings_summary(std::ostream& stream, const Timings& timings);

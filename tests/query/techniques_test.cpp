@@ -1,0 +1,313 @@
+#include <tests/oracle/plane.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/corpus.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/allocations.hpp>
+#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/outlines.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 1618;
+constexpr std::array both_ways{PenetrationPoints::boundary, PenetrationPoints::vertices};
+
+template <class Record>
+void sort_by_point(std::vector<Record>& records) {
+    std::sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
+        return std::tie(i.point.x, i.point.y) < std::tie(j.point.x, j.point.y);
+    });
+}
+
+/// Calls `both(of one, of other)` for records at the same point and `alone(record)` for the rest.
+template <class Record, class Both, class Alone>
+void match(std::vector<Record> one, std::vector<Record> other, const Both& both,
+           const Alone& alone) {
+    sort_by_point(one);
+    sort_by_point(other);
+    const auto key = [](const Record& record) { return std::pair(record.point.x, record.point.y); };
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < one.size() || j < other.size()) {
+        if (j == other.size() || (i < one.size() && key(one[i]) < key(other[j]))) {
+            alone(one[i++]);
+        } else if (i == one.size() || key(other[j]) < key(one[i])) {
+            alone(other[j++]);
+        } else {
+            both(one[i++], other[j++]);
+        }
+    }
+}
+
+Rings plain(const support::Rings& rings) {
+    Rings result;
+    for (const auto& ring : rings) {
+        Ring& plain_ring = result.emplace_back();
+        for (const auto& vertex : ring) {
+            plain_ring.push_back({vertex.x(), vertex.y()});
+        }
+    }
+    return result;
+}
+
+/// Both techniques held against the oracle by the CPU's answers, and against each other.
+class Techniques : public QueryTest {
+protected:
+    static void check(const Pair& pair) {
+        const PlacedPair raster(context(), pair, Technique::raster);
+        const PlacedPair cpu(context(), pair, Technique::cpu);
+        const CorpusKeeper keeper(pair, 2.0 * pair.tolerance);
+        SCOPED_TRACE(describe(pair));
+        check_penetrations(raster, cpu);
+        check_all_contacts(raster, cpu);
+        check_closest(raster, cpu);
+    }
+
+    static void check_penetrations(const PlacedPair& raster, const PlacedPair& cpu) {
+        for (const PenetrationPoints points : both_ways) {
+            PenetrationQuery query = cpu.penetration(points);
+            const PenetrationResult exact = run_alone(context(), query);
+            check_penetration(cpu, points, exact);
+            EXPECT_EQ(exact.technique, Technique::cpu);
+            EXPECT_TRUE(exact.regions.empty());
+            const PenetrationResult drawn = run_alone(context(), raster.penetration(points));
+            EXPECT_EQ(drawn.technique, Technique::raster);
+            EXPECT_EQ(exact.intersects, drawn.intersects);
+            const double d = cpu.tolerance();
+            match(
+                exact.records, drawn.records,
+                [&](const PenetrationRecord& i, const PenetrationRecord& j) {
+                    EXPECT_LE(std::abs(i.depth - j.depth), 1e-3 * d);
+                },
+                [&](const PenetrationRecord& touching) {
+                    EXPECT_LE(touching.depth, 1e-3 * d)
+                        << touching.point.x << ", " << touching.point.y;
+                });
+
+            query.records = false;
+            const PenetrationResult summary = run_alone(context(), query);
+            EXPECT_TRUE(summary.records.empty());
+            EXPECT_EQ(summary.count, exact.count);
+            EXPECT_EQ(summary.intersects, exact.intersects);
+            EXPECT_EQ(summary.deepest.depth, exact.deepest.depth);
+            EXPECT_EQ(summary.deepest.unique, exact.deepest.unique);
+        }
+    }
+
+    static void check_all_contacts(const PlacedPair& raster, const PlacedPair& cpu) {
+        const double d = cpu.tolerance();
+        const double near = 2.0 * d;
+        const ContactResult exact = run_alone(context(), cpu.contacts(near));
+        check_contacts(cpu, near, exact);
+        EXPECT_EQ(exact.technique, Technique::cpu);
+        const ContactResult drawn = run_alone(context(), raster.contacts(near));
+        for (const Side side : {Side::a, Side::b}) {
+            const auto of_side = [side](const ContactResult& result) {
+                std::vector<ContactRecord> records;
+                std::copy_if(result.records.begin(), result.records.end(),
+                             std::back_inserter(records),
+                             [side](const ContactRecord& record) { return record.on == side; });
+                return records;
+            };
+            match(
+                of_side(exact), of_side(drawn),
+                [&](const ContactRecord& i, const ContactRecord& j) {
+                    EXPECT_LE(std::abs(i.distance - j.distance), 1e-3 * d);
+                    EXPECT_TRUE(i.inside == j.inside || i.distance <= 1e-3 * d)
+                        << i.point.x << ", " << i.point.y << " at " << i.distance;
+                },
+                [&](const ContactRecord& on_the_limit) {
+                    EXPECT_GE(on_the_limit.distance, near - 1e-3 * d);
+                });
+        }
+    }
+
+    static void check_closest(const PlacedPair& raster, const PlacedPair& cpu) {
+        const SeparationResult exact = run_alone(context(), cpu.separation());
+        check_separation(cpu, exact);
+        check_same(exact, run_alone(context(), cpu.closest_point()));
+        EXPECT_EQ(exact.technique, Technique::cpu);
+        const SeparationResult drawn = run_alone(context(), raster.separation());
+        EXPECT_EQ(exact.distance, drawn.distance);
+        EXPECT_EQ(exact.intersects, drawn.intersects);
+        EXPECT_EQ(exact.unique, drawn.unique);
+    }
+};
+
+TEST_F(Techniques, AgreeOnRandomPairs) {
+    for_each_case(seed, 60, [&](Random& random) {
+        Pair pair = any_pair(random);
+        if (random.whole(0, 2) == 0) {  // apart
+            pair.pose_b.translation.x += random.scale(0.1, 100.0) * 10.0 * pair.tolerance;
+        }
+        check(pair);
+    });
+}
+
+TEST_F(Techniques, AgreeOnEveryFamily) {
+    for (const Pair& pair : family_pairs(seed)) {
+        check(pair);
+    }
+}
+
+TEST_F(Techniques, AgreeOnNastyPolygons) {
+    constexpr std::uint32_t cells = 40;
+    std::vector<NamedRings> shapes;
+    for (const support::NastyPolygon& nasty : support::nasty_polygons(cells, cells, seed)) {
+        Rings rings = plain(nasty.rings);
+        // Some are no shapes at all; refusing those is another test's matter.
+        if (const auto shape = context().add_shape(rings); shape.ok()) {
+            EXPECT_TRUE(context().remove_shape(*shape).ok());
+            shapes.push_back({nasty.name, std::move(rings)});
+        }
+    }
+    ASSERT_GE(shapes.size(), 6U);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        check({shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7});
+    }
+}
+
+TEST_F(Techniques, AgreeOnOutlines) {
+    const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
+    ASSERT_GE(outlines.size(), 2U);
+    check({outlines[0], outlines[1], {}, {{60.0, 30.0}, 0.4}, 2.0});
+}
+
+TEST_F(Techniques, AgreeAroundTheSizeFromWhichThereIsATree) {
+    Random random(seed);
+    for (const int n : {3, 63, 64, 65, 130}) {
+        SCOPED_TRACE(n);
+        const Rings a = star(random, n, 0.5);
+        const Rings b = star(random, n, 0.6);
+        check({{"A", a}, {"B", b}, {}, {{0.9, 0.4}, 0.3}, 0.02});
+        check({{"A", scaled_and_moved(a, 0.1, {0.1, 0.1})}, {"B", b}, {}, {}, 0.02});
+        check({{"A", a}, {"B", scaled_and_moved(b, 0.1, {0.1, 0.1})}, {}, {}, 0.02});
+        check({{"A", a}, {"B", a}, {}, {}, 0.02});
+    }
+}
+
+TEST_F(Techniques, CrossingWithoutAVertexInside) {
+    const Rings upright = rectangle({-1, -5}, {1, 5});
+    const Rings lying = rectangle({-5, -1}, {5, 1});
+    const PlacedPair cross(context(), {{"A", upright}, {"B", lying}, {}, {}, 0.05}, Technique::cpu);
+    const auto query = cross.penetration(PenetrationPoints::vertices);
+    const PenetrationResult result = run_alone(context(), query);
+    EXPECT_EQ(result.count, 0U);
+    EXPECT_TRUE(result.intersects);
+    // Two shapes that are each more than once in a batch, at places of their own.
+    Batch batch;
+    Results results;
+    std::vector<QueryHandle<PenetrationQuery>> handles;
+    for (int i = 0; i < 200; ++i) {
+        PenetrationQuery moved = query;
+        moved.b.pose.translation.y = 0.1 * (i % 100);
+        handles.push_back(batch.add(moved));
+    }
+    ASSERT_TRUE(context().run(batch, results).ok());
+    for (int i = 0; i < 200; ++i) {
+        const double y = 0.1 * (i % 100);
+        EXPECT_EQ(results[handles[static_cast<std::size_t>(i)]].intersects, y < 6.05) << y;
+        EXPECT_EQ(results[handles[static_cast<std::size_t>(i)]].count > 0, y > 4.05 && y < 5.95)
+            << y;
+    }
+}
+
+TEST_F(Techniques, AutomaticIsWhatTheHeaderSays) {
+    Random random(seed);
+    const PlacedPair pair(
+        context(),
+        {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+        Technique::automatic);
+    EXPECT_EQ(run_alone(context(), pair.penetration()).technique, Technique::cpu);
+    EXPECT_EQ(run_alone(context(), pair.separation()).technique, Technique::cpu);
+    EXPECT_EQ(run_alone(context(), pair.closest_point()).technique, Technique::cpu);
+    ContactQuery contacts = pair.contacts(0.1);
+    EXPECT_EQ(run_alone(context(), contacts).technique, Technique::cpu);
+    contacts.normals = ContactNormals::gradient;
+    EXPECT_EQ(run_alone(context(), contacts).technique, Technique::raster);
+    EXPECT_EQ(run_alone(context(), pair.intersection(IntersectionKind::volume_volume)).technique,
+              Technique::raster);
+    DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+    EXPECT_EQ(run_alone(context(), field).technique, Technique::raster);
+}
+
+TEST_F(Techniques, WhatTheCpuDoesNotAnswerIsRefusedByName) {
+    const PlacedPair pair(context(),
+                          {{"A", regular(5)}, {"B", regular(7)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+                          Technique::cpu);
+    const auto expect_refused = [](const Status& status, const std::string& what) {
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_NE(status.message().find(what), std::string::npos) << status.message();
+    };
+    expect_refused(run_alone(context(), pair.intersection(IntersectionKind::volume_volume)).status,
+                   "intersections");
+    DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+    field.technique = Technique::cpu;
+    expect_refused(run_alone(context(), field).status, "distance fields");
+    ContactQuery contacts = pair.contacts(0.1);
+    contacts.normals = ContactNormals::gradient;
+    expect_refused(run_alone(context(), contacts).status, "normals by gradient");
+    PenetrationQuery none = pair.penetration();
+    none.technique = static_cast<Technique>(17);
+    expect_refused(run_alone(context(), none).status, "no enumerator");
+    PenetrationQuery fine = pair.penetration(PenetrationPoints::vertices);
+    fine.tolerance = 1e-13;
+    fine.a.pose.translation.x = 1e3;
+    expect_refused(run_alone(context(), fine).status, "below what double precision resolves");
+}
+
+TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
+    Random random(seed);
+    std::vector<Rings> rings;
+    std::vector<ShapeHandle> shapes;
+    for (const int n : {12, 30, 50, 200}) {
+        rings.push_back(star(random, n, 0.5));
+        shapes.push_back(context().add_shape(rings.back()).value());
+    }
+    Batch batch;
+    Results results;
+    bool good = true;
+    const auto frame = [&] {
+        batch.clear();
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            good = good && context().update_shape(shapes[i], rings[i]).ok();
+        }
+        for (std::size_t i = 0; i < 16; ++i) {
+            const Instance a{shapes[i % 4], {{0.1, 0.2}, 0.4}};
+            const Instance b{shapes[i / 4], {{0.9, 0.1}, 0.0}};
+            batch.add(
+                PenetrationQuery{a, b, 0.01, PenetrationPoints::vertices, false, Technique::cpu});
+            batch.add(
+                PenetrationQuery{a, b, 0.01, PenetrationPoints::vertices, true, Technique::cpu});
+            batch.add(
+                PenetrationQuery{a, b, 0.01, PenetrationPoints::boundary, true, Technique::cpu});
+            batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
+            batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});
+            batch.add(
+                ContactQuery{a, b, 0.01, 0.02, ContactNormals::analytic, true, Technique::cpu});
+        }
+        good = good && context().run(batch, results).ok();
+    };
+    frame();
+    frame();
+    const std::uint64_t before = test_support::allocation_count();
+    frame();
+    const std::uint64_t after = test_support::allocation_count();
+    EXPECT_EQ(after, before);
+    EXPECT_TRUE(good);
+    for (const AnyResult& result : results.results) {
+        std::visit([](const auto& any) { EXPECT_TRUE(any.status.ok()) << any.status.text(); },
+                   result);
+    }
+    for (const ShapeHandle shape : shapes) {
+        EXPECT_TRUE(context().remove_shape(shape).ok());
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,152 @@
+#include "shape_samples.hpp"
+
+#include <engine/exact/placed_edges.hpp>
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/overlap.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::Box;
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+/// Every shape of the samples at a pose, and stars of few edges, so that the last lanes are full
+/// and not full.
+template <class Check>
+void for_each_shape(const Check& check) {
+    samples::Random random(77);
+    std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    for (std::uint32_t size = 3; size < 10; ++size) {
+        shapes.push_back(
+            {std::to_string(size) + " vertices", {samples::star(random, size, 0.4, 1.0)}});
+    }
+    for (const samples::NamedRings& shape : shapes) {
+        SCOPED_TRACE(shape.name);
+        const Polygon polygon = samples::polygon(shape.rings);
+        const Pose pose{{30.0, -3.0}, 0.7};
+        PlacedInstances instances;
+        const std::uint32_t index = instances.place(polygon, pose);
+        check(instances[index], PlacedPolygon(polygon, pose), random);
+    }
+}
+
+Vector any_point(const PlacedPolygon& placed, samples::Random& random) {
+    return placed.to_world({random.between(-1.5, 1.5), random.between(-1.5, 1.5)});
+}
+
+TEST(PlacedEdges, AreThePolygonsOwn) {
+    for_each_shape([](const PlacedEdges& edges, const PlacedPolygon& placed, samples::Random&) {
+        ASSERT_EQ(edges.count, placed.polygon().size());
+        for (std::uint32_t i = 0; i < edges.count; ++i) {
+            EXPECT_EQ(edges.start(i), placed.vertex(i));
+            EXPECT_EQ(edges.end(i), placed.vertex(placed.polygon().next(i)));
+        }
+        EXPECT_TRUE(edges.box.isApprox(placed.box()));
+    });
+}
+
+TEST(PlacedEdges, ContainAndFindTheNearestAsOneByOne) {
+    for_each_shape(
+        [](const PlacedEdges& edges, const PlacedPolygon& placed, samples::Random& random) {
+            std::vector<double> squared(edges.count + 2);
+            int inside = 0;
+            for (int i = 0; i < 200; ++i) {
+                const Vector point = any_point(placed, random);
+                const bool contained = contains(edges, point);
+                EXPECT_EQ(contained, geometry::contains(placed, point));
+                inside += contained ? 1 : 0;
+                const std::uint32_t nearest = find_nearest(edges, point, squared);
+                ASSERT_LT(nearest, edges.count);
+                double least = std::numeric_limits<double>::infinity();
+                for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+                    const double distance =
+                        geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
+                            .squared_distance;
+                    EXPECT_NEAR(squared[edge], distance, 1e-12);
+                    least = std::min(least, distance);
+                }
+                EXPECT_NEAR(squared[nearest], least, 1e-12);
+            }
+            EXPECT_LT(inside, 200);
+        });
+}
+
+TEST(PlacedEdges, SelectTheVerticesInABox) {
+    for_each_shape([](const PlacedEdges& edges, const PlacedPolygon& placed,
+                      samples::Random& random) {
+        for (int i = 0; i < 20; ++i) {
+            Box box(any_point(placed, random));
+            box.extend(any_point(placed, random));
+            std::vector<std::uint32_t> found;
+            for (std::uint32_t first = 0; first < edges.count; first += most_edges_one_by_one) {
+                const Selection selection = vertices_in(edges, first, box);
+                found.insert(found.end(), selection.indices().begin(), selection.indices().end());
+            }
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t v = 0; v < edges.count; ++v) {
+                if (box.contains(edges.start(v))) {
+                    expected.push_back(v);
+                }
+            }
+            EXPECT_EQ(found, expected);
+        }
+    });
+}
+
+TEST(PlacedEdges, MeetAsTheHierarchySays) {
+    samples::Random random(78);
+    int met = 0;
+    int tried = 0;
+    while (tried < 1000) {
+        const auto size_a = static_cast<std::uint32_t>(random.between(3.0, 90.0));
+        const auto size_b = static_cast<std::uint32_t>(random.between(3.0, 40.0));
+        const Polygon a = samples::polygon({samples::star(random, size_a, 0.3, 1.0)});
+        const Polygon b = samples::polygon({samples::star(random, size_b, 0.1, 0.6)});
+        const Pose pose{{random.between(-1.1, 1.1), random.between(-1.1, 1.1)}, 0.3};
+        PlacedInstances instances;
+        const std::uint32_t index_a = instances.place(a, {});
+        const std::uint32_t index_b = instances.place(b, pose);
+        const PlacedEdges edges_a = instances[index_a];
+        const PlacedEdges edges_b = instances[index_b];
+        bool vertex_inside = false;
+        for (std::uint32_t v = 0; v < edges_a.count; ++v) {
+            vertex_inside = vertex_inside || contains(edges_b, edges_a.start(v));
+        }
+        if (vertex_inside) {
+            continue;
+        }
+        const bool meet = meet_without_vertex_inside(edges_a, edges_b);
+        EXPECT_EQ(meet, localize::intersects(edges_a.placed, edges_b.placed));
+        met += meet ? 1 : 0;
+        ++tried;
+    }
+    EXPECT_GT(met, 40);
+    EXPECT_LT(met, 960);
+}
+
+TEST(PlacedInstances, ArePlacedOncePerPose) {
+    samples::Random random(79);
+    const Polygon polygon = samples::polygon({samples::star(random, 12, 0.3, 1.0)});
+    PlacedInstances instances;
+    for (int round = 0; round < 2; ++round) {
+        instances.clear();
+        for (int turn = 0; turn < 2; ++turn) {
+            for (std::uint32_t i = 0; i < 500; ++i) {
+                ASSERT_EQ(instances.place(polygon, {{0.5 * i, 0.0}, 0.1 * round}), i);
+            }
+        }
+        EXPECT_EQ(instances[300].start(5),
+                  PlacedPolygon(polygon, {{150.0, 0.0}, 0.1 * round}).vertex(5));
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::exact
