@@ -330,6 +330,16 @@ void Planner::pack() {
     }
     plan_->extent = packer_.extent();
     plan_->rounds = packer_.rounds();
+    const std::vector<Tile>& tiles = plan_->tiles;
+    const std::vector<PlannedPoint>& points = plan_->points;
+    const std::vector<PlannedFieldPoint>& field_points = plan_->field_points;
+    plan_->tiles_by_round.sort(tiles.size(), plan_->rounds,
+                               [&](std::size_t i) { return tiles[i].place.round; });
+    plan_->points_by_round.sort(points.size(), plan_->rounds,
+                                [&](std::size_t i) { return tiles[points[i].tile].place.round; });
+    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds, [&](std::size_t i) {
+        return tiles[field_points[i].tile].place.round;
+    });
 }
 
 }  // namespace nearfield::plan
