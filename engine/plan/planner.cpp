@@ -23,8 +23,6 @@ constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 // signs in white, signed features with their distances, gradients.
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
-constexpr std::uint32_t smallest_atlas = 256;
-
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
                                            std::to_string(handle.index) +
@@ -67,7 +65,9 @@ Result& reuse(AnyResult& any) {
         result.manifold.clear();
         result.records.clear();
     } else {
+        std::vector<Region> regions = std::move(result.regions);
         result = {};
+        result.regions = std::move(regions);
     }
     return result;
 }

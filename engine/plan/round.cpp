@@ -200,7 +200,9 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
         nearest_list_.push_back(nearest.edge);
         largest_reach = std::max(largest_reach, nearest.reach());
     }
-    draw.distance = add_distance_mesh(boundary, tile, {mesh_error, grid_}, round.mesh);
+    draw.distance = add_distance_mesh(
+        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+        round.mesh);
     float farthest = 1.0F;
     for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
         farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
