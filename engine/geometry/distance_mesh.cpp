@@ -67,6 +67,11 @@ bool is_beyond(const DistanceMeshOptions& options, const Vector& point, const Ve
 // The cone over v from direction `from` to direction `to`, `turn` radians counter-clockwise.
 void append_fan(const Vector& v, const Vector& from, const Vector& to, double turn, double reach,
                 std::uint32_t id, const DistanceMeshOptions& options, Mesh& mesh) {
+    const double side = turn > 0.0 ? 1.0 : -1.0;
+    if (std::abs(turn) < 3.0 && (is_beyond(options, v, -side * left_normal(from)) ||
+                                 is_beyond(options, v, side * left_normal(to)))) {
+        return;  // most of the cones around a tile; less than half a turn lies between two lines
+    }
     const double angle = 2.0 * largest_half_angle(reach, options);
     const int count = static_cast<int>(std::ceil(std::abs(turn) / angle));
     const double half_angle = turn / (2.0 * count);
@@ -74,7 +79,6 @@ void append_fan(const Vector& v, const Vector& from, const Vector& to, double tu
     const double sine = std::sin(half_angle);
     const double slope = 0.5 * (1.0 + 1.0 / cosine);
     const double rim = reach / cosine;
-    const double side = turn > 0.0 ? 1.0 : -1.0;
 
     Vector first = from;
     for (int i = 1; i <= count; ++i) {
