@@ -184,6 +184,8 @@ Status Context::Implementation::run(const Batch& batch, Results& results) {
                 "the device was lost in an earlier batch; destroy this context and make another"};
     }
     Status status = guarded([&] { run_batch(batch, results); });
+    std::erase_if(results.timings.passes,
+                  [](const PassTime& pass) { return pass.milliseconds < 0.0; });
     lost_ = status.code() == StatusCode::device_lost;
     return status;
 }
@@ -192,7 +194,11 @@ void Context::Implementation::run_batch(const Batch& batch, Results& results) {
     const Stopwatch start;
     Timings& timings = results.timings;
     timings.localize = timings.plan = timings.record = timings.device = timings.decode = 0.0;
-    timings.passes.clear();
+    // Names stay, so that a frame like the one before allocates nothing; run() drops those of
+    // passes that have not run.
+    for (PassTime& pass : timings.passes) {
+        pass.milliseconds = -1.0;
+    }
     const plan::FindShape find_shape = [this](ShapeHandle handle) { return find(handle); };
     runner_.run(batch.queries(), find_shape, results);
     normals_.apply(runner_, find_shape, results);

@@ -10,7 +10,6 @@ namespace {
 
 // All of points and fields, and three for each strategy.
 constexpr std::uint32_t most_passes = 16 + 3 * intersection_strategies;
-constexpr std::uint32_t smallest_atlas = 256;
 
 // Recipes that keep their images: more kinds of batches than this take turns.
 constexpr std::size_t most_recipes = 8;
@@ -84,7 +83,7 @@ void Renderer::require_range(std::uint64_t bytes, const char* what) const {
 }
 
 Recipe& Renderer::recipe_for(Needs needs, plan::TileSize extent) {
-    VkExtent2D atlas{smallest_atlas, smallest_atlas};
+    VkExtent2D atlas{plan::smallest_atlas, plan::smallest_atlas};
     for (const auto& recipe : recipes_) {
         if (recipe->needs() == needs) {
             if (recipe->extent().width >= extent.width &&

@@ -55,9 +55,23 @@ double largest_half_angle(double reach, const DistanceMeshOptions& options) {
     return std::acos(reach / (reach + range));
 }
 
+// Whether all that is asked for lies beyond the line through `point` with the unit normal `normal`,
+// which a snap may move a little. Never where everything is asked for.
+bool is_beyond(const DistanceMeshOptions& options, const Vector& point, const Vector& normal) {
+    const Box& within = options.within;
+    const Vector nearest((normal.x() > 0.0 ? within.min() : within.max()).x(),
+                         (normal.y() > 0.0 ? within.min() : within.max()).y());
+    return normal.dot(nearest - point) > 2.0 * options.grid.largest_move();
+}
+
 // The cone over v from direction `from` to direction `to`, `turn` radians counter-clockwise.
 void append_fan(const Vector& v, const Vector& from, const Vector& to, double turn, double reach,
                 std::uint32_t id, const DistanceMeshOptions& options, Mesh& mesh) {
+    const double side = turn > 0.0 ? 1.0 : -1.0;
+    if (std::abs(turn) < 3.0 && (is_beyond(options, v, -side * left_normal(from)) ||
+                                 is_beyond(options, v, side * left_normal(to)))) {
+        return;  // most of the cones around a tile; less than half a turn lies between two lines
+    }
     const double angle = 2.0 * largest_half_angle(reach, options);
     const int count = static_cast<int>(std::ceil(std::abs(turn) / angle));
     const double half_angle = turn / (2.0 * count);
@@ -71,11 +85,18 @@ void append_fan(const Vector& v, const Vector& from, const Vector& to, double tu
         const Vector bisector = rotated(first, cosine, sine);
         // The last direction is given, so that a full cone closes to the bit.
         const Vector last = i < count ? rotated(bisector, cosine, sine) : to;
+        const Vector rims[] = {v + rim * first, v + rim * last};
+        const bool needed = !is_beyond(options, v, -side * left_normal(first)) &&
+                            !is_beyond(options, v, side * left_normal(last)) &&
+                            !is_beyond(options, rims[0], bisector);
+        first = last;
+        if (!needed) {
+            continue;
+        }
         const Vector gradient = slope * bisector;
         mesh.push_back(on_plane(v, v, gradient, id, options.grid));
-        mesh.push_back(on_plane(v + rim * first, v, gradient, id, options.grid));
-        mesh.push_back(on_plane(v + rim * last, v, gradient, id, options.grid));
-        first = last;
+        mesh.push_back(on_plane(rims[0], v, gradient, id, options.grid));
+        mesh.push_back(on_plane(rims[1], v, gradient, id, options.grid));
     }
 }
 

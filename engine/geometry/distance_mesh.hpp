@@ -20,6 +20,10 @@ struct DistanceMeshOptions {
     /// 10 * grid.largest_move() is taken for that: what snapping alone costs.
     double error = 0.125;
     SubpixelGrid grid = {};
+    /// Triangles of cones wholly outside this box may be left out: of a cone seen from afar only a
+    /// few matter.
+    Box within = {Vector::Constant(-std::numeric_limits<double>::infinity()),
+                  Vector::Constant(std::numeric_limits<double>::infinity())};
 };
 
 /// How far a tent reaches on either side of the way from a to b, in cells; 0: not at all.

@@ -1,10 +1,9 @@
+#include <engine/geometry/number.hpp>
 #include <engine/geometry/polygon.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -17,12 +16,6 @@ Status invalid(const std::string& message) {
 
 std::string ring_name(std::size_t ring) {
     return "ring " + std::to_string(ring);
-}
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", value);
-    return text.data();
 }
 
 /// The vertices of a ring without a last one that repeats the first.

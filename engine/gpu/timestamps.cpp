@@ -11,7 +11,7 @@ void add(std::vector<PassTime>& times, const char* name, double milliseconds) {
     const auto known = std::find_if(times.begin(), times.end(),
                                     [name](const PassTime& time) { return time.name == name; });
     if (known != times.end()) {
-        known->milliseconds += milliseconds;
+        known->milliseconds = std::max(known->milliseconds, 0.0) + milliseconds;
     } else {
         times.push_back({name, milliseconds});
     }

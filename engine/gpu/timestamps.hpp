@@ -23,7 +23,7 @@ public:
     void end(VkCommandBuffer commands);
 
     /// After the submission's fence: adds this submission's times to `times`, pass by pass, by
-    /// name.
+    /// name. A time below 0 there stands for a pass that has not run yet.
     void collect(std::vector<PassTime>& times) const;
 
 private:

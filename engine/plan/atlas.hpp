@@ -5,6 +5,9 @@
 
 namespace nearfield::plan {
 
+/// Cells along a side: no atlas image is made smaller.
+inline constexpr std::uint32_t smallest_atlas = 256;
+
 /// Where a tile lies: which round of work, and its low corner in the atlas image.
 struct AtlasPlace {
     std::uint32_t round = 0;

@@ -2,10 +2,10 @@
 #include <engine/plan/technique.hpp>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 namespace nearfield::plan {
 namespace {
@@ -13,6 +13,9 @@ namespace {
 Status invalid(const std::string& message) {
     return {StatusCode::invalid_query, message};
 }
+
+// What is wrong is put into words only where something is: a frame without errors allocates
+// nothing.
 
 Status check_length(double length, const char* what) {
     if (!(length > 0.0 && length <= largest_coordinate)) {
@@ -23,20 +26,20 @@ Status check_length(double length, const char* what) {
     return {};
 }
 
-Status check_coordinate(double value, const std::string& what) {
-    if (!std::isfinite(value) || std::abs(value) > largest_coordinate) {
-        return invalid(what + " is " + number(value) + "; it must be finite and at most " +
-                       number(largest_coordinate) + " in magnitude");
-    }
-    return {};
+bool is_usable(double coordinate) {
+    return std::isfinite(coordinate) && std::abs(coordinate) <= largest_coordinate;
+}
+
+Status unusable(double coordinate, const std::string& what) {
+    return invalid(what + " is " + number(coordinate) + "; it must be finite and at most " +
+                   number(largest_coordinate) + " in magnitude");
 }
 
 Status check_rectangle(const Rectangle& rectangle) {
     for (const double value :
          {rectangle.min.x, rectangle.min.y, rectangle.max.x, rectangle.max.y}) {
-        if (Status status = check_coordinate(value, "a coordinate of the rectangle");
-            !status.ok()) {
-            return status;
+        if (!is_usable(value)) {
+            return unusable(value, "a coordinate of the rectangle");
         }
     }
     if (!(rectangle.min.x < rectangle.max.x && rectangle.min.y < rectangle.max.y)) {
@@ -49,18 +52,18 @@ Status check_rectangle(const Rectangle& rectangle) {
 
 }  // namespace
 
-Status check_pose(const Pose& pose, const std::string& whose) {
-    // Nearly always; then no message is put together.
-    if (std::isfinite(pose.angle) && std::abs(pose.translation.x) <= largest_coordinate &&
-        std::abs(pose.translation.y) <= largest_coordinate) {
-        return {};
-    }
+Status check_pose(const Pose& pose, std::string_view whose) {
     if (!std::isfinite(pose.angle)) {
-        return invalid("the angle of " + whose + "'s pose is " + number(pose.angle));
+        return invalid("the angle of " + std::string(whose) + "'s pose is " + number(pose.angle));
     }
-    Status status = check_coordinate(pose.translation.x, "the x of " + whose + "'s pose");
-    return status.ok() ? check_coordinate(pose.translation.y, "the y of " + whose + "'s pose")
-                       : status;
+    for (const auto& [name, value] :
+         {std::pair("x", pose.translation.x), std::pair("y", pose.translation.y)}) {
+        if (!is_usable(value)) {
+            return unusable(value,
+                            "the " + std::string(name) + " of " + std::string(whose) + "'s pose");
+        }
+    }
+    return {};
 }
 
 namespace {
@@ -76,10 +79,8 @@ Status check_field(const DistanceFieldQuery& query) {
     }
     for (std::size_t i = 0; i < query.points.size(); ++i) {
         for (const double value : {query.points[i].x, query.points[i].y}) {
-            if (Status status =
-                    check_coordinate(value, "a coordinate of point " + std::to_string(i));
-                !status.ok()) {
-                return status;
+            if (!is_usable(value)) {
+                return unusable(value, "a coordinate of point " + std::to_string(i));
             }
         }
     }
@@ -124,12 +125,6 @@ Status check_pair(const Query& query) {
 }
 
 }  // namespace
-
-std::string number(double value) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
 
 Status check_query(const AnyQuery& query) {
     Status status = std::visit([](const auto& any) { return check_pair(any); }, query);

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <engine/geometry/number.hpp>
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
 
-#include <string>
+#include <string_view>
 
 namespace nearfield::plan {
 
@@ -13,7 +14,7 @@ namespace nearfield::plan {
 [[nodiscard]] Status check_query(const AnyQuery& query);
 
 /// A pose that can be used, or an error; `whose` it is, for the message.
-[[nodiscard]] Status check_pose(const Pose& pose, const std::string& whose);
+[[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);
 
 /// A tolerance that double precision can resolve at these coordinates, or an error.
 [[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);
@@ -22,7 +23,6 @@ namespace nearfield::plan {
 /// the query's budget comes to.
 [[nodiscard]] Status check_deviations(double tolerance, const Deviations& deviations, double bound);
 
-/// A number as text, with as few digits as tell it apart.
-[[nodiscard]] std::string number(double value);
+using geometry::number;
 
 }  // namespace nearfield::plan

@@ -11,8 +11,6 @@ namespace {
 
 using geometry::Vector;
 
-constexpr std::uint32_t not_written = UINT32_MAX;
-
 /// A run's vertices and its straight edge are rounded to floats apart from each other.
 constexpr double deviation_slack = 1.0 / 1024.0;
 
@@ -43,24 +41,27 @@ std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
 
 }  // namespace
 
-void EdgeListWriter::begin_tile(const TileBoundary& boundary, const ToCells& to_cells) {
+void EdgeListWriter::begin_tile(const TileBoundary& boundary) {
     boundary_ = &boundary;
-    to_cells_ = &to_cells;
-    runs_.assign(boundary.size(), not_written);
+    ++tile_;
+    if (runs_.size() < boundary.size()) {
+        runs_.resize(boundary.size());
+    }
 }
 
 std::uint32_t EdgeListWriter::run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index) {
-    if (runs_[index] == not_written) {
-        runs_[index] = static_cast<std::uint32_t>(geometry_.size());
-        const auto vertices = boundary_->polygon->vertices();
+    WrittenRun& run = runs_[index];
+    if (run.tile != tile_) {
+        run = {tile_, static_cast<std::uint32_t>(geometry_.size())};
+        const auto vertices = boundary_->simplified().polygon->vertices();
         for (std::uint32_t i = 0; i < edge.count; ++i) {
-            const Vector v = (*to_cells_)(vertices[edge.first + i]);
+            const Vector v = boundary_->to_cells()(vertices[edge.first + i]);
             geometry_.push_back({static_cast<float>(v.x()), static_cast<float>(v.y())});
         }
-        const Vector& v = boundary_->end(index);
+        const Vector v = boundary_->end(index);
         geometry_.push_back({static_cast<float>(v.x()), static_cast<float>(v.y())});
     }
-    return runs_[index];
+    return run.place;
 }
 
 EdgeData EdgeListWriter::describe(const TileEdge& edge) {
@@ -70,13 +71,13 @@ EdgeData EdgeListWriter::describe(const TileEdge& edge) {
     data.bx = static_cast<float>(edge.b.x());
     data.by = static_cast<float>(edge.b.y());
     if (edge.simplified != no_simplified) {
-        const geometry::SimplifiedEdge& simplified = (*boundary_->edges)[edge.simplified];
+        const geometry::SimplifiedEdge& simplified = boundary_->edge(edge.simplified);
         data.first_edge = simplified.first;
         if (simplified.count > 1) {
             data.run = run_of(simplified, edge.simplified);
             data.run_count = simplified.count;
-            data.deviation =
-                static_cast<float>(to_cells_->cells(simplified.deviation) + deviation_slack);
+            data.deviation = static_cast<float>(boundary_->to_cells().cells(simplified.deviation) +
+                                                deviation_slack);
         }
     }
     return data;
@@ -93,7 +94,7 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
     list_.clear();
     for (const TileEdge& edge : edges) {
         const bool exact =
-            edge.simplified == no_simplified || (*boundary_->edges)[edge.simplified].count == 1;
+            edge.simplified == no_simplified || boundary_->edge(edge.simplified).count == 1;
         if (!exact) {
             list_.push_back(describe(edge));
         } else if (const auto part = cut(edge, extent)) {

@@ -19,7 +19,7 @@ public:
     /// Starts a new array.
     void clear() { geometry_.clear(); }
     /// Starts a new tile: runs of edges already written belong to another frame of coordinates.
-    void begin_tile(const TileBoundary& boundary, const ToCells& to_cells);
+    void begin_tile(const TileBoundary& boundary);
 
     /// Writes one list; position i of the list is edge i. Edges that stand for themselves are cut,
     /// in double precision, to the square |x|, |y| <= `extent` around the tile's low corner, so
@@ -30,15 +30,21 @@ public:
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
 
 private:
+    /// Where an edge's run stands, if `tile` wrote it.
+    struct WrittenRun {
+        std::uint64_t tile = 0;
+        std::uint32_t place = 0;
+    };
+
     [[nodiscard]] std::uint32_t run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index);
     [[nodiscard]] EdgeData describe(const TileEdge& edge);
     void push(const EdgeData& edge);
 
     const TileBoundary* boundary_ = nullptr;
-    const ToCells* to_cells_ = nullptr;
     std::vector<Entry> geometry_;
     std::vector<EdgeData> list_;
-    std::vector<std::uint32_t> runs_;  // by simplified edge: where its run stands, if written
+    std::vector<WrittenRun> runs_;  // by simplified edge
+    std::uint64_t tile_ = 0;        // counts the tiles begun
 };
 
 }  // namespace nearfield::plan

@@ -4,6 +4,7 @@
 #include <engine/geometry/vector.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace nearfield::plan {
 
@@ -35,6 +36,21 @@ public:
     [[nodiscard]] double cells(double length) const { return length / cell_; }
 
     geometry::Vector operator()(const geometry::Vector& v) const { return matrix_ * v + offset_; }
+    /// A box around all of `box`, up to rounding.
+    [[nodiscard]] geometry::Box operator()(const geometry::Box& box) const {
+        const geometry::Vector centre = (*this)(box.center());
+        const geometry::Vector half = matrix_.cwiseAbs() * (0.5 * box.sizes());
+        return {centre - half, centre + half};
+    }
+    /// Back to coordinates relative to the polygon's centre.
+    [[nodiscard]] geometry::Vector inverse(const geometry::Vector& cells) const {
+        return matrix_.transpose() * (cells - offset_) * (cell_ * cell_);
+    }
+    /// What rounding may change about the place of anything in `box`, in cells, and more.
+    [[nodiscard]] double rounding(const geometry::Box& box) const {
+        return 64.0 * std::numeric_limits<double>::epsilon() *
+               (offset_.norm() + cells(box.max().norm() + box.min().norm()) + 1.0);
+    }
 
 private:
     Eigen::Matrix2d matrix_;

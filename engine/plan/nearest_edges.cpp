@@ -3,6 +3,7 @@
 #include <engine/plan/nearest_edges.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,57 +15,53 @@ void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& n
                              std::vector<NearestEdge>& result) {
     result.clear();
     needed_ = &needed;
-    left_.assign(boundary.size(), 0.0);
-    right_.assign(boundary.size(), 0.0);
     find_candidates(boundary, slack);
-    visit(0, 0, NeededBlocks::most_along, 0, candidates_.size());
+    reach_left_.assign(near_.size(), 0.0);
+    reach_right_.assign(near_.size(), 0.0);
+    const std::uint32_t blocks =
+        (std::max(needed.width(), needed.height()) + needed.side() - 1) / needed.side();
+    visit(0, 0, std::bit_ceil(blocks), 0, candidates_.size());
 
-    for (std::uint32_t i = 0; i < boundary.size(); ++i) {
-        if (left_[i] > 0.0 || right_[i] > 0.0) {
-            result.push_back({{boundary.start(i), boundary.end(i), i}, left_[i], right_[i]});
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        if (reach_left_[i] > 0.0 || reach_right_[i] > 0.0) {
+            result.push_back({near_[i], reach_left_[i], reach_right_[i]});
         }
     }
 }
 
 void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double slack) {
-    const std::uint32_t count = boundary.size();
     const Vector centre(0.5 * needed_->width(), 0.5 * needed_->height());
-    distances_.resize(count);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        distances_[i] =
-            std::sqrt(geometry::nearest_on_segment(centre, boundary.start(i), boundary.end(i))
-                          .squared_distance);
-        nearest = std::min(nearest, distances_[i]);
-    }
+    const double nearest = boundary.distance(centre);
     // In double precision so far. What can matter lies within a window around the tile; edges are
     // cut to it, so that what rounding to floats may change about a distance, which is granted on
     // top of the slack, depends on the window and not on how far an edge reaches.
     const double window = nearest + 2.0 * (centre.norm() + slack) + 1.0;
     slack_ = slack + 0.01 + 1e-6 * window;
     const double limit = nearest + 2.0 * (centre.norm() + slack_);
-    edges_.resize(count);
+    near_.clear();
+    edges_.clear();
     candidates_.clear();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (distances_[i] > limit) {
-            continue;
+    boundary.for_edges_near(centre, limit, [&](std::uint32_t i) {
+        const TileEdge edge{boundary.start(i), boundary.end(i), i};
+        if (std::sqrt(geometry::nearest_on_segment(centre, edge.a, edge.b).squared_distance) >
+            limit) {
+            return;
         }
-        Vector a = boundary.start(i) - centre;
-        Vector b = boundary.end(i) - centre;
+        Vector a = edge.a - centre;
+        Vector b = edge.b - centre;
         for (const int axis : {0, 1}) {
             static_cast<void>(geometry::clip_to_slab(a, b, axis, -2.0 * window, 2.0 * window));
         }
         const Vector d = b - a;
         const double squared = d.squaredNorm();
         const bool is_point = squared < 1e-30;
-        edges_[i] = {static_cast<float>(a.x()),
-                     static_cast<float>(a.y()),
-                     static_cast<float>(d.x()),
-                     static_cast<float>(d.y()),
-                     is_point ? 0.0F : static_cast<float>(1.0 / squared),
-                     is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared))};
-        candidates_.push_back(i);
-    }
+        candidates_.push_back(static_cast<std::uint32_t>(near_.size()));
+        near_.push_back(edge);
+        edges_.push_back({static_cast<float>(a.x()), static_cast<float>(a.y()),
+                          static_cast<float>(d.x()), static_cast<float>(d.y()),
+                          is_point ? 0.0F : static_cast<float>(1.0 / squared),
+                          is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared))});
+    });
 }
 
 void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint32_t count,
@@ -134,10 +131,10 @@ void NearestEdgeFinder::reach_out(std::size_t first, std::size_t end, float x, f
         const float left =
             (edge.dx * (y - edge.ay) - edge.dy * (x - edge.ax)) * edge.inverse_length;
         if (left > -wide) {
-            left_[index] = std::max(left_[index], reach);
+            reach_left_[index] = std::max(reach_left_[index], reach);
         }
         if (left < wide) {
-            right_[index] = std::max(right_[index], reach);
+            reach_right_[index] = std::max(reach_right_[index], reach);
         }
     }
 }

@@ -46,11 +46,11 @@ private:
 
     const NeededBlocks* needed_ = nullptr;
     double slack_ = 0.0;
-    std::vector<double> distances_;          // by simplified edge: to the tile's centre
-    std::vector<Candidate> edges_;           // by simplified edge
-    std::vector<std::uint32_t> candidates_;  // a stack: one list a level
-    std::vector<float> squared_;        // by place on the stack: squared distance to the centre
-    std::vector<double> left_, right_;  // by simplified edge
+    std::vector<TileEdge> near_;    // all that can matter somewhere in the tile, in ring order
+    std::vector<Candidate> edges_;  // the same
+    std::vector<std::uint32_t> candidates_;  // of those, a stack: one list a level
+    std::vector<float> squared_;  // by place on the stack: squared distance to the centre
+    std::vector<double> reach_left_, reach_right_;  // by near edge
 };
 
 }  // namespace nearfield::plan

@@ -9,6 +9,9 @@ void Plan::clear() {
     field_points.clear();
     extent = {};
     rounds = 0;
+    tiles_by_round.clear();
+    points_by_round.clear();
+    field_points_by_round.clear();
     result_bytes = 0.0;
 }
 

@@ -11,7 +11,9 @@
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -90,6 +92,38 @@ struct PlannedQuery {
     std::uint32_t field_point_count = 0;
 };
 
+/// Positions in an array in order of rounds, and within a round in order.
+class ByRound {
+public:
+    /// `round_of(i)` is the round of element i, below `rounds`.
+    template <class RoundOf>
+    void sort(std::size_t count, std::uint32_t rounds, RoundOf&& round_of) {
+        starts_.assign(rounds + 1, 0);
+        for (std::size_t i = 0; i < count; ++i) {
+            ++starts_[round_of(i)];
+        }
+        // Backwards, so that each round's end moves down to its start.
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        order_.resize(count);
+        for (std::size_t i = count; i > 0; --i) {
+            order_[--starts_[round_of(i - 1)]] = static_cast<std::uint32_t>(i - 1);
+        }
+    }
+    void clear() {
+        starts_.clear();
+        order_.clear();
+    }
+
+    /// The elements of a round.
+    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t round) const {
+        return std::span(order_).subspan(starts_[round], starts_[round + 1] - starts_[round]);
+    }
+
+private:
+    std::vector<std::uint32_t> starts_;  // by round; then the end of the last
+    std::vector<std::uint32_t> order_;
+};
+
 /// A batch as tiles: what is to be rendered, where, and for whom.
 struct Plan {
     /// By position in the batch; behind them the other directions of some.
@@ -100,6 +134,9 @@ struct Plan {
     std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
     TileSize extent;                              ///< of the atlas
     std::uint32_t rounds = 0;
+    ByRound tiles_by_round;
+    ByRound points_by_round;
+    ByRound field_points_by_round;
     /// Bytes all results may need on the host.
     double result_bytes = 0.0;
 

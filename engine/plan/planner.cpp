@@ -24,8 +24,6 @@ constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 // signs in white, signed features with their distances, gradients.
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
-constexpr std::uint32_t smallest_atlas = 256;
-
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
                                            std::to_string(handle.index) +
@@ -68,7 +66,9 @@ Result& reuse(AnyResult& any) {
         result.manifold.clear();
         result.records.clear();
     } else {
+        std::vector<Region> regions = std::move(result.regions);
         result = {};
+        result.regions = std::move(regions);
     }
     return result;
 }
@@ -335,6 +335,20 @@ void Planner::pack() {
     }
     plan_->extent = packer_.extent();
     plan_->rounds = packer_.rounds();
+    const std::vector<Tile>& tiles = plan_->tiles;
+    const std::vector<PlannedPoint>& points = plan_->points;
+    const std::vector<PlannedFieldPoint>& field_points = plan_->field_points;
+    plan_->tiles_by_round.sort(tiles.size(), plan_->rounds,
+                               [&](std::size_t i) { return tiles[i].place.round; });
+    // Points that are answered on the CPU have no tile: they come after all rounds.
+    const std::uint32_t no_round = plan_->rounds;
+    plan_->points_by_round.sort(points.size(), plan_->rounds + 1, [&](std::size_t i) {
+        const std::uint32_t tile = points[i].tile;
+        return tile == PlannedPoint::no_tile ? no_round : tiles[tile].place.round;
+    });
+    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds, [&](std::size_t i) {
+        return tiles[field_points[i].tile].place.round;
+    });
 }
 
 }  // namespace nearfield::plan

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace nearfield::plan {
@@ -82,11 +83,8 @@ void Round::clear() {
 void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
     round.clear();
     tile_of_plan_.resize(plan.tiles.size());
-    for (std::uint32_t i = 0; i < plan.tiles.size(); ++i) {
+    for (const std::uint32_t i : plan.tiles_by_round.of(number)) {
         const Tile& tile = plan.tiles[i];
-        if (tile.place.round != number) {
-            continue;
-        }
         TileDraw draw;
         draw.tile = static_cast<std::uint32_t>(round.tiles.size());
         draw.x = tile.place.x;
@@ -121,14 +119,20 @@ DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile&
     return since(first, mesh);
 }
 
-DrawRange RoundBuilder::add_distance_mesh(const Tile& tile,
+const NearestEdge* RoundBuilder::find_nearest(std::uint32_t simplified, std::uint32_t hint) const {
+    if (hint > 0 && nearest_[hint - 1].edge.simplified == simplified) {
+        return &nearest_[hint - 1];
+    }
+    const auto found = std::lower_bound(
+        nearest_.begin(), nearest_.end(), simplified,
+        [](const NearestEdge& edge, std::uint32_t index) { return edge.edge.simplified < index; });
+    return found != nearest_.end() && found->edge.simplified == simplified ? &*found : nullptr;
+}
+
+DrawRange RoundBuilder::add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
                                           const geometry::DistanceMeshOptions& options,
                                           Mesh& mesh) {
     const std::size_t first = mesh.size();
-    list_position_.assign(boundary_.size(), no_simplified);
-    for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
-        list_position_[nearest_[i].edge.simplified] = i;
-    }
     for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
         const NearestEdge& nearest = nearest_[i];
         const TileEdge& edge = nearest.edge;
@@ -137,11 +141,10 @@ DrawRange RoundBuilder::add_distance_mesh(const Tile& tile,
                               mesh);
         // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
         // are in the list, and only as far as both can be nearest.
-        const std::uint32_t before = list_position_[boundary_.previous[edge.simplified]];
-        if (before != no_simplified) {
-            const double reach = std::min(nearest.reach(), nearest_[before].reach());
-            geometry::append_cone_sector(nearest_[before].edge.a, edge.a, edge.b, reach, i, options,
-                                         mesh);
+        if (const NearestEdge* const before =
+                find_nearest(boundary.simplified().previous(edge.simplified), i)) {
+            const double reach = std::min(nearest.reach(), before->reach());
+            geometry::append_cone_sector(before->edge.a, edge.a, edge.b, reach, i, options, mesh);
         }
     }
     return since(first, mesh);
@@ -175,29 +178,31 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
                                      Round& round) {
     const double cell = tile.grid.cell;
     const ErrorBudget& budget = query.budget;
-    const ToCells to_cells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell);
-    boundary_.place(*query.b, shapes_.get(*query.b, budget.simplification, longest_run * cell),
-                    to_cells);
+    const TileBoundary boundary(
+        shapes_.get(*query.b, budget.simplification, longest_run * cell),
+        ToCells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell));
     const double simplification = budget.simplification / cell;
     double mesh_error = budget.mesh / cell;
     if (tile.kind == TileKind::points) {
         // Resolve goes on from the drawn feature to the nearest one; far from the boundary a mesh
         // that is as fine as near to it would have no end of triangles.
-        mesh_error = std::max(mesh_error, boundary_.distance(tile.centre()) / 16.0);
+        mesh_error = std::max(mesh_error, boundary.distance(tile.centre()) / 16.0);
     }
 
     crossing_.clear();
-    crossing_edges(boundary_, tile.width, tile.height, simplification, crossing_);
+    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
     draw.b = add_fill(crossing_, tile, round.mesh);
 
-    finder_.find(boundary_, tile.needed, simplification + mesh_error, nearest_);
+    finder_.find(boundary, tile.needed, simplification + mesh_error, nearest_);
     nearest_list_.clear();
     double largest_reach = 0.0;
     for (const NearestEdge& nearest : nearest_) {
         nearest_list_.push_back(nearest.edge);
         largest_reach = std::max(largest_reach, nearest.reach());
     }
-    draw.distance = add_distance_mesh(tile, {mesh_error, grid_}, round.mesh);
+    draw.distance = add_distance_mesh(
+        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+        round.mesh);
     float farthest = 1.0F;
     for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
         farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
@@ -205,7 +210,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     draw.depth_scale = 1.0F / (farthest * 1.0001F);
 
     TileData& data = round.tiles[draw.tile];
-    round.lists.begin_tile(boundary_, to_cells);
+    round.lists.begin_tile(boundary);
     const double side = std::max(tile.width, tile.height);
     data.nearest = round.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
     data.crossing = round.lists.write(crossing_, side + 4.0);
@@ -222,10 +227,12 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     round.distance_draws.push_back(draw);
 }
 
-DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, bool with_runs,
-                                     Round& round) const {
+DrawRange RoundBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
+                                     bool with_runs, Round& round) const {
     const std::size_t first = round.mesh.size();
-    for (std::uint32_t i = 0; i < boundary_.size(); ++i) {
+    // Offset polygons reach a little farther than the offset.
+    const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
+    boundary.for_edges_near(tile.centre(), reach, [&](std::uint32_t i) {
         const std::size_t before = round.mesh.size();
         const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
         if (run == most_runs) {
@@ -233,13 +240,12 @@ DrawRange RoundBuilder::add_boundary(const Tile& tile, double offset, bool with_
                                                       std::to_string(most_runs) +
                                                       " edges; use a larger tolerance"});
         }
-        geometry::append_offset_polygon(boundary_.start(i), boundary_.end(i), offset, tile.width,
+        geometry::append_offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
                                         tile.height, grid_, run << run_shift, round.mesh);
         if (with_runs && round.mesh.size() > before) {
-            const geometry::SimplifiedEdge& edge = (*boundary_.edges)[i];
-            round.runs.push_back({edge.first, edge.count});
+            round.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
         }
-    }
+    });
     return since(first, round.mesh);
 }
 
@@ -253,14 +259,13 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
     const double simplification = query.budget.simplification;
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
                          bool with_runs) {
-        const ToCells to_cells(PlacedPolygon(polygon, pose), tile.origin(), cell);
-        boundary_.place(polygon, shapes_.get(polygon, simplification, longest_run * cell),
-                        to_cells);
+        const TileBoundary boundary(shapes_.get(polygon, simplification, longest_run * cell),
+                                    ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
         if (part == Part::boundary) {
-            return add_boundary(tile, query.budget.offset / cell, with_runs, round);
+            return add_boundary(boundary, tile, query.budget.offset / cell, with_runs, round);
         }
         crossing_.clear();
-        crossing_edges(boundary_, tile.width, tile.height, simplification / cell, crossing_);
+        crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);
         return add_fill(crossing_, tile, round.mesh);
     };
     draw.b = add(*query.b, query.pose_b, draw.part_b, false);
@@ -274,54 +279,42 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
 }
 
 void RoundBuilder::add_points(const Plan& plan, std::uint32_t number, Round& round) {
-    for (const PlannedQuery& query : plan.queries) {
-        if (query.point_count == 0 || query.on_cpu) {
-            continue;
+    const PlannedQuery* query = nullptr;
+    std::optional<PlacedPolygon> a;
+    for (const std::uint32_t i : plan.points_by_round.of(number)) {
+        const PlannedPoint& point = plan.points[i];
+        const Tile& tile = plan.tiles[point.tile];
+        if (query != &plan.queries[tile.query]) {
+            query = &plan.queries[tile.query];
+            a.emplace(*query->a, query->pose_a);
         }
-        const PlacedPolygon a(*query.a, query.pose_a);
-        for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
-            const PlannedPoint& point = plan.points[i];
-            const Tile& tile = plan.tiles[point.tile];
-            if (tile.place.round == number) {
-                const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
-                round.points.push_back({static_cast<float>(local.x()),
-                                        static_cast<float>(local.y()), tile_of_plan_[point.tile],
-                                        0});
-                round.point_index.push_back(i);
-            }
-        }
+        const Vector local = (position(*a, point.point) - tile.origin()) / tile.grid.cell;
+        round.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+                                tile_of_plan_[point.tile], 0});
+        round.point_index.push_back(i);
     }
 }
 
 void RoundBuilder::add_field_points(const Plan& plan, std::uint32_t number, Round& round) {
-    for (std::uint32_t index = 0; index < plan.queries.size(); ++index) {
-        const PlannedQuery& query = plan.queries[index];
-        if (query.field_point_count == 0) {
-            continue;
+    for (const std::uint32_t i : plan.field_points_by_round.of(number)) {
+        const PlannedFieldPoint& point = plan.field_points[i];
+        const Tile& tile = plan.tiles[point.tile];
+        if (round.field_point_runs.empty() || round.field_point_runs.back().query != tile.query) {
+            const PlannedQuery& query = plan.queries[tile.query];
+            FieldPointRun& run = round.field_point_runs.emplace_back();
+            run.first = static_cast<std::uint32_t>(round.field_points.size());
+            run.query = tile.query;
+            run.first_word = static_cast<std::uint32_t>(round.field_words);
+            run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+            run.parts = query.field;
         }
-        FieldPointRun run;
-        run.first = static_cast<std::uint32_t>(round.field_points.size());
-        run.query = index;
-        run.first_word = static_cast<std::uint32_t>(round.field_words);
-        run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
-        run.parts = query.field;
-        const std::uint32_t end = query.first_field_point + query.field_point_count;
-        for (std::uint32_t i = query.first_field_point; i < end; ++i) {
-            const PlannedFieldPoint& point = plan.field_points[i];
-            const Tile& tile = plan.tiles[point.tile];
-            if (tile.place.round == number) {
-                const Vector local = (point.position - tile.origin()) / tile.grid.cell;
-                round.field_points.push_back(
-                    {static_cast<float>(local.x()), static_cast<float>(local.y()),
-                     tile_of_plan_[point.tile], point.column | point.row << 16U});
-                round.field_point_index.push_back(i);
-                ++run.count;
-            }
-        }
-        if (run.count > 0) {
-            round.field_point_runs.push_back(run);
-            round.field_words += std::uint64_t{run.count} * run.parts.words_per_point;
-        }
+        const Vector local = (point.position - tile.origin()) / tile.grid.cell;
+        round.field_points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+                                      tile_of_plan_[point.tile], point.column | point.row << 16U});
+        round.field_point_index.push_back(i);
+        FieldPointRun& run = round.field_point_runs.back();
+        ++run.count;
+        round.field_words += run.parts.words_per_point;
     }
 }
 

@@ -115,21 +115,22 @@ private:
     void add_field_points(const Plan& plan, std::uint32_t number, Round& round);
     [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
                                      geometry::Mesh& mesh) const;
-    [[nodiscard]] DrawRange add_boundary(const Tile& tile, double offset, bool with_runs,
-                                         Round& round) const;
-    [[nodiscard]] DrawRange add_distance_mesh(const Tile& tile,
+    [[nodiscard]] DrawRange add_boundary(const TileBoundary& boundary, const Tile& tile,
+                                         double offset, bool with_runs, Round& round) const;
+    /// The entry of nearest_ for a simplified edge, if there is one; likely the one before `hint`.
+    [[nodiscard]] const NearestEdge* find_nearest(std::uint32_t simplified,
+                                                  std::uint32_t hint) const;
+    [[nodiscard]] DrawRange add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
                                               const geometry::DistanceMeshOptions& options,
                                               geometry::Mesh& mesh);
 
     geometry::SubpixelGrid grid_;
     SimplifiedShapes shapes_;
-    TileBoundary boundary_;
     std::vector<TileEdge> crossing_;
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
-    std::vector<std::uint32_t> list_position_;  // by simplified edge: its place in nearest_
-    std::vector<std::uint32_t> tile_of_plan_;   // by tile of the plan: its place in the round
+    std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its place in the round
 };
 
 }  // namespace nearfield::plan

@@ -9,35 +9,23 @@ namespace nearfield::plan {
 
 using geometry::Vector;
 
-void TileBoundary::place(const geometry::Polygon& shape,
-                         const std::vector<geometry::SimplifiedEdge>& simplified,
-                         const ToCells& to_cells) {
-    polygon = &shape;
-    edges = &simplified;
-    const auto count = static_cast<std::uint32_t>(simplified.size());
-    starts.resize(count);
-    next.resize(count);
-    previous.resize(count);
-    std::uint32_t ring_start = 0;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        starts[i] = to_cells(shape.vertices()[simplified[i].first]);
-        // A ring's last edge ends where its first one starts.
-        const bool closes = simplified[i].last == simplified[ring_start].first;
-        next[i] = closes ? ring_start : i + 1;
-        previous[next[i]] = i;
-        if (closes) {
-            ring_start = i + 1;
-        }
-    }
+double TileBoundary::distance(const Vector& point, std::uint32_t edge) const {
+    return std::sqrt(geometry::nearest_on_segment(point, start(edge), end(edge)).squared_distance);
 }
 
 double TileBoundary::distance(const Vector& point) const {
-    double squared = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < size(); ++i) {
-        squared = std::min(squared,
-                           geometry::nearest_on_segment(point, start(i), end(i)).squared_distance);
-    }
-    return std::sqrt(squared);
+    // A good guess first, then all that can be nearer.
+    const Vector local = to_cells_.inverse(point);
+    const std::uint32_t guess = simplified_.descend(
+        [&](const geometry::Box& box) { return box.squaredExteriorDistance(local); });
+    double nearest = distance(point, guess);
+    const auto boxes_nearer = [&](const geometry::Box& box, std::uint32_t, std::uint32_t) {
+        return to_cells_.cells(box.exteriorDistance(local)) <= nearest + rounding_;
+    };
+    simplified_.traverse(boxes_nearer, [&](std::uint32_t edge) {
+        nearest = std::min(nearest, distance(point, edge));
+    });
+    return nearest;
 }
 
 namespace {
@@ -61,6 +49,53 @@ void push_upright_beyond(double right, const TileEdge& edge, bool may_be_cut,
     }
 }
 
+/// Joins consecutive edges that stay right of a tile into upright ones.
+class RightOfTile {
+public:
+    RightOfTile(const TileBoundary& boundary, double x, double low, double high,
+                std::vector<TileEdge>& edges)
+        : boundary_(&boundary), x_(x), low_(low), high_(high), edges_(&edges) {}
+
+    /// Takes edges first, ..., end - 1; what it is given must come in order.
+    void add(std::uint32_t first, std::uint32_t end) {
+        const SimplifiedBoundary& simplified = boundary_->simplified();
+        const auto ring_of = simplified.ring_of;
+        if (first != end_ || ring_of[first] != ring_of[first_]) {
+            close();
+            first_ = first;
+        }
+        if (ring_of[end - 1] != ring_of[first_]) {
+            // Whole rings in between cross every row an even number of times.
+            end_ = simplified.ring_begin[ring_of[first_] + 1];
+            close();
+            first_ = simplified.ring_begin[ring_of[end - 1]];
+        }
+        end_ = end;
+    }
+
+    /// Appends what was joined so far.
+    void close() {
+        if (first_ < end_) {
+            const Vector a(x_, boundary_->start(first_).y());
+            const Vector b(x_, boundary_->end(end_ - 1).y());
+            if (a.y() != b.y() && std::max(a.y(), b.y()) >= low_ &&
+                std::min(a.y(), b.y()) <= high_) {
+                edges_->push_back({a, b, no_simplified});
+            }
+        }
+        first_ = end_;
+    }
+
+private:
+    const TileBoundary* boundary_;
+    double x_;
+    double low_;
+    double high_;
+    std::vector<TileEdge>* edges_;
+    std::uint32_t first_ = 0;  // of the chain that is being joined
+    std::uint32_t end_ = 0;
+};
+
 }  // namespace
 
 void crossing_edges(const TileBoundary& boundary, std::uint32_t width, std::uint32_t height,
@@ -69,33 +104,27 @@ void crossing_edges(const TileBoundary& boundary, std::uint32_t width, std::uint
     const double right = width + 1.0 + slack;
     const double low = -1.0 - slack;
     const double high = height + 1.0 + slack;
-    const std::uint32_t count = boundary.size();
-    std::uint32_t i = 0;
-    while (i < count) {
-        const Vector& a = boundary.start(i);
-        const Vector& b = boundary.end(i);
-        if (std::max(a.y(), b.y()) < low || std::min(a.y(), b.y()) > high ||
-            std::max(a.x(), b.x()) < left) {
-            ++i;
-            continue;
+    RightOfTile beyond(boundary, right, low, high, edges);
+    const auto enter = [&](const geometry::Box& box, std::uint32_t first, std::uint32_t end) {
+        const geometry::Box cells = boundary.in_cells(box);
+        if (cells.min().x() > right) {
+            beyond.add(first, end);
+            return false;
         }
-        if (std::min(a.x(), b.x()) <= right) {
-            push_upright_beyond(right, {a, b, i}, (*boundary.edges)[i].count == 1, edges);
-            ++i;
-            continue;
+        return cells.max().y() >= low && cells.min().y() <= high && cells.max().x() >= left;
+    };
+    boundary.simplified().traverse(enter, [&](std::uint32_t i) {
+        const Vector a = boundary.start(i);
+        const Vector b = boundary.end(i);
+        if (std::min(a.x(), b.x()) > right) {
+            beyond.add(i, i + 1);
+        } else if (std::max(a.y(), b.y()) >= low && std::min(a.y(), b.y()) <= high &&
+                   std::max(a.x(), b.x()) >= left) {
+            beyond.close();
+            push_upright_beyond(right, {a, b, i}, boundary.edge(i).count == 1, edges);
         }
-        // Join the chain that stays right of the tile, up to the end of its ring.
-        std::uint32_t last = i;
-        while (boundary.next[last] == last + 1 && boundary.end(last + 1).x() > right) {
-            ++last;
-        }
-        const Vector chain_start(right, a.y());
-        const Vector chain_end(right, boundary.end(last).y());
-        if (chain_start.y() != chain_end.y()) {
-            edges.push_back({chain_start, chain_end, no_simplified});
-        }
-        i = last + 1;
-    }
+    });
+    beyond.close();
 }
 
 }  // namespace nearfield::plan

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <engine/geometry/simplify.hpp>
 #include <engine/geometry/vector.hpp>
 #include <engine/plan/grid.hpp>
+#include <engine/plan/simplified_boundary.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -19,27 +19,56 @@ struct TileEdge {
 };
 inline constexpr std::uint32_t no_simplified = UINT32_MAX;
 
-/// A simplified boundary in cells of a tile: end points of every simplified edge, ring after ring.
-/// Reused from tile to tile.
-struct TileBoundary {
-    const geometry::Polygon* polygon = nullptr;
-    const std::vector<geometry::SimplifiedEdge>* edges = nullptr;
-    std::vector<geometry::Vector> starts;  ///< by simplified edge: where it starts
-    std::vector<std::uint32_t> next;       ///< by simplified edge: the one after it on its ring
-    std::vector<std::uint32_t> previous;
+/// A simplified boundary in cells of a tile. End points are transformed when asked for: a tile asks
+/// for those near it only.
+class TileBoundary {
+public:
+    TileBoundary(const SimplifiedBoundary& simplified, const ToCells& to_cells)
+        : simplified_(simplified),
+          to_cells_(to_cells),
+          rounding_(to_cells.rounding(simplified.boxes.back())) {}
 
-    [[nodiscard]] const geometry::Vector& start(std::uint32_t edge) const { return starts[edge]; }
-    [[nodiscard]] const geometry::Vector& end(std::uint32_t edge) const {
-        return starts[next[edge]];
+    [[nodiscard]] const SimplifiedBoundary& simplified() const { return simplified_; }
+    [[nodiscard]] const ToCells& to_cells() const { return to_cells_; }
+    [[nodiscard]] std::uint32_t size() const { return simplified_.size(); }
+    [[nodiscard]] const geometry::SimplifiedEdge& edge(std::uint32_t edge) const {
+        return simplified_.edges[edge];
     }
-    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(starts.size()); }
+    [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
+        return to_cells_(simplified_.polygon->vertices()[simplified_.edges[edge].first]);
+    }
+    [[nodiscard]] geometry::Vector end(std::uint32_t edge) const {
+        return to_cells_(simplified_.polygon->vertices()[simplified_.edges[edge].last]);
+    }
 
     /// From a point to the simplified boundary, in cells.
     [[nodiscard]] double distance(const geometry::Vector& point) const;
+    [[nodiscard]] double distance(const geometry::Vector& point, std::uint32_t edge) const;
 
-    /// Transforms all end points.
-    void place(const geometry::Polygon& shape,
-               const std::vector<geometry::SimplifiedEdge>& simplified, const ToCells& to_cells);
+    /// Calls `visit(edge)` in order for every edge within `reach` cells of a point, and for some
+    /// others.
+    template <class Visit>
+    void for_edges_near(const geometry::Vector& point, double reach, Visit&& visit) const {
+        const geometry::Vector local = to_cells_.inverse(point);
+        simplified_.traverse(
+            [&](const geometry::Box& box, std::uint32_t, std::uint32_t) {
+                return to_cells_.cells(box.exteriorDistance(local)) <= reach + rounding_;
+            },
+            visit);
+    }
+
+    /// A box around all of `box`, which is relative to the shape's centre, in cells.
+    [[nodiscard]] geometry::Box in_cells(const geometry::Box& box) const {
+        geometry::Box cells = to_cells_(box);
+        cells.min().array() -= rounding_;
+        cells.max().array() += rounding_;
+        return cells;
+    }
+
+private:
+    SimplifiedBoundary simplified_;
+    ToCells to_cells_;
+    double rounding_;  // in cells
 };
 
 /// Appends every edge that a ray towards +x from a point of the tile can cross: edges in the tile's

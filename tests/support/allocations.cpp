@@ -7,9 +7,11 @@
 namespace {
 
 std::atomic<std::uint64_t> allocations{0};
+thread_local std::uint64_t allocations_of_this_thread = 0;
 
 void* allocate(std::size_t size) noexcept {
     ++allocations;
+    ++allocations_of_this_thread;
     return std::malloc(size == 0 ? 1 : size);
 }
 
@@ -42,6 +44,10 @@ namespace nearfield::test_support {
 
 std::uint64_t allocation_count() noexcept {
     return allocations;
+}
+
+std::uint64_t allocation_count_of_this_thread() noexcept {
+    return allocations_of_this_thread;
 }
 
 }  // namespace nearfield::test_support

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <tests/support/nasty_polygons.hpp>
+#include <tests/support/polygons.hpp>
 #include <tests/support/scanline.hpp>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <string>
 
 namespace nearfield {
 namespace {
@@ -246,6 +248,59 @@ TEST(DistanceMesh, UsesNoMoreTrianglesThanTheErrorAsksFor) {
             EXPECT_LE(static_cast<double>(mesh.size()) / 3.0, 1.05 * inscribed + 1.0);
         }
     }
+}
+
+bool same_vertex(const geometry::MeshVertex& i, const geometry::MeshVertex& j) {
+    return i.x == j.x && i.y == j.y && i.distance == j.distance && i.id == j.id;
+}
+
+// Seen from a small box, a cone is the same but for triangles that do not touch the box.
+TEST(DistanceMesh, LeavesOutOfConesWhatIsOutsideABox) {
+    const std::size_t samples = 40;
+    test::Random random(17);
+    std::size_t left_out = 0;
+    for (int i = 0; i < 200; ++i) {
+        SCOPED_TRACE("seed 17 case " + std::to_string(i));
+        const auto any = [&] {
+            return Vector(random.between(-50.0, 50.0), random.between(-50.0, 50.0));
+        };
+        const Vector before = any();
+        const Vector v = any();
+        const Vector after = i % 4 == 0 ? v : any();
+        const double reach = random.scale(1.0, 200.0);
+        Mesh all;
+        geometry::append_cone_sector(before, v, after, reach, 3, {}, all);
+        DistanceMeshOptions options;
+        const Vector low = any();
+        const Vector size(random.scale(1.0, 60.0), random.scale(1.0, 60.0));
+        options.within = {low, low + size};
+        Mesh part;
+        geometry::append_cone_sector(before, v, after, reach, 3, options, part);
+        std::size_t kept = 0;
+        for (std::size_t t = 0; t < all.size(); t += 3) {
+            if (kept < part.size() && same_vertex(all[t + 1], part[kept + 1]) &&
+                same_vertex(all[t + 2], part[kept + 2])) {
+                kept += 3;
+                continue;
+            }
+            ++left_out;
+            const auto corner = [&](std::size_t k) { return Vector(all[t + k].x, all[t + k].y); };
+            const double turn =
+                geometry::cross(corner(1) - corner(0), corner(2) - corner(0)) > 0.0 ? 1.0 : -1.0;
+            for (std::size_t k = 0; k < samples * samples; ++k) {
+                const Vector p = low + Vector(size.x() * static_cast<double>(k % samples),
+                                              size.y() * static_cast<double>(k / samples)) /
+                                           (samples - 1.0);
+                const bool inside =
+                    turn * geometry::cross(corner(1) - corner(0), p - corner(0)) >= 0.0 &&
+                    turn * geometry::cross(corner(2) - corner(1), p - corner(1)) >= 0.0 &&
+                    turn * geometry::cross(corner(0) - corner(2), p - corner(2)) >= 0.0;
+                ASSERT_FALSE(inside) << p.transpose();
+            }
+        }
+        ASSERT_EQ(kept, part.size());
+    }
+    EXPECT_GT(left_out, 1000U);
 }
 
 }  // namespace

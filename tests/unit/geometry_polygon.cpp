@@ -46,9 +46,8 @@ TEST(PolygonAssign, RefusesInfinity) {
 }
 
 TEST(PolygonAssign, RefusesCoordinatesOutOfRange) {
-    expect_refused(
-        {with(square, 2, {1.0, -2e12})},
-        "ring 0, vertex 2: y is -2000000000000, more than 1000000000000 from the origin");
+    expect_refused({with(square, 2, {1.0, -2e12})},
+                   "ring 0, vertex 2: y is -2e+12, more than 1e+12 from the origin");
     Polygon polygon;
     EXPECT_TRUE(polygon.assign(samples::Rings{with(square, 2, {1e12, -1e12})}).ok());
 }

@@ -1,13 +1,17 @@
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/nearest_edges.hpp>
+#include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +30,8 @@ struct Case {
     std::string name;
     Polygon polygon;
     Pose pose;
-    std::vector<geometry::SimplifiedEdge> edges;
-    TileBoundary boundary;
+    SimplifiedShapes shapes;
+    std::optional<TileBoundary> placed;
 
     Case(const test::NamedRings& shape, std::uint64_t seed, double deviation) {
         test::Random random(seed);
@@ -37,9 +41,11 @@ struct Case {
         pose = {{random.between(-0.7, 0.7) * size + 0.5 * width,
                  random.between(-0.7, 0.7) * size + 0.5 * height},
                 random.between(0.0, 7.0)};
-        geometry::simplify(polygon, deviation, 64.0, edges);
-        boundary.place(polygon, edges, ToCells(PlacedPolygon(polygon, pose), Vector::Zero(), 1.0));
+        placed.emplace(shapes.get(polygon, deviation, 64.0),
+                       ToCells(PlacedPolygon(polygon, pose), Vector::Zero(), 1.0));
     }
+
+    [[nodiscard]] const TileBoundary& boundary() const { return *placed; }
 };
 
 std::vector<std::unique_ptr<Case>> cases(double deviation) {
@@ -59,10 +65,125 @@ bool crosses(const Vector& p, const Vector& a, const Vector& b) {
 
 TEST(TileBoundary, RingsClose) {
     for (const auto& c : cases(0.3)) {
-        for (std::uint32_t i = 0; i < c->boundary.size(); ++i) {
-            ASSERT_EQ(c->edges[i].last, c->edges[c->boundary.next[i]].first) << c->name;
-            ASSERT_EQ(c->boundary.previous[c->boundary.next[i]], i) << c->name;
+        const SimplifiedBoundary& simplified = c->boundary().simplified();
+        for (std::uint32_t i = 0; i < simplified.size(); ++i) {
+            ASSERT_EQ(simplified.edges[simplified.previous(i)].last, simplified.edges[i].first)
+                << c->name;
+            ASSERT_EQ(simplified.ring_of[simplified.previous(i)], simplified.ring_of[i]) << c->name;
         }
+    }
+}
+
+/// From a point to an edge, by a look at nothing but the edge.
+double distance_to(const TileBoundary& boundary, const Vector& p, std::uint32_t edge) {
+    return std::sqrt(
+        geometry::nearest_on_segment(p, boundary.start(edge), boundary.end(edge)).squared_distance);
+}
+
+TEST(TileBoundary, FindsWhatAPlainScanFinds) {
+    test::Random random(3);
+    for (const auto& c : cases(0.3)) {
+        for (int i = 0; i < 20; ++i) {
+            const double far = random.scale(1.0, 1e4);
+            const Vector p(random.between(-far, far), random.between(-far, far));
+            const double reach = random.scale(1.0, 1e4);
+            double nearest = 1e300;
+            std::vector<std::uint32_t> wanted;
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                const double distance = distance_to(c->boundary(), p, e);
+                nearest = std::min(nearest, distance);
+                if (distance <= reach) {
+                    wanted.push_back(e);
+                }
+            }
+            ASSERT_EQ(c->boundary().distance(p), nearest) << c->name << " at " << p.transpose();
+            std::vector<std::uint32_t> found;
+            std::uint32_t visited = 0;
+            c->boundary().for_edges_near(p, reach, [&](std::uint32_t e) {
+                ++visited;
+                if (distance_to(c->boundary(), p, e) <= reach) {
+                    found.push_back(e);
+                }
+            });
+            ASSERT_EQ(found, wanted) << c->name << " at " << p.transpose();
+            ASSERT_LE(visited, c->boundary().size()) << c->name;
+        }
+    }
+}
+
+TEST(TileBoundary, LooksOnlyAtWhatIsNear) {
+    test::Random random(4);
+    Polygon polygon;
+    ASSERT_TRUE(polygon.assign(test::scaled_and_moved(test::regular(20000), 1e5, {})).ok());
+    SimplifiedShapes shapes;
+    const TileBoundary boundary(shapes.get(polygon, 1e-9, 64.0),
+                                ToCells(PlacedPolygon(polygon, {}), Vector::Zero(), 1.0));
+    ASSERT_EQ(boundary.size(), 20000U);
+    std::uint32_t visited = 0;
+    boundary.for_edges_near({1e5, 0.0}, 100.0, [&](std::uint32_t) { ++visited; });
+    EXPECT_GE(visited, 6U);  // an edge is 31 cells long
+    EXPECT_LE(visited, 40U);
+    std::vector<TileEdge> crossing;
+    crossing_edges(boundary, width, height, 0.3, crossing);
+    EXPECT_LE(crossing.size(), 2U) << "the right half of the circle";
+}
+
+/// Which heights between `low` and `high` upright edges cross an odd number of times, as the places
+/// where that changes: ends that come twice say nothing.
+std::vector<double> odd_ends(const std::vector<TileEdge>& edges, double low, double high) {
+    std::map<double, int> ends;
+    for (const TileEdge& edge : edges) {
+        for (const Vector& end : {edge.a, edge.b}) {
+            ++ends[std::clamp(end.y(), low, high)];
+        }
+    }
+    std::vector<double> odd;
+    for (const auto& [y, count] : ends) {
+        if (count % 2 == 1) {
+            odd.push_back(y);
+        }
+    }
+    return odd;
+}
+
+TEST(CrossingEdges, AreThoseOfAPlainScan) {
+    const double slack = 0.3;
+    const double right = width + 1.0 + slack;
+    const double low = -1.0 - slack;
+    const double high = height + 1.0 + slack;
+    for (const auto& c : cases(0.3)) {
+        const TileBoundary& boundary = c->boundary();
+        std::vector<TileEdge> crossing;
+        crossing_edges(boundary, width, height, slack, crossing);
+        std::vector<std::uint32_t> wanted;
+        std::vector<TileEdge> beyond;  // with upright edges, as they would be without joining
+        for (std::uint32_t e = 0; e < boundary.size(); ++e) {
+            const Vector a = boundary.start(e);
+            const Vector b = boundary.end(e);
+            if (std::min(a.x(), b.x()) > right) {
+                beyond.push_back({{right, a.y()}, {right, b.y()}, no_simplified});
+            } else if (std::max(a.y(), b.y()) >= low && std::min(a.y(), b.y()) <= high &&
+                       std::max(a.x(), b.x()) >= -1.0 - slack) {
+                wanted.push_back(e);
+                if (std::max(a.x(), b.x()) > right && boundary.edge(e).count == 1) {
+                    const double cut = a.y() + (right - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+                    const double end = a.x() <= right ? b.y() : a.y();
+                    beyond.push_back({{right, cut}, {right, end}, no_simplified});
+                }
+            }
+        }
+        std::vector<std::uint32_t> found;
+        std::vector<TileEdge> upright;
+        for (const TileEdge& edge : crossing) {
+            if (edge.simplified == no_simplified) {
+                upright.push_back(edge);
+            } else {
+                found.push_back(edge.simplified);
+            }
+        }
+        ASSERT_EQ(found, wanted) << c->name;
+        ASSERT_EQ(odd_ends(upright, low, high), odd_ends(beyond, low, high)) << c->name;
+        ASSERT_LE(upright.size(), beyond.size()) << c->name;
     }
 }
 
@@ -70,14 +191,14 @@ TEST(CrossingEdges, GiveTheParityOfTheWholeBoundary) {
     test::Random random(5);
     for (const auto& c : cases(0.3)) {
         std::vector<TileEdge> crossing;
-        crossing_edges(c->boundary, width, height, 0.3, crossing);
+        crossing_edges(c->boundary(), width, height, 0.3, crossing);
         for (int i = 0; i < 100; ++i) {
             const Vector p(random.between(0.0, width), random.between(0.0, height));
             bool whole = false;
             double distance = 1e300;
-            for (std::uint32_t e = 0; e < c->boundary.size(); ++e) {
-                const Vector& a = c->boundary.start(e);
-                const Vector& b = c->boundary.end(e);
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                const Vector a = c->boundary().start(e);
+                const Vector b = c->boundary().end(e);
                 whole = whole != crosses(p, a, b);
                 distance =
                     std::min(distance, geometry::nearest_on_segment(p, a, b).squared_distance);
@@ -91,6 +212,29 @@ TEST(CrossingEdges, GiveTheParityOfTheWholeBoundary) {
                 ASSERT_EQ(odd, whole) << c->name << " at " << p.transpose();
             }
         }
+    }
+}
+
+TEST(NearestEdges, ComeInOrderFromEveryPartOfTheTile) {
+    std::vector<NearestEdge> all;
+    std::vector<NearestEdge> part;
+    NearestEdgeFinder finder;
+    for (const auto& c : cases(0.3)) {
+        NeededBlocks everything(width, height);
+        everything.add_all();
+        finder.find(c->boundary(), everything, 0.5, all);
+        ASSERT_FALSE(all.empty()) << c->name;
+        for (std::size_t i = 1; i < all.size(); ++i) {
+            ASSERT_LT(all[i - 1].edge.simplified, all[i].edge.simplified) << c->name;
+        }
+        NeededBlocks corner(width, height);
+        corner.add(width - 1, height - 1);
+        finder.find(c->boundary(), corner, 0.5, part);
+        ASSERT_TRUE(std::includes(all.begin(), all.end(), part.begin(), part.end(),
+                                  [](const NearestEdge& i, const NearestEdge& j) {
+                                      return i.edge.simplified < j.edge.simplified;
+                                  }))
+            << c->name;
     }
 }
 
@@ -108,21 +252,21 @@ TEST(NearestEdges, HoldTheNearestEdgeOfEveryNeededSampleOnItsSide) {
             needed.add(static_cast<std::uint32_t>(p.x()), static_cast<std::uint32_t>(p.y()));
             samples.push_back(p);
         }
-        finder.find(c->boundary, needed, slack, found);
-        std::vector<const NearestEdge*> by_edge(c->boundary.size(), nullptr);
+        finder.find(c->boundary(), needed, slack, found);
+        std::vector<const NearestEdge*> by_edge(c->boundary().size(), nullptr);
         for (const NearestEdge& edge : found) {
             by_edge[edge.edge.simplified] = &edge;
         }
         for (const Vector& p : samples) {
             double nearest = 1e300;
             std::vector<double> distances;
-            for (std::uint32_t e = 0; e < c->boundary.size(); ++e) {
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
                 distances.push_back(std::sqrt(
-                    geometry::nearest_on_segment(p, c->boundary.start(e), c->boundary.end(e))
+                    geometry::nearest_on_segment(p, c->boundary().start(e), c->boundary().end(e))
                         .squared_distance));
                 nearest = std::min(nearest, distances.back());
             }
-            for (std::uint32_t e = 0; e < c->boundary.size(); ++e) {
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
                 // Any edge as near as the true boundary may make it.
                 if (distances[e] > nearest + 2.0 * deviation) {
                     continue;
@@ -130,8 +274,8 @@ TEST(NearestEdges, HoldTheNearestEdgeOfEveryNeededSampleOnItsSide) {
                 ASSERT_NE(by_edge[e], nullptr)
                     << c->name << ": edge " << e << " at " << p.transpose();
                 if (distances[e] == nearest) {
-                    const double left = geometry::cross(c->boundary.end(e) - c->boundary.start(e),
-                                                        p - c->boundary.start(e));
+                    const double left = geometry::cross(
+                        c->boundary().end(e) - c->boundary().start(e), p - c->boundary().start(e));
                     const double reach =
                         left >= 0.0 ? by_edge[e]->reach_left : by_edge[e]->reach_right;
                     ASSERT_GE(reach, nearest) << c->name << ": edge " << e;
