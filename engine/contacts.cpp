@@ -63,12 +63,12 @@ void ContactDecoder::append_points(std::vector<Vector2>& points) const {
     }
 }
 
-void ContactDecoder::set_normals(std::span<const FieldPoint> field) {
+void ContactDecoder::set_normals(std::span<const Vector2> gradients) {
     constexpr double hardly = 1e-3;
     std::size_t i = 0;
     for (auto* contacts : {&of_a_, &of_b_}) {
         for (PlacedContact& contact : *contacts) {
-            const Vector gradient = geometry::to_vector(field[i++].gradient);
+            const Vector gradient = geometry::to_vector(gradients[i++]);
             const double length = gradient.norm();
             if (length > hardly) {
                 contact.record.normal = geometry::to_public(gradient / length);

@@ -22,9 +22,9 @@ public:
 
     /// Appends where the contacts found are: A's, then B's.
     void append_points(std::vector<Vector2>& points) const;
-    /// Takes the field at the points of append_points(). Where there is hardly a gradient, between
-    /// walls, a contact keeps its normal and is not unique.
-    void set_normals(std::span<const FieldPoint> field);
+    /// Takes the field's gradients at the points of append_points(). Where there is hardly one,
+    /// between walls, a contact keeps its normal and is not unique.
+    void set_normals(std::span<const Vector2> gradients);
 
     /// Writes the contacts and their manifold.
     void write(const plan::PlannedQuery& query, ContactResult& result);

@@ -1,10 +1,18 @@
 #include <engine/gradient_normals.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 namespace nearfield {
 namespace {
 
+/// Contacts lie along lines: a field over all of them would be mostly empty. Each square of so many
+/// cells that holds some has a field of its own.
+constexpr double square_side = 256.0;
+
 /// What the grid covers: all points and two cells around them.
-Rectangle around(const std::vector<Vector2>& points, double cell) {
+Rectangle around(std::span<const Vector2> points, double cell) {
     geometry::Box box;
     for (const Vector2& point : points) {
         box.extend(geometry::to_vector(point));
@@ -40,37 +48,75 @@ void GradientNormals::apply(const BatchRunner& main, const plan::FindShape& find
     }
 }
 
+void GradientNormals::sort_into_squares(double cell) {
+    points_.clear();
+    contacts_.append_points(points_);
+    places_.clear();
+    for (std::uint32_t i = 0; i < points_.size(); ++i) {
+        const double side = square_side * cell;
+        places_.push_back({std::floor(points_[i].x / side), std::floor(points_[i].y / side), i});
+    }
+    std::sort(places_.begin(), places_.end(), [](const Place& i, const Place& j) {
+        return std::tie(i.column, i.row, i.contact) < std::tie(j.column, j.row, j.contact);
+    });
+    sorted_points_.clear();
+    for (const Place& place : places_) {
+        sorted_points_.push_back(points_[place.contact]);
+    }
+}
+
+void GradientNormals::add_fields(const ContactQuery& asked, double cell) {
+    queries_.clear();
+    std::size_t first = 0;
+    for (std::size_t i = 1; i <= places_.size(); ++i) {
+        if (i < places_.size() && places_[i].column == places_[first].column &&
+            places_[i].row == places_[first].row) {
+            continue;
+        }
+        DistanceFieldQuery field;
+        field.b = asked.b;
+        field.tolerance = asked.tolerance;
+        field.gradient = GradientMethod::central_differences;
+        field.values = false;
+        field.points = std::span(sorted_points_).subspan(first, i - first);
+        field.rectangle = around(field.points, cell);
+        queries_.emplace_back(field);
+        first = i;
+    }
+}
+
 void GradientNormals::set_normals(const plan::PlannedQuery& planned,
                                   const plan::FindShape& find_shape, ContactResult& result,
                                   Timings& timings) {
-    points_.clear();
-    contacts_.append_points(points_);
+    sort_into_squares(result.cell);
     if (points_.empty()) {
         return;
     }
-    const auto& asked = std::get<ContactQuery>(*planned.query);
-    DistanceFieldQuery field;
-    field.b = asked.b;
-    field.tolerance = asked.tolerance;
-    field.rectangle = around(points_, result.cell);
-    field.gradient = GradientMethod::central_differences;
-    field.values = false;
-    field.points = points_;
-    queries_.assign(1, field);
-    fields_.timings = {};
+    add_fields(std::get<ContactQuery>(*planned.query), result.cell);
+    fields_.timings.localize = fields_.timings.plan = fields_.timings.record = 0.0;
+    fields_.timings.device = fields_.timings.decode = 0.0;
+    fields_.timings.passes.clear();
     runner_.run(queries_, find_shape, fields_);
     timings.localize += fields_.timings.localize;
     timings.plan += fields_.timings.plan;
     timings.record += fields_.timings.record;
     timings.device += fields_.timings.device;
     timings.decode += fields_.timings.decode;
-    const auto& answer = std::get<DistanceFieldResult>(fields_.results.front());
-    if (answer.status.ok()) {
-        contacts_.set_normals(answer.points);
-    } else {
-        result.status = {answer.status.code(),
-                         "the field whose gradient is asked for: " + answer.status.message()};
+
+    gradients_.resize(points_.size());
+    std::size_t next = 0;
+    for (const AnyResult& any : fields_.results) {
+        const auto& field = std::get<DistanceFieldResult>(any);
+        if (!field.status.ok()) {
+            result.status = {field.status.code(),
+                             "the field whose gradient is asked for: " + field.status.message()};
+            return;
+        }
+        for (const FieldPoint& point : field.points) {
+            gradients_[places_[next++].contact] = point.gradient;
+        }
     }
+    contacts_.set_normals(gradients_);
 }
 
 }  // namespace nearfield

@@ -3,6 +3,7 @@
 #include <engine/batch_runner.hpp>
 #include <engine/contacts.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace nearfield {
@@ -22,9 +23,22 @@ private:
     void set_normals(const plan::PlannedQuery& planned, const plan::FindShape& find_shape,
                      ContactResult& result, Timings& timings);
 
+    /// Which square of the plane a contact lies in.
+    struct Place {
+        double column = 0.0;
+        double row = 0.0;
+        std::uint32_t contact = 0;
+    };
+
+    void sort_into_squares(double cell);
+    void add_fields(const ContactQuery& asked, double cell);
+
     BatchRunner runner_;
     ContactDecoder contacts_;
-    std::vector<Vector2> points_;
+    std::vector<Vector2> points_;  // by contact
+    std::vector<Place> places_;    // square by square
+    std::vector<Vector2> sorted_points_;
+    std::vector<Vector2> gradients_;  // by contact
     std::vector<AnyQuery> queries_;
     Results fields_;
 };

@@ -28,7 +28,9 @@ double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, 
         const auto count = static_cast<double>(cells);
         return count + 2.0 * parts.halo * std::ceil(count / side);
     };
-    return result * grid.cells() +
+    const double tiles = std::ceil(static_cast<double>(grid.width) / side) *
+                         std::ceil(static_cast<double>(grid.height) / side);
+    return result * grid.cells() + sizeof(Tile) * tiles +
            words * sizeof(std::uint32_t) * drawn(grid.width) * drawn(grid.height);
 }
 

@@ -160,7 +160,8 @@ struct ContactRecord {
 struct ContactCluster {
     /// Its two ends, points of A's boundary in the order of A's vertices: the contacts farthest
     /// along the stretch, at right angles to `normal`, where a contact's distance outside B counts
-    /// twice against it and its depth an eighth for it. The same point where there is but one.
+    /// twice against it and its depth an eighth for it. The same point where there is but one, and
+    /// the deepest where the stretch runs straight into B.
     Vector2 first;
     Vector2 last;
     Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B

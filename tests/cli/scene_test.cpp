@@ -76,6 +76,22 @@ TEST_F(SceneCommand, AllPairsAreThoseWhoseBoxesMeet) {
                                                "separation A B", "separation B far"}));
 }
 
+TEST_F(SceneCommand, CurvesTakePartInAllPairs) {
+    static_cast<void>(folder_.write("disc.path", "M 1 0 A 1 1 0 1 1 -1 0 A 1 1 0 1 1 1 0 Z"));
+    const auto scene_of = [&](const std::string& instances) {
+        return folder_.write("curves.json",
+                             R"({"shapes": {"disc": {"file": "disc.path"}}, "instances": {)" +
+                                 instances +
+                                 R"(}, "queries": [{"query": "penetration", "pairs": "all",
+                                                    "tolerance": 0.1}]})");
+    };
+    const Json json = answer({"scene", scene_of(R"("left": {"shape": "disc"},
+                                                   "right": {"shape": "disc", "pose": [1, 0, 0]})")});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("results").size(), 2U);
+    expect_refused({"scene", scene_of("")}, {"curves.json", "disc", "deviation"});
+}
+
 TEST_F(SceneCommand, WithoutQueriesThereAreNoResults) {
     const Json json = answer_of_scene("");
     ASSERT_TRUE(json.is_object());

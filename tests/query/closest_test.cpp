@@ -66,6 +66,22 @@ TEST_F(Closest, ParallelEdgesAreNotUnique) {
     EXPECT_TRUE(check(left, {{{0.5, 0}, {2, -1}, {2, 1}}}, 0.1).unique);
 }
 
+TEST_F(Closest, TinyTolerancesCostNoMoreSamples) {
+    const Rings left = rectangle({0, 0}, {1e5, 1e5});
+    const SeparationResult result = check(left, rectangle({2e5, 0}, {3e5, 1e5}), 1e-4);
+    EXPECT_EQ(result.distance, 1e5);
+    EXPECT_GT(result.cell, 1.0);
+}
+
+TEST_F(Closest, ATipBetweenTwoProngsIsNotUniqueEitherWay) {
+    const Rings tip{{{0, 0}, {-1, -3}, {1, -3}}};
+    const Rings fork{{{-2, 2}, {2, 2}, {2, 4}, {1, 3}, {-1, 3}, {-2, 4}}};
+    const Rings prongs{{{-1, 1}, {0, 3}, {1, 1}, {2, 4}, {-2, 4}}};
+    EXPECT_FALSE(check(tip, prongs, 0.05).unique);
+    EXPECT_FALSE(check(prongs, tip, 0.05).unique);
+    EXPECT_TRUE(check(tip, fork, 0.05).unique);
+}
+
 TEST_F(Closest, TiesAreNotUnique) {
     const Rings fork{{{0, 0}, {4, 0}, {4, 2}, {3, 1}, {1, 1}, {0, 2}}};
     EXPECT_FALSE(check(fork, rectangle({-1, 3}, {5, 4}), 0.05).unique);

@@ -66,6 +66,30 @@ TEST_F(Contacts, ABoxOnAFloorHasTwoEndsAndOneNormal) {
     EXPECT_NEAR(sunk.manifold.front().extreme.distance, 0.05, 1e-12);
 }
 
+TEST_F(Contacts, AStretchStraightThroughAWallIsItsDeepestPoint) {
+    const ContactResult result =
+        check(rectangle({0, 0}, {10, 10}), rectangle({9, -5}, {20, 15}), 0.05, 0.4);
+    ASSERT_EQ(result.manifold.size(), 2U);
+    for (const ContactCluster& cluster : result.manifold) {
+        // Along the wall it has no extent.
+        EXPECT_EQ(cluster.first, cluster.last);
+        EXPECT_EQ(cluster.first,
+                  cluster.extreme.on == Side::a ? cluster.extreme.point : cluster.extreme.nearest);
+    }
+}
+
+TEST_F(Contacts, NormalsByTheGradientFarApartCostNoField) {
+    const Rings a{rectangle({0, 0}, {1, 1})[0], rectangle({1e5, 1e5}, {1e5 + 1, 1e5 + 1})[0]};
+    const Rings b{rectangle({1.1, 0}, {2, 1})[0],
+                  rectangle({1e5 + 1.1, 1e5}, {1e5 + 2, 1e5 + 1})[0]};
+    const PlacedPair placed(context(), {{"A", a}, {"B", b}, {}, {}, 0.01});
+    ContactQuery query = placed.contacts(0.2);
+    query.normals = ContactNormals::gradient;
+    const ContactResult result = run_alone(context(), query);
+    ASSERT_TRUE(result.status.ok()) << result.status.text();
+    EXPECT_GT(result.count, 200U);
+}
+
 TEST_F(Contacts, ACornerInACornerHasTwoStretches) {
     const Rings corner{{{0, 0}, {10, 0}, {10, 1}, {1, 1}, {1, 10}, {0, 10}}};
     const ContactResult result = check(rectangle({1.05, 1.05}, {4, 4}), corner, 0.1, 0.15);
