@@ -51,10 +51,17 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     if (planned.on_cpu && query.points == PenetrationPoints::vertices) {
-        // VertexPenetration finds them itself.
+        // VertexPenetration finds them itself; for whom keeps records, where they can be.
         if (query.records) {
             require_memory(sizeof(PenetrationRecord) * static_cast<double>(planned.a->size()),
                            query.tolerance, 1.0);
+            boxes_.assign(1, PlacedPolygon(*planned.a, query.a.pose)
+                                 .box()
+                                 .intersection(PlacedPolygon(*planned.b, query.b.pose).box()));
+            if (boxes_.front().isEmpty()) {
+                boxes_.clear();
+            }
+            add_regions(result.cell, result);
         }
         return;
     }
@@ -107,6 +114,7 @@ void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummar
     PlannedQuery& planned = plan_->queries[index];
     const PlacedPolygon a(*planned.a, planned.pose_a);
     planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
+    add_regions(result.cell, result);
     if (planned.on_cpu) {
         for (const BoundaryPoint& sample : samples_) {
             if (within.contains(position(a, sample))) {
@@ -114,7 +122,6 @@ void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummar
             }
         }
     } else {
-        add_regions(result.cell, result);
         point_tiles_.spread(a, samples_, within, boxes_, grids_, index, *plan_);
     }
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
