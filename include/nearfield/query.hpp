@@ -30,7 +30,8 @@ enum class Technique {
     /// The paper's: fields drawn on the device, refined on the CPU.
     raster,
     /// The hierarchies of localisation driven to single edges, in double precision; the device has
-    /// no part in it. The results have no regions, since no grid is sampled. Refused
+    /// no part in it. Regions are what localisation found, and no grid
+    /// is sampled in them; closest points have none. Refused
     /// (invalid_query) for intersections, distance fields and gradient normals of contacts.
     cpu,
 };
