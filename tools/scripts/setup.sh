@@ -8,7 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 run_packages=(
     cmake ninja-build g++ pkg-config glslang-tools
     libvulkan-dev libvulkan1 mesa-vulkan-drivers
-    libeigen3-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
+    libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
 test_packages=(libgtest-dev libgeos-dev vulkan-validationlayers clang-format clang-tidy)
 
