@@ -148,9 +148,11 @@ private:
     /// One of each kind of query that a frame of a simulation asks, by every technique.
     static Batch frame(ShapeHandle a, ShapeHandle b) {
         Batch batch;
-        const Instance here{a, {}};
-        const Instance there{b, {{0.7, 0.1}, 0.3}};
-        const Instance apart{b, {{3.5, 0.1}, 0.3}};
+        // All contacts in one square of GradientNormals: how many fields it asks for is then the
+        // same in every frame, whatever the forms.
+        const Instance here{a, {{5.0, 5.0}, 0.0}};
+        const Instance there{b, {{5.7, 5.1}, 0.3}};
+        const Instance apart{b, {{8.5, 5.1}, 0.3}};
         for (const Technique technique : {Technique::raster, Technique::cpu}) {
             for (const PenetrationPoints points :
                  {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
@@ -164,9 +166,9 @@ private:
         DistanceFieldQuery field;
         field.b = there;
         field.tolerance = 0.1;
-        field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+        field.rectangle = Rectangle{{4.0, 4.0}, {6.0, 6.0}};
         field.features = true;
-        static constexpr Vector2 points[] = {{0.1, 0.2}, {-0.3, 0.4}};
+        static constexpr Vector2 points[] = {{5.1, 5.2}, {4.7, 5.4}};
         field.points = points;
         batch.add(field);
         for (const IntersectionKind kind :
