@@ -26,6 +26,9 @@ void BatchRunner::copy(std::span<const AnyQuery> queries) {
         count += points_of(query).size();
     }
     points_.resize(count);
+    if (count == 0) {
+        return;
+    }
     std::size_t next = 0;
     for (AnyQuery& query : queries_) {
         if (auto* const field = std::get_if<DistanceFieldQuery>(&query)) {

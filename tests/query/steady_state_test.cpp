@@ -156,13 +156,13 @@ private:
         for (const Technique technique : {Technique::raster, Technique::cpu}) {
             for (const PenetrationPoints points :
                  {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
-                batch.add(PenetrationQuery{here, there, 0.04, points, true, technique});
+                batch.add(PenetrationQuery{here, there, 0.08, points, true, technique});
             }
-            batch.add(ContactQuery{here, there, 0.05, 0.05, {}, true, technique});
-            batch.add(SeparationQuery{here, apart, 0.05, technique});
-            batch.add(ClosestPointQuery{here, apart, 0.05, technique});
+            batch.add(ContactQuery{here, there, 0.08, 0.05, {}, true, technique});
+            batch.add(SeparationQuery{here, apart, 0.08, technique});
+            batch.add(ClosestPointQuery{here, apart, 0.08, technique});
         }
-        batch.add(ContactQuery{here, there, 0.05, 0.05, ContactNormals::gradient});
+        batch.add(ContactQuery{here, there, 0.08, 0.05, ContactNormals::gradient});
         DistanceFieldQuery field;
         field.b = there;
         field.tolerance = 0.1;
@@ -173,7 +173,7 @@ private:
         batch.add(field);
         for (const IntersectionKind kind :
              {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
-            batch.add(IntersectionQuery{here, there, 0.05, kind});
+            batch.add(IntersectionQuery{here, there, 0.08, kind});
         }
         return batch;
     }
