@@ -324,8 +324,36 @@ TEST_F(Frames, BorrowNothing) {
     const std::vector<double> expected = run(queries);
     const Ticket ticket = submit(queries);
     std::fill(field_points_.begin(), field_points_.end(), Vector2{1e9, 1e9});
+    // Queries of other kinds where those of the batch have been.
+    const std::size_t count = queries.queries().size();
     queries.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % 2 == 0) {
+            queries.add(DistanceFieldQuery{});
+        } else {
+            queries.add(IntersectionQuery{});
+        }
+    }
     EXPECT_EQ(collect(ticket), expected);
+}
+
+TEST_F(Frames, KeepImagesThatOthersOutgrow) {
+    make(3);
+    std::vector<Batch> batches(3);
+    const double tolerances[] = {0.2, 0.004, 0.0015};  // each needs a larger atlas
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        IntersectionQuery query{{a_, {}}, {b_, {}}, tolerances[i]};
+        query.records = false;
+        batches[i].add(query);
+    }
+    std::vector<Ticket> tickets;
+    for (const Batch& batch : batches) {
+        tickets.push_back(submit(batch));
+    }
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+        const std::vector<double> numbers = collect(tickets[i]);
+        EXPECT_EQ(numbers, run(batches[i]));
+    }
 }
 
 TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
