@@ -1,41 +1,138 @@
 #include <engine/batch_runner.hpp>
-#include <engine/stopwatch.hpp>
+#include <engine/failure.hpp>
+
+#include <algorithm>
 
 namespace nearfield {
+namespace {
 
-BatchRunner::BatchRunner(const plan::PlanLimits& limits, const char* gradient_format,
-                         Renderer& renderer)
-    : renderer_(&renderer),
-      planner_(limits),
-      builder_(limits.subpixel),
+std::span<const Vector2> points_of(const AnyQuery& query) {
+    const auto* const field = std::get_if<DistanceFieldQuery>(&query);
+    return field == nullptr ? std::span<const Vector2>() : field->points;
+}
+
+}  // namespace
+
+BatchRunner::BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer)
+    : planning_(&planning),
+      renderer_(&renderer),
+      slot_(renderer.make_slot()),
       decoder_(gradient_format) {}
 
-void BatchRunner::run(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-                      Results& results) {
-    Timings& timings = results.timings;
-    const Stopwatch plan_start;
-    planner_.plan(queries, find_shape, plan_, results.results);
-    timings.localize += planner_.localize_milliseconds();
-    timings.plan += plan_start.milliseconds() - planner_.localize_milliseconds();
+void BatchRunner::copy(std::span<const AnyQuery> queries) {
+    queries_.assign(queries.begin(), queries.end());
+    std::size_t count = 0;
+    for (const AnyQuery& query : queries_) {
+        count += points_of(query).size();
+    }
+    points_.resize(count);
+    if (count == 0) {
+        return;
+    }
+    std::size_t next = 0;
+    for (AnyQuery& query : queries_) {
+        if (auto* const field = std::get_if<DistanceFieldQuery>(&query)) {
+            const std::span copied = std::span(points_).subspan(next, field->points.size());
+            std::copy(field->points.begin(), field->points.end(), copied.begin());
+            field->points = copied;
+            next += copied.size();
+        }
+    }
+}
 
-    builder_.begin_batch();
-    decoder_.begin_batch(plan_);
+void BatchRunner::begin_timings() {
+    Timings& timings = results_.timings;
+    timings.localize = timings.plan = timings.record = timings.device = 0.0;
+    timings.decode = timings.total = 0.0;
+    // Names stay, so that a frame like the one before allocates nothing; those of passes that have
+    // not run are dropped in the end.
+    for (PassTime& pass : timings.passes) {
+        pass.milliseconds = -1.0;
+    }
+}
+
+void BatchRunner::make_rounds() {
+    Timings& timings = results_.timings;
+    const Stopwatch start;
+    plan::RoundBuilder& builder = planning_->builder;
+    builder.begin_batch();
+    rounds_.resize(std::max<std::size_t>(rounds_.size(), plan_.rounds));
     for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
-        const Stopwatch build_start;
-        builder_.build(plan_, number, round_);
-        timings.plan += build_start.milliseconds();
-        renderer_->render(round_, plan_.extent, timings);
+        builder.build(plan_, number, rounds_[number]);
+    }
+    timings.plan += start.milliseconds();
+}
 
-        const Stopwatch decode_start;
-        decoder_.add_points(round_, renderer_->points());
-        decoder_.add_field(plan_, round_, renderer_->field_words(), results.results);
-        ResultDecoder::add_summaries(plan_, round_, renderer_->summaries(), results.results);
-        decoder_.add_samples(plan_, round_, renderer_->samples());
-        timings.decode += decode_start.milliseconds();
+void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape) {
+    if (slot_->in_flight()) {
+        slot_->wait();  // for a batch that failed half-way
+    }
+    Timings& timings = results_.timings;
+    const Stopwatch start;
+    begin_timings();
+    copy(queries);
+    plan::Planner& planner = planning_->planner;
+    planner.plan(queries_, find_shape, plan_, results_.results);
+    timings.localize += planner.localize_milliseconds();
+    timings.plan += start.milliseconds() - planner.localize_milliseconds();
+    decoder_.begin_batch(plan_);
+    if (plan_.rounds > 0) {
+        make_rounds();
+        renderer_->submit(std::span(rounds_).first(plan_.rounds), plan_.extent, *slot_, timings);
+        submitted_ = {};
+        device_milliseconds_.reset();
     }
     const Stopwatch decode_start;
-    decoder_.finish(plan_, results.results);
+    decoder_.answer_on_cpu(plan_, results_.results);
     timings.decode += decode_start.milliseconds();
+}
+
+bool BatchRunner::is_done() {
+    if (!slot_->is_done()) {
+        return false;
+    }
+    if (slot_->in_flight() && !device_milliseconds_) {
+        device_milliseconds_ = submitted_.milliseconds();
+    }
+    return true;
+}
+
+void BatchRunner::wait() {
+    Timings& timings = results_.timings;
+    renderer_->wait(*slot_, timings);
+    timings.device += device_milliseconds_.value_or(submitted_.milliseconds());
+}
+
+void BatchRunner::collect() {
+    Timings& timings = results_.timings;
+    while (slot_->in_flight()) {
+        wait();
+        const Stopwatch start;
+        for (const std::uint32_t number : slot_->running()) {
+            if (slot_->round(number).had_room()) {
+                decode(number);
+            }
+        }
+        timings.decode += start.milliseconds();
+        if (renderer_->submit_those_without_room(*slot_, timings)) {
+            submitted_ = {};
+            device_milliseconds_.reset();
+        }
+    }
+    slot_->release();
+    const Stopwatch start;
+    decoder_.finish(plan_, results_.results);
+    timings.decode += start.milliseconds();
+    std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
+}
+
+void BatchRunner::decode(std::uint32_t number) {
+    const plan::Round& round = rounds_[number];
+    std::vector<AnyResult>& results = results_.results;
+    decoder_.add_points(round, slot_->points(number));
+    decoder_.add_field(plan_, round, slot_->field_words(number), results);
+    ResultDecoder::add_summaries(plan_, round, slot_->summaries(number), results);
+    decoder_.add_samples(plan_, round, slot_->samples(number));
 }
 
 }  // namespace nearfield

@@ -4,37 +4,72 @@
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
 #include <engine/results.hpp>
+#include <engine/stopwatch.hpp>
 #include <nearfield/result.hpp>
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace nearfield {
 
-/// One batch from queries to results: plans it, renders its rounds, decodes what comes back. Keeps
-/// its memory from batch to batch.
+/// What makes rounds of queries. Its scratch memory serves one batch after the other: nothing of it
+/// is needed once a batch is submitted.
+struct Planning {
+    plan::Planner planner;
+    plan::RoundBuilder builder;
+
+    explicit Planning(const plan::PlanLimits& limits) : planner(limits), builder(limits.subpixel) {}
+};
+
+/// One batch from queries to results, in two steps: what is done up to its submission, and what is
+/// left for when the device has done its part. In between everything the batch needs is here (but
+/// for the polygons, which whoever finds them has to keep as they are). Keeps its memory from batch
+/// to batch.
 class BatchRunner {
 public:
-    /// The renderer must outlive the runner.
-    BatchRunner(const plan::PlanLimits& limits, const char* gradient_format, Renderer& renderer);
+    /// Planning and renderer are shared with other runners and must outlive this one.
+    BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer);
 
-    /// Writes the results and adds to the times, but for their total. Normals of contacts that are
-    /// to be gradients are left to GradientNormals.
-    void run(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
-             Results& results);
+    /// Copies the queries, plans them and submits their rounds; where nothing is to be rendered,
+    /// nothing is submitted. Then answers what the CPU answers, while the device is at work. Does
+    /// not wait, but for a batch that a Failure left on the device.
+    void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape);
 
-    /// Of the last batch, until the next.
+    /// collect() would not wait for what was submitted.
+    [[nodiscard]] bool is_done();
+    /// Waits for the device and makes the results. Normals of contacts that are to be gradients are
+    /// left to GradientNormals.
+    void collect();
+
+    /// Of the last batch, until the next: complete after collect(), but for their total time. May
+    /// be swapped for other results, whose memory is then reused.
+    [[nodiscard]] Results& results() { return results_; }
     [[nodiscard]] const plan::Plan& plan() const { return plan_; }
     [[nodiscard]] std::span<const std::uint32_t> point_words() const {
         return decoder_.point_words();
     }
 
 private:
+    void copy(std::span<const AnyQuery> queries);
+    void begin_timings();
+    void make_rounds();
+    void wait();
+    void decode(std::uint32_t number);
+
+    Planning* planning_;
     Renderer* renderer_;
-    plan::Planner planner_;
-    plan::RoundBuilder builder_;
+    std::unique_ptr<RenderSlot> slot_;
+    std::vector<AnyQuery> queries_;
+    std::vector<Vector2> points_;  // of the queries
     plan::Plan plan_;
-    plan::Round round_;
+    std::vector<plan::Round> rounds_;  // the first Plan::rounds of them
     ResultDecoder decoder_;
+    Results results_;
+    Stopwatch submitted_;
+    std::optional<double> device_milliseconds_;  // from submission until it was seen to be done
 };
 
 }  // namespace nearfield

@@ -1,14 +1,12 @@
-#include <engine/batch_runner.hpp>
 #include <engine/failure.hpp>
-#include <engine/geometry/polygon.hpp>
+#include <engine/frame_ring.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
-#include <engine/gradient_normals.hpp>
 #include <engine/graph/format.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/renderer.hpp>
-#include <engine/stopwatch.hpp>
+#include <engine/shape_store.hpp>
 #include <nearfield/context.hpp>
 
 #include <algorithm>
@@ -54,6 +52,20 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     return limits;
 }
 
+void check_settings(const Settings& settings) {
+    if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
+        throw Failure({StatusCode::invalid_settings, "frames_in_flight is " +
+                                                         std::to_string(settings.frames_in_flight) +
+                                                         "; it must be at least 1 and at most " +
+                                                         std::to_string(most_frames_in_flight)});
+    }
+}
+
+Status lost_device() {
+    return {StatusCode::device_lost,
+            "the device was lost in an earlier batch; destroy this context and make another"};
+}
+
 const char* gradient_format(const gpu::Device& device) {
     return graph::find_format(device.gradient_format())->name;
 }
@@ -67,90 +79,38 @@ public:
         : own_device_(std::move(own)),
           device_(host),
           renderer_(device_),
-          runner_(plan_limits(device_, settings), gradient_format(device_), renderer_),
-          normals_(plan_limits(device_, settings), gradient_format(device_), renderer_) {}
+          ring_(settings.frames_in_flight, plan_limits(device_, settings), gradient_format(device_),
+                renderer_, shapes_) {}
 
-    Expected<ShapeHandle> add_shape(std::span<const Ring> rings, double deviation);
-    Status update_shape(ShapeHandle handle, std::span<const Ring> rings, double deviation);
-    Status remove_shape(ShapeHandle handle);
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
-    Status run(const Batch& batch, Results& results);
+    Expected<Ticket> submit(const Batch& batch, Results* memory);
+    bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
+    Status collect(Ticket ticket, Results& results);
 
+    [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
 private:
-    struct Slot {
-        // Kept on removal, so that the next shape in this slot reuses its memory.
-        std::unique_ptr<geometry::Polygon> polygon = std::make_unique<geometry::Polygon>();
-        std::uint32_t generation = 0;
-        bool alive = false;
-    };
-
-    [[nodiscard]] geometry::Polygon* find(ShapeHandle handle);
-    void run_batch(const Batch& batch, Results& results);
+    /// Runs what has to do with the device; remembers where it is lost.
+    template <class Action>
+    Status on_device(Action&& action) {
+        Status status = guarded(action);
+        lost_ = lost_ || status.code() == StatusCode::device_lost;
+        return status;
+    }
 
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
-    std::vector<Slot> slots_;
-    std::vector<std::uint32_t> free_slots_;
+    ShapeStore shapes_;
     localize::BroadPhase broad_phase_;
     std::vector<geometry::Box> boxes_;
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     Renderer renderer_;
-    BatchRunner runner_;
-    GradientNormals normals_;
+    FrameRing ring_;
     bool lost_ = false;
 };
-
-geometry::Polygon* Context::Implementation::find(ShapeHandle handle) {
-    if (handle.index >= slots_.size()) {
-        return nullptr;
-    }
-    Slot& slot = slots_[handle.index];
-    return slot.alive && slot.generation == handle.generation ? slot.polygon.get() : nullptr;
-}
-
-Expected<ShapeHandle> Context::Implementation::add_shape(std::span<const Ring> rings,
-                                                         double deviation) {
-    if (free_slots_.empty()) {
-        free_slots_.push_back(static_cast<std::uint32_t>(slots_.size()));
-        slots_.emplace_back();
-    }
-    const std::uint32_t index = free_slots_.back();
-    Slot& slot = slots_[index];
-    if (Status status = slot.polygon->assign(rings, deviation); !status.ok()) {
-        return status;
-    }
-    free_slots_.pop_back();
-    slot.alive = true;
-    return ShapeHandle{index, slot.generation};
-}
-
-Status Context::Implementation::update_shape(ShapeHandle handle, std::span<const Ring> rings,
-                                             double deviation) {
-    geometry::Polygon* polygon = find(handle);
-    if (polygon == nullptr) {
-        return {StatusCode::unknown_shape, "update_shape: no shape of this context has index " +
-                                               std::to_string(handle.index) +
-                                               " and that generation"};
-    }
-    return polygon->assign(rings, deviation);
-}
-
-Status Context::Implementation::remove_shape(ShapeHandle handle) {
-    if (find(handle) == nullptr) {
-        return {StatusCode::unknown_shape, "remove_shape: no shape of this context has index " +
-                                               std::to_string(handle.index) +
-                                               " and that generation"};
-    }
-    free_slots_.push_back(handle.index);
-    Slot& slot = slots_[handle.index];
-    slot.alive = false;
-    ++slot.generation;
-    return {};
-}
 
 Status Context::Implementation::find_pairs(std::span<const Instance> instances, double reach,
                                            std::vector<InstancePair>& pairs) {
@@ -160,7 +120,7 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
     }
     boxes_.clear();
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        const geometry::Polygon* const polygon = find(instances[i].shape);
+        const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
                             ? Status(StatusCode::unknown_shape, "its shape is none of this context")
                             : plan::check_pose(instances[i].pose, "the instance");
@@ -178,31 +138,21 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
     return {};
 }
 
-Status Context::Implementation::run(const Batch& batch, Results& results) {
+Expected<Ticket> Context::Implementation::submit(const Batch& batch, Results* memory) {
     if (lost_) {
-        return {StatusCode::device_lost,
-                "the device was lost in an earlier batch; destroy this context and make another"};
+        return lost_device();
     }
-    Status status = guarded([&] { run_batch(batch, results); });
-    std::erase_if(results.timings.passes,
-                  [](const PassTime& pass) { return pass.milliseconds < 0.0; });
-    lost_ = status.code() == StatusCode::device_lost;
-    return status;
+    Ticket ticket;
+    Status status = on_device([&] { ticket = ring_.submit(batch.queries(), memory); });
+    return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
-void Context::Implementation::run_batch(const Batch& batch, Results& results) {
-    const Stopwatch start;
-    Timings& timings = results.timings;
-    timings.localize = timings.plan = timings.record = timings.device = timings.decode = 0.0;
-    // Names stay, so that a frame like the one before allocates nothing; run() drops those of
-    // passes that have not run.
-    for (PassTime& pass : timings.passes) {
-        pass.milliseconds = -1.0;
+Status Context::Implementation::collect(Ticket ticket, Results& results) {
+    if (lost_) {
+        Status status = guarded([&] { ring_.drop(ticket); });
+        return status.ok() ? lost_device() : status;
     }
-    const plan::FindShape find_shape = [this](ShapeHandle handle) { return find(handle); };
-    runner_.run(batch.queries(), find_shape, results);
-    normals_.apply(runner_, find_shape, results);
-    timings.total = start.milliseconds();
+    return on_device([&] { ring_.collect(ticket, results); });
 }
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
@@ -213,8 +163,10 @@ Context& Context::operator=(Context&&) noexcept = default;
 
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
-    Status status = guarded(
-        [&] { implementation = std::make_unique<Implementation>(nullptr, host, settings); });
+    Status status = guarded([&] {
+        check_settings(settings);
+        implementation = std::make_unique<Implementation>(nullptr, host, settings);
+    });
     if (!status.ok()) {
         return status;
     }
@@ -225,6 +177,7 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
+        check_settings(settings);
         auto own = std::make_unique<gpu::HeadlessDevice>(options);
         const HostDevice host = own->host();
         implementation = std::make_unique<Implementation>(std::move(own), host, settings);
@@ -237,20 +190,20 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
 
 Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
     Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = guarded([&] { handle = implementation_->add_shape(rings, deviation); });
+    Status status = guarded([&] { handle = implementation_->shapes().add(rings, deviation); });
     return status.ok() ? handle : Expected<ShapeHandle>(status);
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
     Status result;
     Status status =
-        guarded([&] { result = implementation_->update_shape(shape, rings, deviation); });
+        guarded([&] { result = implementation_->shapes().update(shape, rings, deviation); });
     return status.ok() ? result : status;
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
-    Status status = guarded([&] { result = implementation_->remove_shape(shape); });
+    Status status = guarded([&] { result = implementation_->shapes().remove(shape); });
     return status.ok() ? result : status;
 }
 
@@ -262,7 +215,20 @@ Status Context::find_pairs(std::span<const Instance> instances, double reach,
 }
 
 Status Context::run(const Batch& batch, Results& results) {
-    return implementation_->run(batch, results);
+    const Expected<Ticket> ticket = implementation_->submit(batch, &results);
+    return ticket.ok() ? implementation_->collect(*ticket, results) : ticket.status();
+}
+
+Expected<Ticket> Context::submit(const Batch& batch) {
+    return implementation_->submit(batch, nullptr);
+}
+
+bool Context::is_ready(Ticket ticket) {
+    return implementation_->is_ready(ticket);
+}
+
+Status Context::collect(Ticket ticket, Results& results) {
+    return implementation_->collect(ticket, results);
 }
 
 const std::string& Context::device_name() const noexcept {

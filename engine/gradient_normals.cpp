@@ -24,12 +24,12 @@ Rectangle around(std::span<const Vector2> points, double cell) {
 
 }  // namespace
 
-GradientNormals::GradientNormals(const plan::PlanLimits& limits, const char* gradient_format,
+GradientNormals::GradientNormals(Planning& planning, const char* gradient_format,
                                  Renderer& renderer)
-    : runner_(limits, gradient_format, renderer) {}
+    : runner_(planning, gradient_format, renderer) {}
 
-void GradientNormals::apply(const BatchRunner& main, const plan::FindShape& find_shape,
-                            Results& results) {
+void GradientNormals::apply(BatchRunner& main) {
+    Results& results = main.results();
     for (std::size_t i = 0; i < results.results.size(); ++i) {
         const plan::PlannedQuery& planned = main.plan().queries[i];
         const auto* const query = std::get_if<ContactQuery>(planned.query);
@@ -41,7 +41,7 @@ void GradientNormals::apply(const BatchRunner& main, const plan::FindShape& find
             continue;
         }
         contacts_.find(main.plan(), planned, main.point_words(), result.cell);
-        set_normals(planned, find_shape, result, results.timings);
+        set_normals(planned, result, results.timings);
         if (result.status.ok()) {
             contacts_.write(planned, result);
         }
@@ -85,27 +85,28 @@ void GradientNormals::add_fields(const ContactQuery& asked, double cell) {
     }
 }
 
-void GradientNormals::set_normals(const plan::PlannedQuery& planned,
-                                  const plan::FindShape& find_shape, ContactResult& result,
+void GradientNormals::set_normals(const plan::PlannedQuery& planned, ContactResult& result,
                                   Timings& timings) {
     sort_into_squares(result.cell);
     if (points_.empty()) {
         return;
     }
     add_fields(std::get<ContactQuery>(*planned.query), result.cell);
-    fields_.timings.localize = fields_.timings.plan = fields_.timings.record = 0.0;
-    fields_.timings.device = fields_.timings.decode = 0.0;
-    fields_.timings.passes.clear();
-    runner_.run(queries_, find_shape, fields_);
-    timings.localize += fields_.timings.localize;
-    timings.plan += fields_.timings.plan;
-    timings.record += fields_.timings.record;
-    timings.device += fields_.timings.device;
-    timings.decode += fields_.timings.decode;
+    // B as it was submitted, whatever it is now.
+    runner_.submit(queries_, [&planned](ShapeHandle shape) {
+        return shape == ShapeHandle{} ? nullptr : planned.b;
+    });
+    runner_.collect();
+    const Results& fields = runner_.results();
+    timings.localize += fields.timings.localize;
+    timings.plan += fields.timings.plan;
+    timings.record += fields.timings.record;
+    timings.device += fields.timings.device;
+    timings.decode += fields.timings.decode;
 
     gradients_.resize(points_.size());
     std::size_t next = 0;
-    for (const AnyResult& any : fields_.results) {
+    for (const AnyResult& any : fields.results) {
         const auto& field = std::get<DistanceFieldResult>(any);
         if (!field.status.ok()) {
             result.status = {field.status.code(),

@@ -10,18 +10,16 @@ namespace nearfield {
 
 /// Contacts whose normals are the gradient of B's signed field, as the paper has them (section
 /// 2.2.4): where the contacts are is known only after they were rendered, so the field around each
-/// is a batch of its own.
+/// is a batch of its own, submitted and waited for when the contacts are collected.
 class GradientNormals {
 public:
-    GradientNormals(const plan::PlanLimits& limits, const char* gradient_format,
-                    Renderer& renderer);
+    GradientNormals(Planning& planning, const char* gradient_format, Renderer& renderer);
 
-    /// Writes the contacts of those queries of the batch that `main` ran that ask for it.
-    void apply(const BatchRunner& main, const plan::FindShape& find_shape, Results& results);
+    /// Writes the contacts of those queries of a collected batch that ask for it.
+    void apply(BatchRunner& main);
 
 private:
-    void set_normals(const plan::PlannedQuery& planned, const plan::FindShape& find_shape,
-                     ContactResult& result, Timings& timings);
+    void set_normals(const plan::PlannedQuery& planned, ContactResult& result, Timings& timings);
 
     /// Which square of the plane a contact lies in.
     struct Place {
@@ -40,7 +38,6 @@ private:
     std::vector<Vector2> sorted_points_;
     std::vector<Vector2> gradients_;  // by contact
     std::vector<AnyQuery> queries_;
-    Results fields_;
 };
 
 }  // namespace nearfield

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/submission.hpp>
-#include <engine/gpu/timestamps.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/recipe.hpp>
+#include <engine/render_slot.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -16,56 +14,44 @@
 
 namespace nearfield {
 
-/// Takes rounds to the device and back. Buffers, images and recipes only grow; the steady state
-/// allocates nothing and creates nothing.
+/// Takes the rounds of a batch to the device in one submission. Owns what all batches in flight
+/// share: pipelines, and recipes with their images, which batches and rounds use one after the
+/// other (the graph's barriers order them, in one command buffer and from one submission to the
+/// next on the same queue). What each of them has to itself is in its RenderSlot. Recipes only
+/// grow; the steady state allocates nothing and creates nothing.
 class Renderer {
 public:
     explicit Renderer(const gpu::Device& device);
 
-    /// Renders a round and waits for it; adds to the times of recording, device and passes. Where
-    /// more samples are found than there was room for, the round runs again with room for all.
-    void render(const plan::Round& round, plan::TileSize extent, Timings& timings);
+    /// A slot for this renderer, which must outlive it.
+    [[nodiscard]] std::unique_ptr<RenderSlot> make_slot() const;
 
-    /// What the last round brought back: by point, of all fields, by tile (of overlap tiles only),
-    /// and the samples of the tiles that list theirs, in any order. Valid until the next round.
-    [[nodiscard]] std::span<const std::uint32_t> points() const;
-    [[nodiscard]] std::span<const std::uint32_t> field_words() const;
-    [[nodiscard]] std::span<const plan::TileSummary> summaries() const;
-    [[nodiscard]] std::span<const plan::SampleData> samples() const;
+    /// Records rounds and submits them; adds to the times of planning (the upload) and recording.
+    /// The rounds have to stay as they are, and the slot untouched, until finish() returned false.
+    void submit(std::span<const plan::Round> rounds, plan::TileSize extent, RenderSlot& slot,
+                Timings& timings);
+    /// Waits for what was submitted and adds the times of the passes. What the rounds brought back
+    /// is then in the slot, but for rounds that found more samples than they had room for.
+    void wait(RenderSlot& slot, Timings& timings);
+    /// Submits those rounds again, with room for all, overwriting what came back of the others.
+    /// Returns false where there are none.
+    [[nodiscard]] bool submit_those_without_room(RenderSlot& slot, Timings& timings);
 
-    /// The graph of the last round; empty before the first.
+    /// The graph of the last round submitted; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
-    /// Where the parts of a buffer start, in bytes.
-    struct InputParts {
-        std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
-    };
-    struct OutputParts {
-        std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
-    };
-
-    Recipe& recipe_for(Needs needs, plan::TileSize extent);
-    InputParts upload(const plan::Round& round);
-    void lay_out_output(const plan::Round& round);
-    void bind(const Recipe& recipe, const plan::Round& round, const InputParts& input);
-    void submit_and_wait(const Recipe& recipe, Timings& timings);
-    [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
-    void require_range(std::uint64_t bytes, const char* what) const;
+    [[nodiscard]] std::shared_ptr<Recipe> recipe_for(Needs needs, plan::TileSize extent);
+    [[nodiscard]] std::uint32_t sample_capacity(const plan::Round& round) const;
+    void record(RenderSlot& slot, VkCommandBuffer commands);
+    void record_and_submit(RenderSlot& slot, Timings& timings);
 
     const gpu::Device* device_;
-    passes::Frame frame_;
+    passes::Frame frame_;  // of the round that is being recorded
     passes::ComputeLayout layout_;
     Passes passes_;
-    gpu::Submission submission_;
-    gpu::Timestamps timestamps_;
-    gpu::MappedBuffer mesh_;
-    gpu::MappedBuffer input_;
-    gpu::MappedBuffer read_back_;
-    std::vector<std::unique_ptr<Recipe>> recipes_;
-    const Recipe* last_recipe_ = nullptr;
-    OutputParts output_;
-    std::uint32_t sample_count_ = 0;
+    std::vector<std::shared_ptr<Recipe>> recipes_;
+    std::shared_ptr<const Recipe> last_recipe_;
     std::uint32_t most_samples_ = 0;  // that any round found, so that the next one has room
 };
 

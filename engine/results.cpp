@@ -152,11 +152,23 @@ void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<Any
     }
 }
 
-void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
+void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
     exact_points_.answer(plan, words_);
+    finish_queries(plan, true, results);
+}
+
+void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     finish_intersections(plan, results);
+    finish_queries(plan, false, results);
+}
+
+void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
+                                   std::vector<AnyResult>& results) {
     for (std::size_t i = 0; i < results.size(); ++i) {
         const PlannedQuery& planned = plan.queries[i];
+        if (planned.on_cpu != on_cpu) {
+            continue;
+        }
         if (auto* penetration = std::get_if<PenetrationResult>(&results[i])) {
             if (penetration->status.ok()) {
                 finish_penetration(plan, planned, *penetration);

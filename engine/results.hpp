@@ -38,8 +38,10 @@ public:
     /// By point of the plan, what the device said.
     [[nodiscard]] std::span<const std::uint32_t> point_words() const { return words_; }
 
-    /// After the last round: writes what is not written yet, but for contacts whose normals are to
-    /// be gradients.
+    /// Writes the results that have no part on the device. Needs nothing of the rounds.
+    void answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results);
+    /// After the last round: writes the other results, but for contacts whose normals are to be
+    /// gradients.
     void finish(const plan::Plan& plan, std::vector<AnyResult>& results);
 
 private:
@@ -54,6 +56,8 @@ private:
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result);
+    /// Of the queries that the CPU answers, or of the others.
+    void finish_queries(const plan::Plan& plan, bool on_cpu, std::vector<AnyResult>& results);
     void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan

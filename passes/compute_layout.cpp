@@ -5,9 +5,6 @@
 namespace nearfield::passes {
 namespace {
 
-constexpr std::uint32_t storage_buffers = 4;
-constexpr std::uint32_t sampled_images = 2;
-
 gpu::Owned<VkSampler> make_sampler(const gpu::Device& device) {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -22,9 +19,11 @@ gpu::Owned<VkSampler> make_sampler(const gpu::Device& device) {
 }
 
 gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkSampler sampler) {
-    std::array<VkDescriptorSetLayoutBinding, storage_buffers + sampled_images> bindings{};
+    std::array<VkDescriptorSetLayoutBinding,
+               ComputeLayout::storage_buffers + ComputeLayout::sampled_images>
+        bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-        const bool is_image = i >= storage_buffers;
+        const bool is_image = i >= ComputeLayout::storage_buffers;
         bindings[i].binding = i;
         bindings[i].descriptorType = is_image ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                               : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -65,51 +64,13 @@ gpu::Owned<VkPipelineLayout> make_pipeline_layout(const gpu::Device& device,
     return owned;
 }
 
-gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device) {
-    constexpr std::uint32_t sets = ComputeLayout::set_count;
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, storage_buffers * sets},
-         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sampled_images * sets}}};
-    VkDescriptorPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    info.maxSets = sets;
-    info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
-    info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool),
-               "vkCreateDescriptorPool", "compute passes");
-    gpu::Owned<VkDescriptorPool> owned(device, pool);
-    device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "nearfield compute sets");
-    return owned;
-}
-
 }  // namespace
 
 ComputeLayout::ComputeLayout(const gpu::Device& device)
     : device_(&device),
       sampler_(make_sampler(device)),
       set_layout_(make_set_layout(device, sampler_.get())),
-      pipeline_layout_(make_pipeline_layout(device, set_layout_.get())),
-      pool_(make_pool(device)) {
-    std::array<VkDescriptorSetLayout, set_count> layouts{};
-    layouts.fill(set_layout_.get());
-    VkDescriptorSetAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    info.descriptorPool = pool_.get();
-    info.descriptorSetCount = set_count;
-    info.pSetLayouts = layouts.data();
-    gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_),
-               "vkAllocateDescriptorSets", "compute passes");
-    constexpr std::array<const char*, set_count> names{
-        "nearfield resolve points set",    "nearfield field by stencil set",
-        "nearfield field by color set",    "nearfield field by feature bit set",
-        "nearfield collect gradients set", "nearfield collect set, stencil",
-        "nearfield collect set, blend",    "nearfield collect set, logic op",
-        "nearfield collect set, depth"};
-    for (std::uint32_t i = 0; i < set_count; ++i) {
-        device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
-    }
-}
+      pipeline_layout_(make_pipeline_layout(device, set_layout_.get())) {}
 
 void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
                                  VkDeviceSize offset, VkDeviceSize bytes) const {

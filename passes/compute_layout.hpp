@@ -3,15 +3,14 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/plan/round.hpp>
-#include <nearfield/query.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
 namespace nearfield::passes {
 
-/// The one layout of all compute passes, and their descriptor sets: which buffers and images they
-/// read and write. Bindings as in the shaders. A fragment shader may read the output.
+/// The one layout of all compute passes: which buffers and images they read and write. Bindings as
+/// in the shaders. A fragment shader may read the output.
 class ComputeLayout {
 public:
     enum Binding : std::uint32_t {
@@ -23,14 +22,14 @@ public:
         sign_image,
         summaries = points,  ///< of the collect passes
     };
-    static constexpr std::uint32_t set_count = 2 + 3 + intersection_strategies;
+    static constexpr std::uint32_t storage_buffers = 4;
+    static constexpr std::uint32_t sampled_images = 2;
     static constexpr std::uint32_t push_bytes = 28;
 
     explicit ComputeLayout(const gpu::Device& device);
 
     [[nodiscard]] VkPipelineLayout pipeline_layout() const { return pipeline_layout_.get(); }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
-    [[nodiscard]] VkDescriptorSet set(std::uint32_t index) const { return sets_[index]; }
 
     /// Points a binding elsewhere. Not while the device uses the set.
     void write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer, VkDeviceSize offset,
@@ -42,8 +41,6 @@ private:
     gpu::Owned<VkSampler> sampler_;
     gpu::Owned<VkDescriptorSetLayout> set_layout_;
     gpu::Owned<VkPipelineLayout> pipeline_layout_;
-    gpu::Owned<VkDescriptorPool> pool_;
-    VkDescriptorSet sets_[set_count]{};  // owned by the pool
 };
 
 /// Dispatches a shader that runs one thread an element, in groups of 64, for the elements from

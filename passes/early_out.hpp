@@ -14,7 +14,9 @@ class EarlyOut {
 public:
     EarlyOut(const gpu::Device& device, const Frame& frame);
 
-    /// Makes the queries usable again; first in the command buffer, outside any render pass.
+    /// Makes the queries usable again; before each round, outside any render pass. All rounds share
+    /// them: the reset waits on the device for what the round before, of this submission or of the
+    /// one before it, does with them.
     void reset(VkCommandBuffer commands) const;
 
     /// Around the draws to watch; nothing where the tile is not watched.

@@ -13,10 +13,11 @@ namespace nearfield::passes {
 inline constexpr std::size_t sign_encodings = 3;
 
 /// What all passes record from. One object lives as long as the passes; its contents change from
-/// round to round.
+/// round to round while commands are recorded.
 struct Frame {
     const plan::Round* round = nullptr;
-    VkBuffer mesh = VK_NULL_HANDLE;  ///< the round's mesh, at offset 0
+    VkBuffer mesh = VK_NULL_HANDLE;
+    VkDeviceSize mesh_offset = 0;  ///< where the round's mesh starts, in bytes
     VkDescriptorSet points = VK_NULL_HANDLE;
     VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
     VkDescriptorSet gradients = VK_NULL_HANDLE;

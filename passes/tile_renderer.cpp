@@ -41,8 +41,7 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
 TileRenderer::TileRenderer(const gpu::Device& device, VkPipelineLayout layout,
                            VkCommandBuffer commands, const Frame& frame)
     : functions_(&device.functions()), layout_(layout), commands_(commands) {
-    const VkDeviceSize offset = 0;
-    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &frame.mesh, &offset);
+    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &frame.mesh, &frame.mesh_offset);
 }
 
 void TileRenderer::bind(VkPipeline pipeline) const {

@@ -72,6 +72,7 @@
     X(vkFlushMappedMemoryRanges)      \
     X(vkFreeMemory)                   \
     X(vkGetBufferMemoryRequirements)  \
+    X(vkGetFenceStatus)               \
     X(vkGetImageMemoryRequirements)   \
     X(vkGetQueryPoolResults)          \
     X(vkInvalidateMappedMemoryRanges) \

@@ -56,6 +56,10 @@ void Submission::submit() {
           "a submission");
 }
 
+bool Submission::is_done() const {
+    return device_->functions().vkGetFenceStatus(device_->handle(), fence_.get()) != VK_NOT_READY;
+}
+
 void Submission::wait() {
     const VkFence fence = fence_.get();
     check(device_->functions().vkWaitForFences(device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX),

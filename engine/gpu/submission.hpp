@@ -14,6 +14,9 @@ public:
     VkCommandBuffer begin();
     /// Ends recording and submits.
     void submit();
+    /// Whether the device has done the work, without waiting. True where that cannot be said:
+    /// wait() then says why, and does not wait either.
+    [[nodiscard]] bool is_done() const;
     /// Waits until the device has done the work.
     void wait();
 

@@ -36,6 +36,12 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "timestamps");
 }
 
+void Timestamps::reserve(std::uint32_t capacity) {
+    if (capacity > capacity_) {
+        *this = Timestamps(*device_, capacity);
+    }
+}
+
 void Timestamps::reset(VkCommandBuffer commands) {
     names_.clear();
     if (pool_) {

@@ -17,6 +17,9 @@ public:
     /// Room for `capacity` passes.
     Timestamps(const Device& device, std::uint32_t capacity);
 
+    /// Makes room for at least so many. Not while the device uses them.
+    void reserve(std::uint32_t capacity);
+
     /// Forgets what was measured; first in the command buffer, outside any render pass.
     void reset(VkCommandBuffer commands);
     void begin(VkCommandBuffer commands, const char* name);

@@ -12,6 +12,12 @@ const char* to_string(StatusCode code) noexcept {
             return "invalid_query";
         case StatusCode::unknown_shape:
             return "unknown_shape";
+        case StatusCode::invalid_settings:
+            return "invalid_settings";
+        case StatusCode::unknown_ticket:
+            return "unknown_ticket";
+        case StatusCode::ring_full:
+            return "ring_full";
         case StatusCode::too_large:
             return "too_large";
         case StatusCode::no_device:

@@ -18,12 +18,20 @@
 
 namespace nearfield {
 
-/// Limits and settings of a context.
+/// The most batches that may be in flight at the same time.
+inline constexpr std::uint32_t most_frames_in_flight = 8;
+
+/// Limits and settings of a context. One that cannot be used is refused when the context is made
+/// (StatusCode::invalid_settings).
 struct Settings {
     /// The most memory that images and results of a batch may need, device and host side together,
     /// in bytes. A batch that needs more is refused (StatusCode::too_large) before any work. Meshes
-    /// and lists of edges, which grow with the shapes and not with the grid, come on top.
+    /// and lists of edges, which grow with the shapes and not with the grid, come on top. Of
+    /// several batches in flight each may need so much for its results; they share the images.
     std::uint64_t memory_limit = std::uint64_t{1} << 30U;
+    /// How many batches may be submitted and not yet collected, 1 to `most_frames_in_flight`. Each
+    /// has buffers of its own, made when they are first needed.
+    std::uint32_t frames_in_flight = 2;
     /// Maximum height of the bounding-volume hierarchies that localise (section 2.1 of the paper):
     /// more is more work on the CPU and less on the device.
     std::uint32_t hierarchy_height = 12;
@@ -51,6 +59,13 @@ struct DeviceReport {
 /// only where there is no Vulkan loader or instance. Thread-safe.
 [[nodiscard]] Expected<std::vector<DeviceReport>> list_devices();
 
+/// Names a batch in flight of one context. The default value names none.
+struct Ticket {
+    std::uint64_t number = 0;
+
+    friend bool operator==(const Ticket&, const Ticket&) = default;
+};
+
 /// How the render graph prints itself.
 enum class GraphFormat { text, graphviz };
 
@@ -58,7 +73,7 @@ enum class GraphFormat { text, graphviz };
 ///
 /// A context is used by one thread at a time; several contexts are independent of each other, on
 /// one device too, as long as their queues are not used at the same time. Destroying a context
-/// frees all it made; no work is in flight then, since run() returns only when the work is done.
+/// waits for its batches in flight, for nothing else on the device, and frees all it made.
 class Context {
 public:
     /// Adopts a host's device. Fails with every reason where the device does not suffice.
@@ -86,10 +101,12 @@ public:
                                                   double deviation = 0.0);
 
     /// Replaces all rings of a shape; the handle stays. Nothing is rebuilt, so deforming a shape
-    /// every frame costs a copy. On error the shape keeps its former rings.
+    /// every frame costs a copy. Batches in flight are answered for the rings they were submitted
+    /// with. On error the shape keeps its former rings.
     Status update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation = 0.0);
 
-    /// Forgets a shape. Its handle stays unknown for good.
+    /// Forgets a shape. Its handle stays unknown for good. Batches in flight are answered as if it
+    /// were still there.
     Status remove_shape(ShapeHandle shape);
 
     /// Finds the pairs of instances worth a query: those whose bounding boxes are at most `reach`
@@ -98,18 +115,46 @@ public:
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
 
-    /// Answers a batch; returns when all results are there. An error of the batch as a whole
-    /// is the returned status: too_large (more memory than the limit, or than one buffer of the
-    /// device holds), out_of_memory, device_lost, device_error; the results are then undefined.
-    /// What is wrong with one query alone (invalid_query, unknown_shape, unsupported_strategy)
-    /// stands in that query's result, and the other queries are answered.
+    /// Answers a batch; returns when all results are there: submit(), then collect(), so it fails
+    /// with ring_full where all frames are in flight. An error of the batch as a whole is the
+    /// returned status: too_large (more memory than the limit, or than one buffer of the device
+    /// holds), out_of_memory, device_lost, device_error; the results are then undefined. What is
+    /// wrong with one query alone (invalid_query, unknown_shape, unsupported_strategy) stands in
+    /// that query's result, and the other queries are answered.
     Status run(const Batch& batch, Results& results);
+
+    /// Sends a batch to the device and does not wait for it: localises, plans, records all of it
+    /// into one command buffer and submits that to the queue; then answers what the CPU answers.
+    /// Nothing is submitted where no query needs the device. Nothing of the batch is borrowed: it
+    /// may be cleared, and shapes may be updated and removed, as soon as this returns.
+    ///
+    /// Fails with ring_full where Settings::frames_in_flight batches are not collected yet, and as
+    /// run() does; there is no ticket then and nothing to collect.
+    [[nodiscard]] Expected<Ticket> submit(const Batch& batch);
+
+    /// True where collect() would not wait for what was submitted; never waits. True too of a
+    /// ticket that collect() refuses, and of all once the device is lost.
+    [[nodiscard]] bool is_ready(Ticket ticket);
+
+    /// Waits for one batch, not for those before or after it, and writes its results: the same, bit
+    /// for bit, as run() would have written at the time of submit(). Tickets may be collected in
+    /// any order, each once (unknown_ticket otherwise). Reusing the same objects for `results`
+    /// keeps memory: they take turns with those of the frames in flight.
+    ///
+    /// Two kinds of batches go to the device again here, and wait: samples of intersections that
+    /// were more than there was room for (more than an eighth of the cells and more than ever
+    /// before in this context; the next batch has room), and contacts with gradient normals
+    /// (ContactNormals::gradient), whose field can be drawn only where they are.
+    ///
+    /// Fails as run() does; the ticket is used up all the same. Once the device is lost, every
+    /// ticket in flight gives device_lost.
+    Status collect(Ticket ticket, Results& results);
 
     /// The device's name as its driver gives it.
     [[nodiscard]] const std::string& device_name() const noexcept;
 
-    /// The render graph of the last batch: passes, resources, lifetimes, barriers. Empty before
-    /// the first batch.
+    /// The render graph of the last batch submitted: passes, resources, lifetimes, barriers. Empty
+    /// before the first batch.
     [[nodiscard]] std::string describe_graph(GraphFormat format) const;
 
 private:

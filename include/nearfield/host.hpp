@@ -12,8 +12,8 @@ namespace nearfield {
 /// A host's Vulkan objects. nearfield borrows them: they must outlive the context, and are never
 /// destroyed by it.
 ///
-/// Context::run submits to the queue and waits for its own work there, so nothing else may use the
-/// queue meanwhile.
+/// Context::run, submit and collect may submit to the queue, so nothing else may use it during
+/// these calls. What they wait for is the fence of their own work.
 ///
 /// Nothing needs to be enabled on the device: the base is Vulkan 1.1 without features and without
 /// extensions. The queue family must have VK_QUEUE_GRAPHICS_BIT and VK_QUEUE_COMPUTE_BIT.

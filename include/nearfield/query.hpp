@@ -142,8 +142,8 @@ struct DistanceFieldQuery {
     bool gradients = false;  ///< the gradient at every cell
     /// Places where distance, sign and gradient are reconstructed from the four cells around, world
     /// coordinates. Only those cells are read back for them. Each has to lie in the grid, edge
-    /// included (reconstruction takes cells from a border around the grid). Borrowed until run()
-    /// returns.
+    /// included (reconstruction takes cells from a border around the grid). Borrowed until run() or
+    /// submit() returns.
     std::span<const Vector2> points = {};
     Technique technique = Technique::automatic;
 };

@@ -222,14 +222,17 @@ struct PassTime {
     double milliseconds = 0.0;
 };
 
-/// Where the time of a batch went, in milliseconds.
+/// Where the time of a batch went, in milliseconds. The device works beside the CPU, so the parts
+/// may add up to more than the total.
 struct Timings {
     double localize = 0.0;  ///< hierarchies on the CPU
     double plan = 0.0;      ///< simplification, meshes, atlas, upload
     double record = 0.0;    ///< commands
-    double device = 0.0;    ///< from submission to fence
-    double decode = 0.0;    ///< reading results and making them exact
-    double total = 0.0;
+    /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
+    /// in collect(): with other frames in between it holds what the caller did meanwhile.
+    double device = 0.0;
+    double decode = 0.0;  ///< reading results and making them exact; what the CPU answers alone
+    double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
     std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
 };
 

@@ -14,11 +14,14 @@ namespace nearfield {
 /// What kind of thing went wrong.
 enum class StatusCode {
     ok,
-    invalid_shape,  ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
-    invalid_query,  ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
-    unknown_shape,  ///< a handle that was never given out, or whose shape was removed
-    too_large,      ///< the answer would need more memory than the stated limit
-    no_device,      ///< no Vulkan driver, or no device in it, that could be used
+    invalid_shape,     ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
+    invalid_query,     ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
+    unknown_shape,     ///< a handle that was never given out, or whose shape was removed
+    invalid_settings,  ///< a setting of a context cannot be used (frames in flight, ...)
+    unknown_ticket,    ///< a ticket that was never given out, or was collected already
+    ring_full,         ///< as many batches are in flight as may be; one has to be collected first
+    too_large,         ///< the answer would need more memory than the stated limit
+    no_device,         ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
     unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
     out_of_memory,         ///< host or device memory ran out

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// The example of README.md, word for word between the lines.
+/// The examples of README.md, word for word between the lines.
 TEST(Readme, TheExampleWorks) {
     const std::vector<nearfield::Ring> rings_of_a{{{0, 0}, {100, 0}, {100, 100}, {0, 100}}};
     const std::vector<nearfield::Ring> rings_of_b{{{-60, -60}, {60, -60}, {60, 60}, {-60, 60}}};
@@ -38,6 +38,19 @@ TEST(Readme, TheExampleWorks) {
     EXPECT_TRUE(results[query].intersects);
     EXPECT_EQ(deepest, results[query].deepest.depth);
     EXPECT_GT(deepest, 10.0);
+    const nearfield::PenetrationResult waited_for = results[query];
+
+    // ----
+    auto ticket = context->submit(batch);  // no wait; batch and shapes are free to change
+    // ... the rest of the frame; then, when is_ready(*ticket) says so, or at once:
+    if (nearfield::Status status = context->collect(*ticket, results); !status.ok()) {
+        std::puts(status.text().c_str());
+    }
+    // ----
+
+    EXPECT_TRUE(context->is_ready(*ticket));
+    EXPECT_EQ(results[query].count, waited_for.count);
+    EXPECT_EQ(results[query].deepest.depth, waited_for.deepest.depth);
 }
 
 }  // namespace

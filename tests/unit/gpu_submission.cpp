@@ -34,8 +34,11 @@ TEST_F(GpuSubmission, IsUsedOverAndOver) {
         device.begin_label(commands, "nothing");
         device.end_label(commands);
         submission.submit();
+        while (!submission.is_done()) {
+        }
         submission.wait();
         submission.wait();
+        EXPECT_TRUE(submission.is_done());
     }
 }
 
@@ -108,6 +111,17 @@ TEST_F(GpuTimestamps, MorePassesThanThereIsRoomForAreRefused) {
     const gpu::Device device(host_.device());
     gpu::Timestamps timestamps(device, 1);
     EXPECT_THROW(time_passes(device, timestamps, {"one", "two"}), Failure);
+}
+
+TEST_F(GpuTimestamps, RoomCanBeMadeForMorePasses) {
+    const gpu::Device device(host_.device());
+    gpu::Timestamps timestamps(device, 1);
+    timestamps.reserve(2);
+    timestamps.reserve(1);
+    time_passes(device, timestamps, {"one", "two"});
+    std::vector<PassTime> times;
+    timestamps.collect(times);
+    EXPECT_EQ(times.size(), 2U);
 }
 
 TEST_F(GpuTimestamps, NothingIsMeasuredWhereTheQueueHasNone) {

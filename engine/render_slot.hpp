@@ -1,0 +1,107 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/submission.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/plan/round.hpp>
+#include <engine/recipe.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/frame.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace nearfield {
+
+/// Where the parts of a round start in the buffers of its slot, in bytes.
+struct InputParts {
+    std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
+};
+struct OutputParts {
+    std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
+};
+
+/// One round of a slot as the device has it.
+struct RoundOnDevice {
+    std::shared_ptr<Recipe> recipe;  ///< kept for as long as the device may use its images
+    passes::Frame frame;             ///< what its passes record from
+    InputParts input;
+    OutputParts output;
+    std::uint32_t sample_count = 0;  ///< found; only frame.sample_capacity of them came back
+
+    [[nodiscard]] bool had_room() const { return sample_count <= frame.sample_capacity; }
+};
+
+/// The device's side of one batch in flight: what the host must not touch before the fence of its
+/// submission. All rounds of the batch are in it, each with descriptor sets of its own and parts of
+/// the common buffers. Pipelines, recipes and their images belong to the Renderer and are shared by
+/// all slots. Keeps its memory; the steady state makes nothing.
+class RenderSlot {
+public:
+    RenderSlot(const gpu::Device& device, const passes::ComputeLayout& layout);
+    /// Waits for the device where it is still at work.
+    ~RenderSlot();
+    RenderSlot(const RenderSlot&) = delete;
+    RenderSlot& operator=(const RenderSlot&) = delete;
+
+    /// Takes rounds to the device's memory. They have to stay as they are until the slot takes
+    /// others, and the slot must not be in flight.
+    void upload(std::span<const plan::Round> rounds);
+    /// The rounds that the next submission is made of, by position.
+    void run(std::uint32_t count);
+    void run_those_without_room();
+    [[nodiscard]] std::span<const std::uint32_t> running() const { return running_; }
+    /// Finds a place for what these rounds bring back, and points their descriptor sets to it.
+    void lay_out_output();
+
+    [[nodiscard]] RoundOnDevice& round(std::uint32_t number) { return rounds_[number]; }
+    [[nodiscard]] const RoundOnDevice& round(std::uint32_t number) const { return rounds_[number]; }
+    [[nodiscard]] VkBuffer mesh() const { return mesh_.handle(); }
+    [[nodiscard]] VkBuffer input() const { return input_.handle(); }
+    [[nodiscard]] VkBuffer read_back() const { return read_back_.handle(); }
+
+    /// The command buffer, empty.
+    [[nodiscard]] VkCommandBuffer begin();
+    [[nodiscard]] gpu::Timestamps& timestamps() { return timestamps_; }
+    void submit();
+    /// Submitted, and not waited for yet.
+    [[nodiscard]] bool in_flight() const { return in_flight_; }
+    /// wait() would not wait.
+    [[nodiscard]] bool is_done() const { return !in_flight_ || submission_.is_done(); }
+    void wait();
+    /// Lets go of the recipes; not while in flight.
+    void release();
+
+    /// What a round brought back: by point, of all fields, by tile (of overlap tiles only), and the
+    /// samples of the tiles that list theirs, in any order. After wait(), until the next upload.
+    [[nodiscard]] std::span<const std::uint32_t> points(std::uint32_t number) const;
+    [[nodiscard]] std::span<const std::uint32_t> field_words(std::uint32_t number) const;
+    [[nodiscard]] std::span<const plan::TileSummary> summaries(std::uint32_t number) const;
+    [[nodiscard]] std::span<const plan::SampleData> samples(std::uint32_t number) const;
+
+private:
+    void make_room_for(std::size_t rounds);
+    void copy_input(const RoundOnDevice& round) const;
+    void empty_output(const RoundOnDevice& round) const;
+    void bind(const RoundOnDevice& round) const;
+    [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
+    void require_range(std::uint64_t bytes, const char* what) const;
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    gpu::Submission submission_;
+    gpu::Timestamps timestamps_;
+    gpu::MappedBuffer mesh_;
+    gpu::MappedBuffer input_;
+    gpu::MappedBuffer read_back_;
+    std::vector<passes::ComputeSets> sets_;  // by round
+    std::vector<RoundOnDevice> rounds_;
+    std::vector<std::uint32_t> running_;
+    bool in_flight_ = false;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,59 @@
+#include <passes/compute_sets.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t sets) {
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, ComputeLayout::storage_buffers * sets},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ComputeLayout::sampled_images * sets}}};
+    VkDescriptorPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.maxSets = sets;
+    info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool),
+               "vkCreateDescriptorPool", "compute passes");
+    gpu::Owned<VkDescriptorPool> owned(device, pool);
+    device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "nearfield compute sets");
+    return owned;
+}
+
+}  // namespace
+
+ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
+    : pool_(make_pool(device, count)) {
+    std::array<VkDescriptorSetLayout, count> layouts{};
+    layouts.fill(layout.set_layout());
+    VkDescriptorSetAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool_.get();
+    info.descriptorSetCount = count;
+    info.pSetLayouts = layouts.data();
+    gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_.data()),
+               "vkAllocateDescriptorSets", "compute passes");
+    constexpr std::array<const char*, count> names{
+        "nearfield resolve points set",    "nearfield field by stencil set",
+        "nearfield field by color set",    "nearfield field by feature bit set",
+        "nearfield collect gradients set", "nearfield collect set, stencil",
+        "nearfield collect set, blend",    "nearfield collect set, logic op",
+        "nearfield collect set, depth"};
+    for (std::size_t i = 0; i < count; ++i) {
+        device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
+    }
+}
+
+void ComputeSets::hand_to(Frame& frame) const {
+    std::size_t next = 0;
+    frame.points = sets_[next++];
+    for (VkDescriptorSet& field : frame.field) {
+        field = sets_[next++];
+    }
+    frame.gradients = sets_[next++];
+    for (VkDescriptorSet& samples : frame.samples) {
+        samples = sets_[next++];
+    }
+}
+
+}  // namespace nearfield::passes
