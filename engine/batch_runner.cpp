@@ -71,6 +71,7 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
     const Stopwatch start;
     begin_timings();
     copy(queries);
+    planning_->chooser.choose(queries_, find_shape);
     plan::Planner& planner = planning_->planner;
     planner.plan(queries_, find_shape, plan_, results_.results);
     timings.localize += planner.localize_milliseconds();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/choose/chooser.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
@@ -18,10 +19,12 @@ namespace nearfield {
 /// What makes rounds of queries. Its scratch memory serves one batch after the other: nothing of it
 /// is needed once a batch is submitted.
 struct Planning {
+    choose::Chooser chooser;
     plan::Planner planner;
     plan::RoundBuilder builder;
 
-    explicit Planning(const plan::PlanLimits& limits) : planner(limits), builder(limits.subpixel) {}
+    Planning(const plan::PlanLimits& limits, const CostModel& costs)
+        : chooser(costs), planner(limits), builder(limits.subpixel) {}
 };
 
 /// One batch from queries to results, in two steps: what is done up to its submission, and what is
@@ -33,7 +36,7 @@ public:
     /// Planning and renderer are shared with other runners and must outlive this one.
     BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer);
 
-    /// Copies the queries, plans them and submits their rounds; where nothing is to be rendered,
+    /// Copies the queries, picks their techniques, plans them and submits their rounds; where nothing is to be rendered,
     /// nothing is submitted. Then answers what the CPU answers, while the device is at work. Does
     /// not wait, but for a batch that a Failure left on the device.
     void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape);

@@ -1,3 +1,5 @@
+#include <engine/calibration.hpp>
+#include <engine/choose/default_costs.hpp>
 #include <engine/failure.hpp>
 #include <engine/frame_ring.hpp>
 #include <engine/gpu/device.hpp>
@@ -52,6 +54,11 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     return limits;
 }
 
+CostModel costs_of(const gpu::Device& device, const Settings& settings) {
+    return settings.costs.value_or(choose::default_costs(
+        device.is_software() ? choose::DeviceClass::software : choose::DeviceClass::hardware));
+}
+
 void check_settings(const Settings& settings) {
     if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
         throw Failure({StatusCode::invalid_settings, "frames_in_flight is " +
@@ -78,9 +85,10 @@ public:
                    const Settings& settings)
         : own_device_(std::move(own)),
           device_(host),
+          costs_(costs_of(device_, settings)),
           renderer_(device_),
-          ring_(settings.frames_in_flight, plan_limits(device_, settings), gradient_format(device_),
-                renderer_, shapes_) {}
+          ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_,
+                gradient_format(device_), renderer_, shapes_) {}
 
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
@@ -90,6 +98,7 @@ public:
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
+    [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
 private:
@@ -103,6 +112,7 @@ private:
 
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
+    CostModel costs_;
     ShapeStore shapes_;
     localize::BroadPhase broad_phase_;
     std::vector<geometry::Box> boxes_;
@@ -229,6 +239,16 @@ bool Context::is_ready(Ticket ticket) {
 
 Status Context::collect(Ticket ticket, Results& results) {
     return implementation_->collect(ticket, results);
+}
+
+Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {
+    CostModel costs;
+    Status status = guarded([&] { costs = nearfield::measure_costs(*this, progress); });
+    return status.ok() ? Expected<CostModel>(costs) : status;
+}
+
+const CostModel& Context::costs() const noexcept {
+    return implementation_->costs();
 }
 
 const std::string& Context::device_name() const noexcept {

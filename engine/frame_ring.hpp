@@ -16,8 +16,8 @@ namespace nearfield {
 /// the shapes it was submitted with until it is collected.
 class FrameRing {
 public:
-    FrameRing(std::uint32_t frames, const plan::PlanLimits& limits, const char* gradient_format,
-              Renderer& renderer, ShapeStore& shapes);
+    FrameRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
+              const char* gradient_format, Renderer& renderer, ShapeStore& shapes);
 
     /// Throws Failure (ring_full) where there is no room. After any Failure nothing of the batch is
     /// left. `memory`, if given, is swapped for results that the batch will not need.

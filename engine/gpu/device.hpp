@@ -23,6 +23,10 @@ public:
     [[nodiscard]] VkQueue queue() const { return host_.queue; }
     [[nodiscard]] std::uint32_t queue_family() const { return host_.queue_family; }
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// The processor itself does the work, as with lavapipe.
+    [[nodiscard]] bool is_software() const {
+        return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     /// A combined depth-stencil format that can be an attachment; only its stencil is used.
     [[nodiscard]] VkFormat stencil_format() const { return stencil_format_; }

@@ -92,22 +92,18 @@ Status check_technique(const Query& query) {
     switch (query.technique) {
         case Technique::automatic:
         case Technique::raster:
-            return {};
+        case Technique::compute:
         case Technique::cpu:
             break;
         default:
             return invalid("the technique is no enumerator: " +
                            std::to_string(static_cast<int>(query.technique)));
     }
-    if (cpu_answers(query)) {
-        return {};
-    }
-    const char* const what = std::is_same_v<Query, IntersectionQuery> ? "intersections"
-                             : std::is_same_v<Query, DistanceFieldQuery>
-                                 ? "distance fields"
-                                 : "contacts with normals by gradient";
-    return invalid(std::string("the technique cpu does not answer ") + what +
-                   "; ask for raster or automatic");
+    const char* const what = unanswered(query.technique, query);
+    return what == nullptr ? Status()
+                           : invalid(std::string("the technique ") + to_string(query.technique) +
+                                     " does not answer " + what +
+                                     "; ask for another, or for automatic");
 }
 
 template <class Query>

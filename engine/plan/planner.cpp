@@ -3,7 +3,6 @@
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/plan/technique.hpp>
 #include <engine/stopwatch.hpp>
 
 #include <algorithm>
@@ -108,7 +107,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                 using Query = std::decay_t<decltype(query)>;
                 auto& result = reuse<typename ResultOf<Query>::type>(results[query_]);
                 result.tolerance = query.tolerance;
-                result.technique = technique_of(query);
+                result.technique = query.technique;
                 planned.on_cpu = result.technique == Technique::cpu;
                 result.status = check_query(queries[query_]);
                 planned.a = find_shape(query.a.shape);

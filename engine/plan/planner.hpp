@@ -42,7 +42,8 @@ public:
     explicit Planner(const PlanLimits& limits);
 
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
-    /// regions. What is wrong with one query stands in its result and leaves it without tiles.
+    /// regions. What is wrong with one query stands in its result and leaves it without tiles. No
+    /// query has Technique::automatic any more: that was replaced by what was chosen.
     /// Throws Failure (too_large) where the batch needs more memory than the limit.
     void plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
               std::vector<AnyResult>& results);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/cost.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
@@ -8,7 +9,9 @@
 #include <nearfield/status.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +40,9 @@ struct Settings {
     std::uint32_t hierarchy_height = 12;
     /// What these hierarchies are made of; docs/performance.md has the effect of both.
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
+    /// What Technique::automatic goes by, as Context::measure_costs found it on this machine. Left
+    /// out: what holds for the device's class, see docs/performance.md.
+    std::optional<CostModel> costs = std::nullopt;
 };
 
 /// What an intersection strategy would need of a device and the device lacks.
@@ -149,6 +155,16 @@ public:
     /// Fails as run() does; the ticket is used up all the same. Once the device is lost, every
     /// ticket in flight gives device_lost.
     Status collect(Ticket ticket, Results& results);
+
+    /// Runs every technique on small made-up workloads and measures what each takes, for
+    /// Settings::costs of later contexts on the same machine; nothing changes in this one. Takes
+    /// seconds, during which nothing else should be busy there. `progress`, if given, is told the
+    /// part that is done, up to 1. Needs room for a frame in flight (ring_full otherwise).
+    [[nodiscard]] Expected<CostModel> measure_costs(
+        const std::function<void(double)>& progress = {});
+
+    /// What Technique::automatic goes by here.
+    [[nodiscard]] const CostModel& costs() const noexcept;
 
     /// The device's name as its driver gives it.
     [[nodiscard]] const std::string& device_name() const noexcept;

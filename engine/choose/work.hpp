@@ -1,0 +1,28 @@
+#pragma once
+
+#include <engine/geometry/polygon.hpp>
+#include <nearfield/cost.hpp>
+#include <nearfield/query.hpp>
+
+namespace nearfield::choose {
+
+/// What a query comes to, as far as that can be told without answering it.
+struct Work {
+    WorkCost TechniqueCost::*kind = &TechniqueCost::points;
+    double edges = 0.0;
+    double samples = 0.0;
+
+    /// Microseconds by a technique, without its submission.
+    [[nodiscard]] double time(const TechniqueCost& costs) const {
+        const WorkCost& cost = costs.*kind;
+        return cost.query + cost.edge * edges + cost.sample * samples;
+    }
+};
+
+/// `a` is null where the query has none. The query's numbers need not be good: of a query that will
+/// be refused anything may be returned. Looks at a few hundred vertices at the most, whatever the
+/// size of the shapes.
+[[nodiscard]] Work work_of(const AnyQuery& query, const geometry::Polygon* a,
+                           const geometry::Polygon& b);
+
+}  // namespace nearfield::choose

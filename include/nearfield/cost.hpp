@@ -1,0 +1,34 @@
+#pragma once
+
+/// \file
+/// What Technique::automatic goes by: how long each technique takes for what is asked, as measured.
+
+namespace nearfield {
+
+/// Times of one kind of query by one technique, microseconds. A query takes `query` + `edge` * its
+/// edges + `sample` * its samples.
+struct WorkCost {
+    double query = 0.0;   ///< each query
+    double edge = 0.0;    ///< each edge of the shapes that take part
+    double sample = 0.0;  ///< each boundary point that is resolved, or each cell of a grid
+};
+
+/// Times of one technique, microseconds.
+struct TechniqueCost {
+    double submission = 0.0;  ///< once a batch that uses the technique at all
+    WorkCost points;          ///< penetration and contacts; a sample is a point of a boundary
+    WorkCost closest;         ///< closest point and separation; samples do not count
+    WorkCost intersection;    ///< a sample is a cell
+    WorkCost field;           ///< distance fields with values alone; a sample is a cell
+    WorkCost features;        ///< distance fields with features or gradients; a sample is a cell
+};
+
+/// What each technique costs on one machine. Few numbers, since it only has to tell apart what
+/// differs by factors; Context::measure_costs finds them by running all techniques.
+struct CostModel {
+    TechniqueCost raster;
+    TechniqueCost compute;
+    TechniqueCost cpu;
+};
+
+}  // namespace nearfield

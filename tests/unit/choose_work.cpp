@@ -1,0 +1,116 @@
+#include <engine/choose/fit_cost.hpp>
+#include <engine/choose/work.hpp>
+#include <engine/plan/planner.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <vector>
+
+namespace nearfield::choose {
+namespace {
+
+using geometry::Polygon;
+using test::Random;
+
+/// What planning a query comes to: points and cells.
+struct Planned {
+    double points = 0.0;
+    double cells = 0.0;
+};
+
+Planned planned(AnyQuery query, const Polygon& a, const Polygon& b) {
+    std::visit([](auto& asked) { asked.technique = Technique::raster; }, query);
+    plan::PlanLimits limits;
+    limits.memory = std::uint64_t{1} << 30U;
+    plan::Planner planner(limits);
+    plan::Plan plan;
+    std::vector<AnyResult> results;
+    planner.plan(
+        std::span(&query, 1),
+        [&](ShapeHandle handle) -> const Polygon* { return handle.index == 0 ? &a : &b; }, plan,
+        results);
+    Planned planned{static_cast<double>(plan.points.size()), 0.0};
+    for (const plan::Tile& tile : plan.tiles) {
+        planned.cells += static_cast<double>(tile.width) * tile.height;
+    }
+    return planned;
+}
+
+TEST(Work, EstimatesSamplesWithinAFactor) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(seed);
+        Polygon a;
+        Polygon b;
+        ASSERT_TRUE(a.assign(test::coast(random, random.whole(30, 3000), 0.2)).ok());
+        ASSERT_TRUE(b.assign(test::coast(random, random.whole(30, 3000), 0.2)).ok());
+        const double tolerance = random.scale(0.002, 0.02);
+        PenetrationQuery penetration;
+        penetration.a.shape = {0, 0};
+        penetration.b = {{1, 0}, {{random.between(0.3, 1.2), 0.2}, random.between(0.0, 6.0)}};
+        penetration.tolerance = tolerance;
+        const Work points = work_of(penetration, &a, b);
+        EXPECT_EQ(points.edges, a.size() + b.size());
+        // Localisation leaves out what cannot be inside, which takes more than boxes to know.
+        const Planned found = planned(penetration, a, b);
+        EXPECT_LT(points.samples, 16.0 * found.points + 200.0);
+        EXPECT_GT(points.samples, found.points / 3.0);
+
+        IntersectionQuery intersection;
+        intersection.a = penetration.a;
+        intersection.b = penetration.b;
+        intersection.tolerance = tolerance;
+        const double cells = planned(intersection, a, b).cells;
+        EXPECT_LT(work_of(intersection, &a, b).samples, 4.0 * cells);
+        EXPECT_GT(work_of(intersection, &a, b).samples, cells / 2.0);
+
+        DistanceFieldQuery field;
+        field.b.shape = {1, 0};
+        field.tolerance = tolerance;
+        field.rectangle = Rectangle{{-1.0, -0.5}, {0.5, 0.5}};
+        const double field_cells = planned(field, a, b).cells;
+        EXPECT_NEAR(work_of(field, nullptr, b).samples, field_cells, 0.1 * field_cells);
+    }
+}
+
+TEST(Work, IsOfTheKindThatTheQueryIs) {
+    Random random(1);
+    Polygon shape;
+    ASSERT_TRUE(shape.assign(test::star(random, 20, 0.5)).ok());
+    DistanceFieldQuery field;
+    field.tolerance = 0.1;
+    field.rectangle = Rectangle{{-1.0, -0.5}, {0.5, 0.5}};
+    EXPECT_EQ(work_of(field, nullptr, shape).kind, &TechniqueCost::field);
+    field.features = true;
+    EXPECT_EQ(work_of(field, nullptr, shape).kind, &TechniqueCost::features);
+    EXPECT_EQ(work_of(SeparationQuery{}, &shape, shape).kind, &TechniqueCost::closest);
+    PenetrationQuery vertices;
+    vertices.points = PenetrationPoints::vertices;
+    EXPECT_EQ(work_of(vertices, &shape, shape).samples, 20.0);
+}
+
+TEST(FitCost, FindsWhatMeasurementsWereMadeOf) {
+    const WorkCost made{3.0, 0.02, 0.5};
+    const auto measured = [&](double edges, double samples) {
+        return MeasuredWork{edges, samples, made.query + made.edge * edges + made.sample * samples};
+    };
+    const WorkCost found = fit_cost(measured(32, 20), measured(8192, 300), measured(32, 5000));
+    EXPECT_NEAR(found.query, made.query, 1e-6);
+    EXPECT_NEAR(found.edge, made.edge, 1e-6);
+    EXPECT_NEAR(found.sample, made.sample, 1e-6);
+}
+
+TEST(FitCost, HasNoNegativeCosts) {
+    // More edges and samples in less time, as noise may have it.
+    const WorkCost found = fit_cost({32, 20, 5.0}, {8192, 20, 4.0}, {32, 5000, 3.0});
+    EXPECT_GE(found.query, 0.0);
+    EXPECT_GE(found.edge, 0.0);
+    EXPECT_GE(found.sample, 0.0);
+    const WorkCost without_samples = fit_cost({32, 0, 5.0}, {8192, 0, 25.0}, {32, 0, 5.0});
+    EXPECT_EQ(without_samples.sample, 0.0);
+    EXPECT_GT(without_samples.edge, 0.0);
+}
+
+}  // namespace
+}  // namespace nearfield::choose
