@@ -166,12 +166,12 @@ void RenderSlot::lay_out_output() {
     read_back_.flush();
 }
 
-void RenderSlot::empty_output(const RoundOnDevice& round) const {
+void RenderSlot::empty_output(const RoundOnDevice& on_device) const {
     const plan::TileSummary empty;
-    std::memset(read_back_.data() + round.output.samples, 0, sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < round.frame.round->tiles.size(); ++i) {
-        std::memcpy(read_back_.data() + round.output.summaries + i * sizeof(empty), &empty,
-                    sizeof(empty));
+    const OutputParts& parts = on_device.output;
+    std::memset(read_back_.data() + parts.samples, 0, sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < on_device.frame.round->tiles.size(); ++i) {
+        std::memcpy(read_back_.data() + parts.summaries + i * sizeof(empty), &empty, sizeof(empty));
     }
 }
 

@@ -85,9 +85,9 @@ public:
 
 private:
     void make_room_for(std::size_t rounds);
-    void copy_input(const RoundOnDevice& round) const;
-    void empty_output(const RoundOnDevice& round) const;
-    void bind(const RoundOnDevice& round) const;
+    void copy_input(const RoundOnDevice& on_device) const;
+    void empty_output(const RoundOnDevice& on_device) const;
+    void bind(const RoundOnDevice& on_device) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
     void require_range(std::uint64_t bytes, const char* what) const;
 
