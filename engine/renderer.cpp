@@ -29,8 +29,25 @@ void copy_to(std::byte* target, const std::vector<Element>& elements) {
     }
 }
 
+ComputeNeeds compute_needs_of(const plan::Round& round) {
+    const plan::ComputeWork& work = round.compute;
+    ComputeNeeds needs;
+    needs.points = !round.points.empty();
+    needs.field_cells = !work.blocks.empty();
+    needs.field_points = !work.points.empty();
+    needs.fill = !work.rows.empty();
+    needs.boundaries_a = !work.polygons_a.empty();
+    needs.boundaries_b = !work.polygons_b.empty();
+    needs.overlap = !work.overlaps.empty();
+    return needs;
+}
+
 Needs needs_of(const plan::Round& round) {
     Needs needs;
+    if (round.by_compute) {
+        needs.compute = compute_needs_of(round);
+        return needs;
+    }
     needs.points = !round.points.empty();
     needs.field_points = !round.field_point_runs.empty();
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
@@ -57,7 +74,8 @@ Renderer::Renderer(const gpu::Device& device)
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                 gpu::Direction::readback, "nearfield read-back") {
+                 gpu::Direction::readback, "nearfield read-back"),
+      compute_(device) {
     frame_.points = layout_.set(0);
     for (std::uint32_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
         frame_.field[encoding] = layout_.set(1 + encoding);
@@ -66,6 +84,9 @@ Renderer::Renderer(const gpu::Device& device)
     for (std::uint32_t i = 0; i < intersection_strategies; ++i) {
         frame_.samples[i] = layout_.set(2 + passes::sign_encodings + i);
     }
+    frame_.masks = layout_.set(2 + passes::sign_encodings + intersection_strategies);
+    frame_.blocks = layout_.set(3 + passes::sign_encodings + intersection_strategies);
+    frame_.subpixel_bits = device.limits().subPixelPrecisionBits;
 }
 
 std::uint64_t Renderer::align(std::uint64_t offset) const {
@@ -197,22 +218,42 @@ void Renderer::bind(const Recipe& recipe, const plan::Round& round, const InputP
     recipe.bind_images(layout_, frame_);
 }
 
+void Renderer::bind_compute() const {
+    const auto part = [&](std::uint64_t from, std::uint64_t to) {
+        return BufferPart{read_back_.handle(), from, to - from};
+    };
+    compute_.bind(layout_, frame_,
+                  {part(output_.points, output_.field), part(output_.field, output_.summaries),
+                   part(output_.summaries, output_.samples), part(output_.samples, output_.end)});
+}
+
 void Renderer::render(const plan::Round& round, plan::TileSize extent, Timings& timings) {
     const Stopwatch start;
     const Needs needs = needs_of(round);
     Recipe& recipe = recipe_for(needs, extent);
     last_recipe_ = &recipe;
-    const InputParts input = upload(round);
+    InputParts input;
+    if (round.by_compute) {
+        compute_.upload(round);
+    } else {
+        input = upload(round);
+    }
     frame_.round = &round;
     frame_.mesh = mesh_.handle();
+    frame_.scratch = compute_.scratch();
     frame_.sample_capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(
         round.listed_cells, std::max<std::uint64_t>(most_samples_, 4096 + round.listed_cells / 8)));
     timings.plan += start.milliseconds();
 
     for (;;) {
         lay_out_output(round);
-        recipe.set_buffers(mesh_.handle(), input_.handle(), read_back_.handle());
-        bind(recipe, round, input);
+        recipe.set_buffers(mesh_.handle(), round.by_compute ? compute_.input() : input_.handle(),
+                           compute_.scratch(), read_back_.handle());
+        if (round.by_compute) {
+            bind_compute();
+        } else {
+            bind(recipe, round, input);
+        }
         submit_and_wait(recipe, timings);
         std::memcpy(&sample_count_, read_back_.data() + output_.samples, sizeof(sample_count_));
         most_samples_ = std::max(most_samples_, sample_count_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/compute_buffers.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
@@ -49,6 +50,7 @@ private:
     InputParts upload(const plan::Round& round);
     void lay_out_output(const plan::Round& round);
     void bind(const Recipe& recipe, const plan::Round& round, const InputParts& input);
+    void bind_compute() const;
     void submit_and_wait(const Recipe& recipe, Timings& timings);
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
     void require_range(std::uint64_t bytes, const char* what) const;
@@ -62,6 +64,7 @@ private:
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
+    ComputeBuffers compute_;
     std::vector<std::unique_ptr<Recipe>> recipes_;
     const Recipe* last_recipe_ = nullptr;
     OutputParts output_;

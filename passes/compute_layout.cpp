@@ -100,12 +100,17 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
     info.pSetLayouts = layouts.data();
     gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_),
                "vkAllocateDescriptorSets", "compute passes");
-    constexpr std::array<const char*, set_count> names{
-        "nearfield resolve points set",    "nearfield field by stencil set",
-        "nearfield field by color set",    "nearfield field by feature bit set",
-        "nearfield collect gradients set", "nearfield collect set, stencil",
-        "nearfield collect set, blend",    "nearfield collect set, logic op",
-        "nearfield collect set, depth"};
+    constexpr std::array<const char*, set_count> names{"nearfield resolve points set",
+                                                       "nearfield field by stencil set",
+                                                       "nearfield field by color set",
+                                                       "nearfield field by feature bit set",
+                                                       "nearfield collect gradients set",
+                                                       "nearfield collect set, stencil",
+                                                       "nearfield collect set, blend",
+                                                       "nearfield collect set, logic op",
+                                                       "nearfield collect set, depth",
+                                                       "nearfield masks set",
+                                                       "nearfield blocks set"};
     for (std::uint32_t i = 0; i < set_count; ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }

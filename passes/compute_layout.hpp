@@ -21,9 +21,12 @@ public:
         output,
         image,
         sign_image,
-        summaries = points,  ///< of the collect passes
+        summaries = points,           ///< of the collect passes
+        work = tiles,                 ///< of the masks (plan::ComputeWork)
+        scratch_of_masks = geometry,  ///< the compute technique's scratch memory
+        scratch_of_blocks = points,
     };
-    static constexpr std::uint32_t set_count = 2 + 3 + intersection_strategies;
+    static constexpr std::uint32_t set_count = 2 + 3 + intersection_strategies + 2;
     static constexpr std::uint32_t push_bytes = 28;
 
     explicit ComputeLayout(const gpu::Device& device);

@@ -77,6 +77,12 @@ Status check_field(const DistanceFieldQuery& query) {
             "the distance field asks for nothing: neither for values, features or gradients at "
             "cells nor for points");
     }
+    if (query.technique == Technique::compute && query.gradient == GradientMethod::blended &&
+        (query.gradients || !query.points.empty())) {
+        return invalid(
+            "the technique compute does not answer gradients by blending, which needs drawing; ask "
+            "for analytic or central_differences, or for the technique raster");
+    }
     for (std::size_t i = 0; i < query.points.size(); ++i) {
         for (const double value : {query.points[i].x, query.points[i].y}) {
             if (!is_usable(value)) {
@@ -92,6 +98,7 @@ Status check_technique(const Query& query) {
     switch (query.technique) {
         case Technique::automatic:
         case Technique::raster:
+        case Technique::compute:
             return {};
         case Technique::cpu:
             break;

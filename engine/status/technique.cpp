@@ -8,6 +8,8 @@ const char* to_string(Technique technique) noexcept {
             return "automatic";
         case Technique::raster:
             return "raster";
+        case Technique::compute:
+            return "compute";
         case Technique::cpu:
             return "cpu";
     }

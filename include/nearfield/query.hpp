@@ -20,8 +20,9 @@ inline constexpr double most_deviation = 0.25;
 
 /// What answers a query (ResultSummary::technique says what did).
 ///
-/// Raster and CPU give the same records: the same points, depths and distances that differ by less
-/// than d/1000, the same sides but for points that touch the other boundary.
+/// All give the same records: the same points, depths and distances that differ by less than
+/// d/1000, the same sides but for points that touch the other boundary. Raster and compute find the
+/// same samples of an intersection and the same signs of a distance field, bit for bit.
 enum class Technique {
     /// Penetration, closest point and separation, and contacts with analytic normals: cpu. Fields,
     /// intersections and contacts with gradient normals: raster. docs/performance.md has the
@@ -29,6 +30,12 @@ enum class Technique {
     automatic,
     /// The paper's: fields drawn on the device, refined on the CPU.
     raster,
+    /// The same on the device without rasterisation: bit masks for fills, lists of near edges for
+    /// distances. Answers every query that raster answers, but for GradientMethod::blended, which
+    /// is a way of drawing (refused, invalid_query). IntersectionStrategy and SignEncoding are ways
+    /// of drawing too, which all give the same answers: whichever is asked for makes no difference
+    /// here, and none needs anything of the device.
+    compute,
     /// The hierarchies of localisation driven to single edges, in double precision; the device has
     /// no part in it. Regions are what localisation found, and no grid
     /// is sampled in them; closest points have none. Refused

@@ -20,9 +20,10 @@ constexpr std::array<Named<QueryType>, 6> query_types{{
     {"closest-point", QueryType::closest_point},
     {"separation", QueryType::separation},
 }};
-constexpr std::array<Named<Technique>, 3> techniques{{
+constexpr std::array<Named<Technique>, 4> techniques{{
     {"automatic", Technique::automatic},
     {"raster", Technique::raster},
+    {"compute", Technique::compute},
     {"cpu", Technique::cpu},
 }};
 constexpr std::array<Named<PenetrationPoints>, 2> points_names{{
@@ -137,9 +138,6 @@ std::string_view name_of(IntersectionStrategy strategy) noexcept {
 }
 
 Technique parse_technique(const std::string& name, const std::string& what) {
-    if (name == "compute") {
-        throw InputError(what + ": this version does not answer by the technique compute");
-    }
     return parse_name<Technique>(techniques, name, what);
 }
 
