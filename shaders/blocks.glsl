@@ -6,7 +6,7 @@ layout(std430, set = 0, binding = 2) BLOCKS_ACCESS buffer Scratch {
 };
 
 const uint block_side = 8u;
-const uint block_capacity = 31u;
+const uint block_capacity = 127u;
 const uint block_words = 1u + block_capacity;
 const uint not_asked = 0xffffffffu;
 

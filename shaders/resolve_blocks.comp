@@ -32,28 +32,35 @@ uint place_in_part(List list, uint i) {
     return list.whole ? i : scratch[list.first + i];
 }
 
+void consider_edge(vec2 from_a, vec2 d, float inverse, vec4 rows, inout vec4 squared) {
+    vec4 y = from_a.y + rows;
+    vec4 t = clamp((from_a.x * d.x + y * d.y) * inverse, 0.0, 1.0);
+    vec4 away_x = from_a.x - t * d.x;
+    vec4 away_y = y - t * d.y;
+    squared = min(squared, away_x * away_x + away_y * away_y);
+}
+
+const vec4 low_rows = vec4(0.0, 1.0, 2.0, 3.0);
+const vec4 high_rows = vec4(4.0, 5.0, 6.0, 7.0);
+
 void write_values(Tile part, List list, uvec2 corner, uint rows, uint word) {
-    float squared[block_side];
-    for (uint row = 0u; row < block_side; ++row) {
-        squared[row] = infinity;
-    }
+    vec4 low = vec4(infinity);
+    vec4 high = vec4(infinity);
     vec2 p = vec2(corner) + 0.5;
     for (uint i = 0u; i < list.count; ++i) {
         uint edge = part.nearest.edges + 4u * place_in_part(list, i);
         vec2 a = geometry[edge];
         vec2 d = geometry[edge + 1u] - a;
-        float length_squared = dot(d, d);
-        float inverse = length_squared > 0.0 ? 1.0 / length_squared : 0.0;
-        vec2 from_a = p - a;
-        for (uint row = 0u; row < block_side; ++row) {
-            vec2 away = from_a + vec2(0.0, row);
-            away -= clamp(dot(away, d) * inverse, 0.0, 1.0) * d;
-            squared[row] = min(squared[row], dot(away, away));
-        }
+        float squared = dot(d, d);
+        float inverse = squared > 0.0 ? 1.0 / squared : 0.0;
+        consider_edge(p - a, d, inverse, low_rows, low);
+        consider_edge(p - a, d, inverse, high_rows, high);
     }
+    low = sqrt(low);
+    high = sqrt(high);
     uvec2 in_tile = corner + uvec2(part.atlas_x, part.atlas_y);
     for (uint row = 0u; row < rows; ++row) {
-        float value = sqrt(squared[row]);
+        float value = row < 4u ? low[row] : high[row - 4u];
         bool inside = filled_at(part, in_tile + uvec2(0u, row));
         field.words[word + row * part.tile_width] = floatBitsToUint(inside ? -value : value);
     }

@@ -16,9 +16,6 @@ namespace {
 using geometry::PlacedPolygon;
 using geometry::Vector;
 
-// Cells along a side of the parts of a field tile.
-constexpr std::uint32_t part_side = 64;
-
 // How far outside its part, in cells, a point's reconstruction looks: a sample two cells on.
 constexpr double points_reach = 2.5 * std::numbers::sqrt2;
 
@@ -52,19 +49,6 @@ std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
 
 }  // namespace
 
-EdgeListData ComputeBuilder::add_nearest(const TileBoundary& boundary, const Tile& tile,
-                                         double slack, Round& round) {
-    finder_.find(boundary, tile.needed, slack, nearest_);
-    nearest_list_.clear();
-    double largest_reach = 0.0;
-    for (const NearestEdge& nearest : nearest_) {
-        nearest_list_.push_back(nearest.edge);
-        largest_reach = std::max(largest_reach, nearest.reach());
-    }
-    const double side = std::max(tile.width, tile.height);
-    return round.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
-}
-
 EdgeListData ComputeBuilder::add_crossing(const TileBoundary& boundary, const Tile& tile,
                                           double slack, Round& round) {
     crossing_.clear();
@@ -77,7 +61,15 @@ void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
     const TileBoundary boundary = boundary_of(query, tile, shapes);
     const double simplification = query.budget.simplification / tile.grid.cell;
     round.lists.begin_tile(boundary);
-    data.nearest = add_nearest(boundary, tile, simplification + margin_in_cells, round);
+    finder_.find(boundary, tile.needed, simplification + margin_in_cells, nearest_);
+    nearest_list_.clear();
+    double largest_reach = 0.0;
+    for (const NearestEdge& nearest : nearest_) {
+        nearest_list_.push_back(nearest.edge);
+        largest_reach = std::max(largest_reach, nearest.reach());
+    }
+    data.nearest = round.lists.write(nearest_list_,
+                                     std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
     data.crossing = add_crossing(boundary, tile, simplification, round);
     data.margin = static_cast<float>(margin_in_cells);
     data.outside = query.outside ? 1 : 0;
@@ -100,62 +92,76 @@ void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork&
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
                                     const TileDraw& draw, SimplifiedShapes& shapes, Round& round) {
     ComputeWork& work = round.compute;
+    const double simplification = query.budget.simplification / tile.grid.cell;
+    const TileBoundary boundary = boundary_of(query, tile, shapes);
     crossing_.clear();
-    crossing_edges(boundary_of(query, tile, shapes), tile.width, tile.height,
-                   query.budget.simplification / tile.grid.cell, crossing_);
+    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
     const std::uint32_t mask = add_mask(tile, work);
     add_fill(tile, mask, work);
-    for (std::uint32_t row = 0; row < tile.height; row += part_side) {
-        for (std::uint32_t column = 0; column < tile.width; column += part_side) {
-            Tile part = tile;
-            part.column += column;
-            part.row += row;
-            part.width = std::min(part_side, tile.width - column);
-            part.height = std::min(part_side, tile.height - row);
-            part.needed = NeededBlocks(part.width, part.height);
-            part.needed.add_all();
-            TileData data;
+
+    const bool with_points = query.field_point_count > 0;
+    const bool with_features = with_points || query.field.features;
+    part_edges_.find(boundary, tile.width, tile.height,
+                     (with_features ? simplification + margin_in_cells : 0.0) +
+                         (with_points ? points_reach : 0.0));
+    TileData data;
+    data.tile_width = tile.width;
+    data.mask = work.masks[mask].first_word;
+    data.first_value = draw.first_value;
+    data.first_feature = draw.first_feature;
+    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification +
+                                      2.0 * grid_.largest_move() + 0.01);
+    data.margin = static_cast<float>(margin_in_cells);
+    std::uint32_t index = 0;
+    for (std::uint32_t row = 0; row < tile.height; row += PartEdges::side) {
+        for (std::uint32_t column = 0; column < tile.width; column += PartEdges::side) {
             data.atlas_x = column;
             data.atlas_y = row;
-            data.tile_width = tile.width;
-            data.mask = work.masks[mask].first_word;
-            data.first_value = draw.first_value;
-            data.first_feature = draw.first_feature;
-            add_part(query, part, data, shapes, round);
+            data.width = std::min(PartEdges::side, tile.width - column);
+            data.height = std::min(PartEdges::side, tile.height - row);
+            add_part(query, tile, index++, data, shapes, round);
         }
     }
 }
 
-void ComputeBuilder::add_part(const PlannedQuery& query, const Tile& part, TileData data,
-                              SimplifiedShapes& shapes, Round& round) {
-    ComputeWork& work = round.compute;
-    const TileBoundary boundary = boundary_of(query, part, shapes);
-    const double simplification = query.budget.simplification / part.grid.cell;
-    const bool with_points = query.field_point_count > 0;
-    const bool with_features = with_points || query.field.features;
-    data.width = part.width;
-    data.height = part.height;
-    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification +
-                                      2.0 * grid_.largest_move() + 0.01);
-    data.margin = static_cast<float>(margin_in_cells);
-    round.lists.begin_tile(boundary);
-    data.nearest = add_nearest(boundary, part,
-                               (with_features ? simplification + margin_in_cells : 0.0) +
-                                   (with_points ? points_reach : 0.0),
-                               round);
-    if (with_features) {
-        data.crossing = add_crossing(boundary, part, simplification, round);
+void ComputeBuilder::add_part(const PlannedQuery& query, const Tile& tile, std::uint32_t index,
+                              TileData data, SimplifiedShapes& shapes, Round& round) {
+    const Vector corner(data.atlas_x, data.atlas_y);
+    nearest_list_.clear();
+    part_edges_.append(index, nearest_list_);
+    for (TileEdge& edge : nearest_list_) {
+        edge.a -= corner;
+        edge.b -= corner;
     }
-    const auto index = static_cast<std::uint32_t>(work.parts.size());
-    work.parts.push_back(data);
+    const double extent = part_edges_.window() + tile.width + tile.height;
+    if (query.field_point_count > 0 || query.field.features) {
+        Tile part = tile;
+        part.column += data.atlas_x;
+        part.row += data.atlas_y;
+        part.width = data.width;
+        part.height = data.height;
+        const TileBoundary boundary = boundary_of(query, part, shapes);
+        round.lists.begin_tile(boundary);
+        data.nearest = round.lists.write(nearest_list_, extent);
+        data.crossing =
+            add_crossing(boundary, part, query.budget.simplification / tile.grid.cell, round);
+    } else {
+        data.nearest = round.lists.write_straight(nearest_list_, extent);
+    }
     if (query.field.values || query.field.features) {
-        for (std::uint32_t row = 0; row < part.height; row += block_side) {
-            for (std::uint32_t column = 0; column < part.width; column += block_side) {
-                work.blocks.push_back(words(index, column | row << 16U));
-            }
-        }
-        work.block_words = std::uint64_t{work.blocks.size()} * (1 + block_capacity);
+        add_blocks(data, round.compute);
     }
+    round.compute.parts.push_back(data);
+}
+
+void ComputeBuilder::add_blocks(const TileData& part, ComputeWork& work) {
+    const auto index = static_cast<std::uint32_t>(work.parts.size());
+    for (std::uint32_t row = 0; row < part.height; row += block_side) {
+        for (std::uint32_t column = 0; column < part.width; column += block_side) {
+            work.blocks.push_back(words(index, column | row << 16U));
+        }
+    }
+    work.block_words = std::uint64_t{work.blocks.size()} * (1 + block_capacity);
 }
 
 void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_part,
@@ -163,13 +169,13 @@ void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_part,
     const Vector local = (point.position - tile.origin()) / tile.grid.cell;
     const auto place = [](double coordinate, std::uint32_t cells) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(coordinate), 0.0, cells - 1.0)) /
-               part_side;
+               PartEdges::side;
     };
     const std::uint32_t column = place(local.x(), tile.width);
     const std::uint32_t row = place(local.y(), tile.height);
-    const std::uint32_t parts_along = (tile.width + part_side - 1) / part_side;
-    work.points.push_back({static_cast<float>(local.x() - column * part_side),
-                           static_cast<float>(local.y() - row * part_side)});
+    const std::uint32_t parts_along = PartEdges::along(tile.width);
+    work.points.push_back({static_cast<float>(local.x() - column * PartEdges::side),
+                           static_cast<float>(local.y() - row * PartEdges::side)});
     work.points.push_back(
         words(first_part + row * parts_along + column, point.column | point.row << 16U));
 }

@@ -3,6 +3,7 @@
 #include <engine/geometry/mesh.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/nearest_edges.hpp>
+#include <engine/plan/part_edges.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
@@ -37,20 +38,21 @@ public:
                                 const PlannedFieldPoint& point, ComputeWork& work);
 
 private:
-    /// Of a tile or a part of one; `slack` as NearestEdgeFinder has it.
-    [[nodiscard]] EdgeListData add_nearest(const TileBoundary& boundary, const Tile& tile,
-                                           double slack, Round& round);
     [[nodiscard]] EdgeListData add_crossing(const TileBoundary& boundary, const Tile& tile,
                                             double slack, Round& round);
-    void add_part(const PlannedQuery& query, const Tile& part, TileData data,
+    /// Part `index` of a tile, which lies at (data.atlas_x, data.atlas_y) in it.
+    void add_part(const PlannedQuery& query, const Tile& tile, std::uint32_t index, TileData data,
                   SimplifiedShapes& shapes, Round& round);
+    /// Cells of a part, each with a list of its own.
+    static void add_blocks(const TileData& part, ComputeWork& work);
     /// Fills a mask with the shape whose edges are in crossing_.
     void add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const;
     void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
                       std::uint32_t overlap, bool of_a, Round& round) const;
 
     geometry::SubpixelGrid grid_;
-    NearestEdgeFinder finder_;
+    NearestEdgeFinder finder_;  // of points, which lie thinly in their tile
+    PartEdges part_edges_;      // of fields
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     std::vector<TileEdge> crossing_;

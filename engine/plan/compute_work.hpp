@@ -19,7 +19,7 @@ namespace nearfield::plan {
 /// Cells along a side of a block, and edges that a block lists at the most; where more can be
 /// nearest, its cells look through the list of their part of the tile.
 inline constexpr std::uint32_t block_side = 8;
-inline constexpr std::uint32_t block_capacity = 31;
+inline constexpr std::uint32_t block_capacity = 127;
 
 /// Where a mask lies.
 struct MaskData {
@@ -86,7 +86,7 @@ struct ComputeWork {
     std::vector<OverlapData> overlaps;
     std::vector<OverlapRowData> overlap_rows;
 
-    /// Field tiles in parts of at most 64 x 64 cells, each with a list of the edges that can be
+    /// Field tiles in parts (PartEdges), each with a list of the edges that can be
     /// nearest in it.
     std::vector<TileData> parts;
     /// Blocks of these parts, and points at which a field is reconstructed: both stand in the
