@@ -75,13 +75,13 @@ test_support::Lies between(const HostDevice& host) {
 class SteadyState : public QueryTest {
 protected:
     /// One of each kind of query that a frame of a simulation asks.
-    static Batch frame(ShapeHandle a, ShapeHandle b) {
+    static Batch frame(ShapeHandle a, ShapeHandle b, Technique technique) {
         Batch batch;
         const Instance here{a, {}};
         const Instance there{b, {{0.7, 0.1}, 0.3}};
         const Instance apart{b, {{3.0, 0.1}, 0.3}};
         PenetrationQuery penetration;
-        penetration.technique = Technique::raster;
+        penetration.technique = technique;
         penetration.a = here;
         penetration.b = there;
         penetration.tolerance = 0.01;
@@ -89,13 +89,14 @@ protected:
         penetration.points = PenetrationPoints::vertices;
         batch.add(penetration);
         ContactQuery contacts;
-        contacts.technique = Technique::raster;
+        contacts.technique = technique;
         contacts.a = here;
         contacts.b = there;
         contacts.tolerance = 0.02;
         contacts.contact_distance = 0.05;
         batch.add(contacts);
         DistanceFieldQuery field;
+        field.technique = technique;
         field.b = there;
         field.tolerance = 0.05;
         field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
@@ -104,6 +105,7 @@ protected:
         field.points = points;
         batch.add(field);
         IntersectionQuery intersection;
+        intersection.technique = technique;
         intersection.a = here;
         intersection.b = there;
         intersection.tolerance = 0.02;
@@ -113,22 +115,24 @@ protected:
             batch.add(intersection);
         }
         SeparationQuery separation;
-        separation.technique = Technique::raster;
+        separation.technique = technique;
         separation.a = here;
         separation.b = apart;
         separation.tolerance = 0.02;
         batch.add(separation);
         ClosestPointQuery closest;
-        closest.technique = Technique::raster;
+        closest.technique = technique;
         closest.a = here;
         closest.b = apart;
         closest.tolerance = 0.02;
         batch.add(closest);
         return batch;
     }
+
+    static void expect_steady(Technique technique);
 };
 
-TEST_F(SteadyState, AHundredFramesAllocateAndCreateNothing) {
+void SteadyState::expect_steady(Technique technique) {
     const test_support::FakeLoader loader(host_device(), between(host_device()));
     Expected<Context> made = Context::create(loader.host());
     ASSERT_TRUE(made.ok()) << made.status().text();
@@ -141,7 +145,7 @@ TEST_F(SteadyState, AHundredFramesAllocateAndCreateNothing) {
     Expected<ShapeHandle> a = watched.add_shape(rings_a);
     Expected<ShapeHandle> b = watched.add_shape(rings_b);
     ASSERT_TRUE(a.ok() && b.ok());
-    const Batch batch = frame(*a, *b);
+    const Batch batch = frame(*a, *b, technique);
     Results results;
     const auto run = [&] {
         const Status updated = watched.update_shape(*a, rings_a);
@@ -171,6 +175,14 @@ TEST_F(SteadyState, AHundredFramesAllocateAndCreateNothing) {
     const std::uint64_t all = test_support::allocation_count_of_this_thread() - before;
     EXPECT_EQ(created, std::vector<std::string>());
     EXPECT_EQ(all - allocations_below, 0U) << "in 100 frames";
+}
+
+TEST_F(SteadyState, AHundredFramesAllocateAndCreateNothing) {
+    expect_steady(Technique::raster);
+}
+
+TEST_F(SteadyState, AHundredFramesOfTheComputeTechniqueAllocateAndCreateNothing) {
+    expect_steady(Technique::compute);
 }
 
 }  // namespace
