@@ -76,6 +76,7 @@ void GradientNormals::add_fields(const ContactQuery& asked, double cell) {
         DistanceFieldQuery field;
         field.b = asked.b;
         field.tolerance = asked.tolerance;
+        field.technique = asked.technique;
         field.gradient = GradientMethod::central_differences;
         field.values = false;
         field.points = std::span(sorted_points_).subspan(first, i - first);

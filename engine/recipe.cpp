@@ -51,29 +51,79 @@ Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
       resolve_field(device, layout, frame),
       resolve_field_points(device, layout, frame),
       collect_gradients(device, layout, frame),
-      collect(device, layout, frame) {}
+      collect(device, layout, frame),
+      masks(device, layout, frame),
+      blocks(device, layout, frame) {}
 
 Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkExtent2D extent)
     : needs_(needs), extent_(extent) {
-    mesh_ = graph_.import_buffer({"mesh", true, false});
     input_ = graph_.import_buffer({"input", true, false});
-    declare_images(passes);
+    if (needs.compute != ComputeNeeds{}) {
+        declare_compute(passes);
+    } else {
+        declare_drawn(passes);
+    }
+    executor_ = std::make_unique<graph::Executor>(device, graph_, baked_form(graph_));
+}
+
+void Recipe::declare_compute(const Passes& passes) {
+    const ComputeNeeds& needs = needs_.compute;
     if (needs.points) {
+        results_ = graph_.import_buffer({"point results", false, true});
+        passes.resolve_points.declare_by_lists(graph_, input_, results_);
+    }
+    if (!needs.fill && !needs.overlap) {
+        return;
+    }
+    scratch_ = graph_.import_buffer({"scratch", false, false});
+    Handle scratch = passes.masks.declare_clear(graph_, scratch_);
+    if (needs.fill) {
+        scratch = passes.masks.declare_fill(graph_, input_, scratch);
+    }
+    if (needs.boundaries_b) {
+        scratch = passes.masks.declare_boundaries_b(graph_, input_, scratch);
+    }
+    if (needs.boundaries_a) {
+        scratch = passes.masks.declare_boundaries_a(graph_, input_, scratch);
+    }
+    if (needs.field_cells) {
+        scratch = passes.blocks.declare_lists(graph_, input_, scratch);
+    }
+    if (needs.overlap) {
+        samples_ = graph_.import_buffer({"samples", true, true});
+        static_cast<void>(passes.masks.declare_collect(graph_, input_, scratch, samples_));
+    }
+    if (needs.field_cells || needs.field_points) {
+        field_ = graph_.import_buffer({"field results", false, true});
+        Handle field = field_;
+        if (needs.field_cells) {
+            field = passes.blocks.declare_cells(graph_, input_, scratch, field);
+        }
+        if (needs.field_points) {
+            field = passes.blocks.declare_points(graph_, input_, scratch, field);
+        }
+    }
+}
+
+void Recipe::declare_drawn(const Passes& passes) {
+    mesh_ = graph_.import_buffer({"mesh", true, false});
+    declare_images(passes);
+    if (needs_.points) {
         results_ = graph_.import_buffer({"point results", false, true});
         const auto& [features, sign] = images_.by_encoding.front();
         passes.resolve_points.declare(graph_, input_, features, sign, results_);
     }
-    if (needs.any_field()) {
+    if (needs_.any_field()) {
         field_ = graph_.import_buffer({"field results", false, true});
         declare_field(passes);
     }
-    if (needs.overlap != Needs{}.overlap) {
+    if (needs_.overlap != Needs{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
         Handle collected = samples_;
         for (std::size_t i = 0; i < intersection_strategies; ++i) {
             const auto strategy = static_cast<IntersectionStrategy>(i);
-            if (needs.overlap[i]) {
-                hits_[i] = passes.intersect.declare(graph_, mesh_, extent, strategy);
+            if (needs_.overlap[i]) {
+                hits_[i] = passes.intersect.declare(graph_, mesh_, extent_, strategy);
                 if (strategy == IntersectionStrategy::stencil ||
                     strategy == IntersectionStrategy::depth) {
                     collected = passes.early_out.declare(graph_, collected, strategy);
@@ -82,7 +132,6 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
             }
         }
     }
-    executor_ = std::make_unique<graph::Executor>(device, graph_, baked_form(graph_));
 }
 
 /// Points look at the images of the first encoding, the stencil's.
@@ -125,13 +174,17 @@ void Recipe::declare_field(const Passes& passes) {
     }
 }
 
-void Recipe::set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer read_back) {
-    executor_->set_buffer(mesh_, mesh);
-    executor_->set_buffer(input_, input);
-    for (const Handle handle : {results_, field_, samples_}) {
+void Recipe::set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer scratch, VkBuffer read_back) {
+    const auto set = [&](Handle handle, VkBuffer buffer) {
         if (handle != Handle{}) {
-            executor_->set_buffer(handle, read_back);
+            executor_->set_buffer(handle, buffer);
         }
+    };
+    set(mesh_, mesh);
+    set(input_, input);
+    set(scratch_, scratch);
+    for (const Handle handle : {results_, field_, samples_}) {
+        set(handle, read_back);
     }
 }
 

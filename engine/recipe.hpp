@@ -5,6 +5,7 @@
 #include <engine/graph/execute.hpp>
 #include <engine/graph/graph.hpp>
 #include <nearfield/context.hpp>
+#include <passes/blocks.hpp>
 #include <passes/collect.hpp>
 #include <passes/collect_gradients.hpp>
 #include <passes/color_fill.hpp>
@@ -17,6 +18,7 @@
 #include <passes/gradient.hpp>
 #include <passes/intersect.hpp>
 #include <passes/intersection_strategies.hpp>
+#include <passes/masks.hpp>
 #include <passes/resolve_field.hpp>
 #include <passes/resolve_field_points.hpp>
 #include <passes/resolve_points.hpp>
@@ -29,6 +31,19 @@
 
 namespace nearfield {
 
+/// What a round of the compute technique asks for; all false for one that is drawn.
+struct ComputeNeeds {
+    bool points = false;
+    bool field_cells = false;   ///< something at every cell of a field
+    bool field_points = false;  ///< something at points of a field
+    bool fill = false;          ///< a volume as a mask, or the sign of a field
+    bool boundaries_a = false;
+    bool boundaries_b = false;
+    bool overlap = false;
+
+    friend bool operator==(const ComputeNeeds&, const ComputeNeeds&) = default;
+};
+
 /// What a round asks for.
 struct Needs {
     bool points = false;
@@ -37,6 +52,7 @@ struct Needs {
     bool field_points = false;                            ///< something at points of a field
     bool blended = false;                                 ///< blended gradients
     std::array<bool, intersection_strategies> overlap{};  ///< by strategy
+    ComputeNeeds compute;  ///< all there is where any of it is needed
 
     [[nodiscard]] bool any_field() const { return field_cells || field_points; }
     [[nodiscard]] bool field_by(SignEncoding encoding) const {
@@ -76,6 +92,8 @@ public:
     passes::ResolveFieldPoints resolve_field_points;
     passes::CollectGradients collect_gradients;
     passes::Collect collect;
+    passes::Masks masks;
+    passes::Blocks blocks;
 };
 
 /// The render graph that answers some needs on an atlas of some size, baked.
@@ -86,9 +104,9 @@ public:
     [[nodiscard]] Needs needs() const { return needs_; }
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
 
-    /// The buffers behind the graph's handles: the mesh, the compute passes' input, and what comes
-    /// back.
-    void set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer read_back);
+    /// The buffers behind the graph's handles: the mesh, the compute passes' input, the compute
+    /// technique's scratch memory, and what comes back.
+    void set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer scratch, VkBuffer read_back);
     /// Points the images of the frame's descriptor sets to this recipe's images.
     void bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const;
 
@@ -99,6 +117,8 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
+    void declare_drawn(const Passes& passes);
+    void declare_compute(const Passes& passes);
     void declare_images(const Passes& passes);
     void declare_field(const Passes& passes);
 
@@ -107,6 +127,7 @@ private:
     graph::Graph graph_;
     graph::Handle mesh_;
     graph::Handle input_;
+    graph::Handle scratch_;
     graph::Handle results_;
     graph::Handle field_;
     graph::Handle samples_;

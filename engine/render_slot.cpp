@@ -59,6 +59,7 @@ void RenderSlot::make_room_for(std::size_t rounds) {
     while (sets_.size() < rounds) {
         sets_.emplace_back(*device_, *layout_);
     }
+    compute_.resize(std::max(compute_.size(), rounds));
     timestamps_.reserve(static_cast<std::uint32_t>(rounds) * most_passes);
 }
 
@@ -83,31 +84,47 @@ void RenderSlot::upload(std::span<const plan::Round> rounds) {
     std::uint64_t mesh_end = 0;
     std::uint64_t input_end = 0;
     for (std::size_t i = 0; i < rounds.size(); ++i) {
-        const plan::Round& round = rounds[i];
-        const auto& geometry = round.lists.geometry();
-        require_range(bytes_of(geometry), "the edges of one round");
-        require_range(std::max(bytes_of(round.points), bytes_of(round.field_points)),
-                      "the points of one round");
         passes::Frame& frame = rounds_[i].frame;
-        frame.round = &round;
-        frame.mesh_offset = mesh_end;
+        frame.round = &rounds[i];
+        frame.subpixel_bits = device_->limits().subPixelPrecisionBits;
         sets_[i].hand_to(frame);
-        InputParts& parts = rounds_[i].input;
-        parts.tiles = align(input_end);
-        parts.geometry = align(parts.tiles + bytes_of(round.tiles));
-        parts.points = align(parts.geometry + bytes_of(geometry));
-        parts.field_points = align(parts.points + bytes_of(round.points));
-        parts.end = parts.field_points + bytes_of(round.field_points);
-        input_end = parts.end + smallest_range;
-        mesh_end = align(mesh_end + bytes_of(round.mesh));
+        if (rounds[i].by_compute) {
+            if (compute_[i] == nullptr) {
+                compute_[i] = std::make_unique<ComputeBuffers>(*device_);
+            }
+            compute_[i]->upload(rounds[i]);
+            frame.scratch = compute_[i]->scratch();
+        } else {
+            lay_out_input(rounds_[i], input_end, mesh_end);
+        }
     }
     input_.reserve(input_end);
     mesh_.reserve(mesh_end);
     for (const RoundOnDevice& round : rounds_) {
-        copy_input(round);
+        if (!round.frame.round->by_compute) {
+            copy_input(round);
+        }
     }
     input_.flush();
     mesh_.flush();
+}
+
+void RenderSlot::lay_out_input(RoundOnDevice& on_device, std::uint64_t& input_end,
+                               std::uint64_t& mesh_end) const {
+    const plan::Round& round = *on_device.frame.round;
+    const auto& geometry = round.lists.geometry();
+    require_range(bytes_of(geometry), "the edges of one round");
+    require_range(std::max(bytes_of(round.points), bytes_of(round.field_points)),
+                  "the points of one round");
+    InputParts& parts = on_device.input;
+    parts.tiles = align(input_end);
+    parts.geometry = align(parts.tiles + bytes_of(round.tiles));
+    parts.points = align(parts.geometry + bytes_of(geometry));
+    parts.field_points = align(parts.points + bytes_of(round.points));
+    parts.end = parts.field_points + bytes_of(round.field_points);
+    input_end = parts.end + smallest_range;
+    on_device.frame.mesh_offset = mesh_end;
+    mesh_end = align(mesh_end + bytes_of(round.mesh));
 }
 
 void RenderSlot::copy_input(const RoundOnDevice& on_device) const {
@@ -161,7 +178,11 @@ void RenderSlot::lay_out_output() {
         on_device.frame.read_back = read_back_.handle();
         on_device.frame.summaries_offset = on_device.output.summaries;
         empty_output(on_device);
-        bind(on_device);
+        if (on_device.frame.round->by_compute) {
+            bind_compute(number);
+        } else {
+            bind(on_device);
+        }
     }
     read_back_.flush();
 }
@@ -220,6 +241,26 @@ void RenderSlot::bind(const RoundOnDevice& on_device) const {
         }
     }
     on_device.recipe->bind_images(*layout_, frame);
+}
+
+void RenderSlot::bind_compute(std::uint32_t number) const {
+    const RoundOnDevice& on_device = rounds_[number];
+    const OutputParts& parts = on_device.output;
+    const auto part = [&](std::uint64_t from, std::uint64_t to) {
+        return BufferPart{read_back_.handle(), from, to - from};
+    };
+    compute_[number]->bind(*layout_, on_device.frame,
+                           {part(parts.points, parts.field), part(parts.field, parts.summaries),
+                            part(parts.summaries, parts.samples), part(parts.samples, parts.end)});
+}
+
+void RenderSlot::hand_buffers_to(Recipe& recipe, std::uint32_t number) const {
+    if (rounds_[number].frame.round->by_compute) {
+        const ComputeBuffers& compute = *compute_[number];
+        recipe.set_buffers(VK_NULL_HANDLE, compute.input(), compute.scratch(), read_back_.handle());
+    } else {
+        recipe.set_buffers(mesh_.handle(), input_.handle(), VK_NULL_HANDLE, read_back_.handle());
+    }
 }
 
 VkCommandBuffer RenderSlot::begin() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/compute_buffers.hpp>
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
@@ -60,9 +61,8 @@ public:
 
     [[nodiscard]] RoundOnDevice& round(std::uint32_t number) { return rounds_[number]; }
     [[nodiscard]] const RoundOnDevice& round(std::uint32_t number) const { return rounds_[number]; }
-    [[nodiscard]] VkBuffer mesh() const { return mesh_.handle(); }
-    [[nodiscard]] VkBuffer input() const { return input_.handle(); }
-    [[nodiscard]] VkBuffer read_back() const { return read_back_.handle(); }
+    /// Points a recipe to the buffers of a round, for what is recorded next.
+    void hand_buffers_to(Recipe& recipe, std::uint32_t number) const;
 
     /// The command buffer, empty.
     [[nodiscard]] VkCommandBuffer begin();
@@ -85,9 +85,12 @@ public:
 
 private:
     void make_room_for(std::size_t rounds);
+    void lay_out_input(RoundOnDevice& on_device, std::uint64_t& input_end,
+                       std::uint64_t& mesh_end) const;
     void copy_input(const RoundOnDevice& on_device) const;
     void empty_output(const RoundOnDevice& on_device) const;
     void bind(const RoundOnDevice& on_device) const;
+    void bind_compute(std::uint32_t number) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
     void require_range(std::uint64_t bytes, const char* what) const;
 
@@ -99,6 +102,9 @@ private:
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
     std::vector<passes::ComputeSets> sets_;  // by round
+    /// By round; null where it never was one of the compute technique. Each has scratch memory of
+    /// its own, since no barrier stands between the rounds of a submission.
+    std::vector<std::unique_ptr<ComputeBuffers>> compute_;
     std::vector<RoundOnDevice> rounds_;
     std::vector<std::uint32_t> running_;
     bool in_flight_ = false;

@@ -9,8 +9,25 @@ namespace {
 // Recipes that keep their images: more kinds of batches than this take turns.
 constexpr std::size_t most_recipes = 8;
 
+ComputeNeeds compute_needs_of(const plan::Round& round) {
+    const plan::ComputeWork& work = round.compute;
+    ComputeNeeds needs;
+    needs.points = !round.points.empty();
+    needs.field_cells = !work.blocks.empty();
+    needs.field_points = !work.points.empty();
+    needs.fill = !work.rows.empty();
+    needs.boundaries_a = !work.polygons_a.empty();
+    needs.boundaries_b = !work.polygons_b.empty();
+    needs.overlap = !work.overlaps.empty();
+    return needs;
+}
+
 Needs needs_of(const plan::Round& round) {
     Needs needs;
+    if (round.by_compute) {
+        needs.compute = compute_needs_of(round);
+        return needs;
+    }
     needs.points = !round.points.empty();
     needs.field_points = !round.field_point_runs.empty();
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
@@ -99,7 +116,7 @@ void Renderer::record(RenderSlot& slot, VkCommandBuffer commands) {
         const RoundOnDevice& round = slot.round(number);
         frame_ = round.frame;
         passes_.early_out.reset(commands);
-        round.recipe->set_buffers(slot.mesh(), slot.input(), slot.read_back());
+        slot.hand_buffers_to(*round.recipe, number);
         round.recipe->execute(commands, slot.timestamps());
     }
 }

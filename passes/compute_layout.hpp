@@ -20,7 +20,10 @@ public:
         output,
         image,
         sign_image,
-        summaries = points,  ///< of the collect passes
+        summaries = points,           ///< of the collect passes
+        work = tiles,                 ///< of the masks (plan::ComputeWork)
+        scratch_of_masks = geometry,  ///< the compute technique's scratch memory
+        scratch_of_blocks = points,
     };
     static constexpr std::uint32_t storage_buffers = 4;
     static constexpr std::uint32_t sampled_images = 2;

@@ -33,12 +33,17 @@ ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
     info.pSetLayouts = layouts.data();
     gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_.data()),
                "vkAllocateDescriptorSets", "compute passes");
-    constexpr std::array<const char*, count> names{
-        "nearfield resolve points set",    "nearfield field by stencil set",
-        "nearfield field by color set",    "nearfield field by feature bit set",
-        "nearfield collect gradients set", "nearfield collect set, stencil",
-        "nearfield collect set, blend",    "nearfield collect set, logic op",
-        "nearfield collect set, depth"};
+    constexpr std::array<const char*, count> names{"nearfield resolve points set",
+                                                   "nearfield field by stencil set",
+                                                   "nearfield field by color set",
+                                                   "nearfield field by feature bit set",
+                                                   "nearfield collect gradients set",
+                                                   "nearfield collect set, stencil",
+                                                   "nearfield collect set, blend",
+                                                   "nearfield collect set, logic op",
+                                                   "nearfield collect set, depth",
+                                                   "nearfield masks set",
+                                                   "nearfield blocks set"};
     for (std::size_t i = 0; i < count; ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }
@@ -54,6 +59,8 @@ void ComputeSets::hand_to(Frame& frame) const {
     for (VkDescriptorSet& samples : frame.samples) {
         samples = sets_[next++];
     }
+    frame.masks = sets_[next++];
+    frame.blocks = sets_[next++];
 }
 
 }  // namespace nearfield::passes

@@ -22,6 +22,10 @@ struct Frame {
     VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
     VkDescriptorSet gradients = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
+    VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
+    VkDescriptorSet blocks = VK_NULL_HANDLE;                         ///< of the compute technique
+    VkBuffer scratch = VK_NULL_HANDLE;  ///< the compute technique's scratch memory
+    std::uint32_t subpixel_bits = 8;    ///< of the grid that vertices are snapped to
     VkBuffer read_back = VK_NULL_HANDLE;
     VkDeviceSize summaries_offset = 0;  ///< of the summaries in the read-back, in bytes
     std::uint32_t sample_capacity = 0;  ///< samples that the read-back has room for

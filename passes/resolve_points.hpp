@@ -20,14 +20,17 @@ public:
     /// affair.
     void declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
                  graph::Handle sign, graph::Handle results) const;
+    /// The same from the lists alone, without images (the compute technique).
+    void declare_by_lists(graph::Graph& graph, graph::Handle input, graph::Handle results) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const Frame* frame_;
-    gpu::Owned<VkPipeline> pipeline_;
+    gpu::Owned<VkPipeline> by_images_;
+    gpu::Owned<VkPipeline> by_lists_;
 };
 
 }  // namespace nearfield::passes

@@ -8,23 +8,7 @@
 const uint white = 255u;
 const uint run_shift = 8u;
 
-struct Summary {
-    uint count;
-    uint low_column;
-    uint low_row;
-    uint high_column;
-    uint high_row;
-    uint passed;  // 0: an occlusion query saw that there is nothing here
-};
-
-layout(std430, set = 0, binding = 2) buffer Summaries {
-    Summary summaries[];  // by tile
-};
-
-layout(std430, set = 0, binding = 3) buffer Samples {
-    uint count;
-    uint words[];  // plan::SampleData: three words a sample
-} samples;
+#include "samples.glsl"
 
 layout(push_constant) uniform Push {
     uint tile;

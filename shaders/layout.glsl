@@ -20,6 +20,10 @@ struct Tile {
     float settled;
     float margin;
     uint outside;
+    uint tile_width;
+    uint mask;
+    uint first_value;
+    uint first_feature;
 };
 
 layout(std430, set = 0, binding = 0) readonly buffer Tiles {

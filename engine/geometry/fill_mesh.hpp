@@ -3,6 +3,9 @@
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/vector.hpp>
 
+#include <array>
+#include <span>
+
 namespace nearfield::geometry {
 
 /// Row-crossing quads: the polygon fill of a tile by parity. A sample is inside where the ray from
@@ -26,8 +29,24 @@ public:
     /// snapped alike, whatever the edge. An edge and its reverse cancel exactly.
     void append(const Vector& a, const Vector& b, Mesh& mesh) const;
 
+    /// A straight piece of an edge, both ends snapped: each sample to its left, in the rows whose
+    /// centres it spans (the lower end included, the upper end not), is inverted.
+    struct Piece {
+        double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
+    };
+    /// What of an edge inverts samples of the tile.
+    struct Pieces {
+        std::array<Piece, 3> pieces;
+        std::size_t count = 0;
+        [[nodiscard]] auto begin() const { return pieces.begin(); }
+        [[nodiscard]] auto end() const {
+            return pieces.begin() + static_cast<std::ptrdiff_t>(count);
+        }
+    };
+    [[nodiscard]] Pieces pieces(const Vector& a, const Vector& b) const;
+
 private:
-    void append_piece(const Vector& from, const Vector& to, Mesh& mesh) const;
+    void add_piece(const Vector& from, const Vector& to, Pieces& pieces) const;
 
     double width_;
     double height_;

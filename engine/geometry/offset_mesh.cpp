@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <iterator>
 
 namespace nearfield::geometry {
 
@@ -21,8 +20,9 @@ constexpr double corners[8][2] = {{cosine, sine},  {sine, cosine},   {-sine, cos
 
 }  // namespace
 
-void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
-                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh) {
+std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b, double offset,
+                                            std::uint32_t width, std::uint32_t height,
+                                            SubpixelGrid grid) {
     // Snapping pulls the border in by no more than the largest move. Half of it on top keeps a
     // sample at exactly `offset` inside, not on the border, where the fill rule might drop it.
     const double circumradius = (offset + 1.5 * grid.largest_move()) * offset_overreach;
@@ -31,7 +31,7 @@ void append_offset_polygon(const Vector& a, const Vector& b, double offset, std:
     Vector to = b;
     if (!clip_to_slab(from, to, 0, -margin, width + margin) ||
         !clip_to_slab(from, to, 1, -margin, height + margin)) {
-        return;
+        return std::nullopt;
     }
 
     // The tangent is the whole edge's: the part may be short, or a point.
@@ -40,17 +40,29 @@ void append_offset_polygon(const Vector& a, const Vector& b, double offset, std:
         tangent = Vector::UnitX();
     }
     const Vector normal(-tangent.y(), tangent.x());
-    std::array<MeshVertex, std::size(corners)> polygon;
+    OffsetPolygon polygon;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const auto [along, across] = corners[i];
         const Vector& end = along > 0.0 ? to : from;
         const Vector corner = end + circumradius * (along * tangent + across * normal);
-        polygon[i] = {.x = static_cast<float>(grid.snap(corner.x())),
-                      .y = static_cast<float>(grid.snap(corner.y())),
-                      .id = id};
+        polygon[i] = Vector(grid.snap(corner.x()), grid.snap(corner.y()));
     }
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-        mesh.insert(mesh.end(), {polygon[0], polygon[i - 1], polygon[i]});
+    return polygon;
+}
+
+void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
+                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh) {
+    const std::optional<OffsetPolygon> polygon = offset_polygon(a, b, offset, width, height, grid);
+    if (!polygon) {
+        return;
+    }
+    const auto vertex = [id](const Vector& corner) {
+        return MeshVertex{
+            .x = static_cast<float>(corner.x()), .y = static_cast<float>(corner.y()), .id = id};
+    };
+    for (std::size_t i = 2; i < polygon->size(); ++i) {
+        mesh.insert(mesh.end(),
+                    {vertex((*polygon)[0]), vertex((*polygon)[i - 1]), vertex((*polygon)[i])});
     }
 }
 

@@ -3,6 +3,9 @@
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/vector.hpp>
 
+#include <array>
+#include <optional>
+
 namespace nearfield::geometry {
 
 /// How far outside the offset itself the offset polygon may reach, as a factor: its ends are half
@@ -19,5 +22,12 @@ inline constexpr double offset_overreach = 1.0823922002923940;
 /// the bound above, so no rasteriser has to clip.
 void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
                            std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh);
+
+/// The corners of that octagon; what is covered is the fan of triangles around the first of them.
+/// Nothing where the edge cannot reach the tile.
+using OffsetPolygon = std::array<Vector, 8>;
+[[nodiscard]] std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b,
+                                                          double offset, std::uint32_t width,
+                                                          std::uint32_t height, SubpixelGrid grid);
 
 }  // namespace nearfield::geometry

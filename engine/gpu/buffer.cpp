@@ -11,6 +11,9 @@ namespace {
 // A readback buffer is read by the processor, which is slow where the memory is not cached; an
 // upload buffer is read by the device once a frame, best from its own side.
 VkMemoryPropertyFlags preferred_memory(Direction direction) {
+    if (direction == Direction::none) {
+        return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    }
     return VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
            (direction == Direction::readback ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                                              : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
@@ -67,15 +70,16 @@ void MappedBuffer::allocate_memory() {
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     info.allocationSize = needs.size;
-    info.memoryTypeIndex = device_->memory_type(
-        needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, preferred_memory(direction_));
+    const VkMemoryPropertyFlags required =
+        direction_ == Direction::none ? 0 : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
+    info.memoryTypeIndex =
+        device_->memory_type(needs.memoryTypeBits, required, preferred_memory(direction_));
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkResult result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         // The part of device memory that the host can see is often small; plain host memory, which
         // comes first in the specification's order of types, is slower and still right.
-        info.memoryTypeIndex =
-            device_->memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT, 0);
+        info.memoryTypeIndex = device_->memory_type(needs.memoryTypeBits, required, 0);
         result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
     }
     check(result, "vkAllocateMemory", what);
@@ -86,6 +90,9 @@ void MappedBuffer::allocate_memory() {
 
     check(functions.vkBindBufferMemory(device_->handle(), buffer_.get(), memory, 0),
           "vkBindBufferMemory", what);
+    if (direction_ == Direction::none) {
+        return;
+    }
     void* data = nullptr;
     check(functions.vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &data),
           "vkMapMemory", what);

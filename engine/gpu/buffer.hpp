@@ -11,10 +11,10 @@ namespace nearfield::gpu {
 
 /// Which way data goes: `upload` memory is written by the host and read by the device, on the
 /// device where it can be; `readback` memory is written by the device and read by the host, cached
-/// where it can be.
-enum class Direction { upload, readback };
+/// where it can be; `none` is memory that never leaves the device.
+enum class Direction { upload, readback, none };
 
-/// A buffer that stays mapped and only grows.
+/// A buffer that stays mapped, where the host has to do with it, and only grows.
 class MappedBuffer {
 public:
     MappedBuffer(const Device& device, VkBufferUsageFlags usage, Direction direction,
@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
     [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
-    /// Aligned to 64 bytes at least.
+    /// Aligned to 64 bytes at least; null for Direction::none.
     [[nodiscard]] std::byte* data() const { return data_; }
 
     /// Makes host writes visible to the device, or device writes to the host, where the memory is

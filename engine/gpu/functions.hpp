@@ -30,6 +30,7 @@
     X(vkCmdDraw)                      \
     X(vkCmdEndQuery)                  \
     X(vkCmdEndRenderPass)             \
+    X(vkCmdFillBuffer)                \
     X(vkCmdPipelineBarrier)           \
     X(vkCmdPushConstants)             \
     X(vkCmdResetQueryPool)            \

@@ -39,6 +39,15 @@ std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
                     to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
 }
 
+EdgeData straight(const TileEdge& edge) {
+    EdgeData data;
+    data.ax = static_cast<float>(edge.a.x());
+    data.ay = static_cast<float>(edge.a.y());
+    data.bx = static_cast<float>(edge.b.x());
+    data.by = static_cast<float>(edge.b.y());
+    return data;
+}
+
 }  // namespace
 
 void EdgeListWriter::begin_tile(const TileBoundary& boundary) {
@@ -65,11 +74,7 @@ std::uint32_t EdgeListWriter::run_of(const geometry::SimplifiedEdge& edge, std::
 }
 
 EdgeData EdgeListWriter::describe(const TileEdge& edge) {
-    EdgeData data;
-    data.ax = static_cast<float>(edge.a.x());
-    data.ay = static_cast<float>(edge.a.y());
-    data.bx = static_cast<float>(edge.b.x());
-    data.by = static_cast<float>(edge.b.y());
+    EdgeData data = straight(edge);
     if (edge.simplified != no_simplified) {
         const geometry::SimplifiedEdge& simplified = boundary_->edge(edge.simplified);
         data.first_edge = simplified.first;
@@ -101,7 +106,20 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
             list_.push_back(describe(*part));
         }
     }
+    return write_list();
+}
 
+EdgeListData EdgeListWriter::write_straight(const std::vector<TileEdge>& edges, double extent) {
+    list_.clear();
+    for (const TileEdge& edge : edges) {
+        if (const auto part = cut(edge, extent)) {
+            list_.push_back(straight(*part));
+        }
+    }
+    return write_list();
+}
+
+EdgeListData EdgeListWriter::write_list() {
     EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());
     result.edges = static_cast<std::uint32_t>(geometry_.size());

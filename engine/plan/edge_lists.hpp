@@ -26,6 +26,8 @@ public:
     /// that no coordinate is larger than a float can tell apart. Nothing outside may matter: edges
     /// wholly outside are left out.
     EdgeListData write(const std::vector<TileEdge>& edges, double extent);
+    /// The same of the edges alone, without the runs they stand for.
+    EdgeListData write_straight(const std::vector<TileEdge>& edges, double extent);
 
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
 
@@ -39,6 +41,8 @@ private:
     [[nodiscard]] std::uint32_t run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index);
     [[nodiscard]] EdgeData describe(const TileEdge& edge);
     void push(const EdgeData& edge);
+    /// Writes list_.
+    EdgeListData write_list();
 
     const TileBoundary* boundary_ = nullptr;
     std::vector<Entry> geometry_;

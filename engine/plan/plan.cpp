@@ -9,6 +9,7 @@ void Plan::clear() {
     field_points.clear();
     extent = {};
     rounds = 0;
+    raster_rounds = 0;
     tiles_by_round.clear();
     points_by_round.clear();
     field_points_by_round.clear();

@@ -85,6 +85,8 @@ struct PlannedQuery {
     bool outside = false;
     /// Technique::cpu: nothing is rendered for it.
     bool on_cpu = false;
+    /// Technique::compute: its tiles have no place in the atlas, and rounds of their own.
+    bool by_compute = false;
     /// Where the other direction stands in Plan::queries: points of B in the field of A.
     std::uint32_t reverse = none;
     FieldParts field;  ///< of a distance field
@@ -134,6 +136,7 @@ struct Plan {
     std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
     TileSize extent;                              ///< of the atlas
     std::uint32_t rounds = 0;
+    std::uint32_t raster_rounds = 0;  ///< the first ones; the others are the compute technique's
     ByRound tiles_by_round;
     ByRound points_by_round;
     ByRound field_points_by_round;

@@ -109,6 +109,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                 result.tolerance = query.tolerance;
                 result.technique = query.technique;
                 planned.on_cpu = result.technique == Technique::cpu;
+                planned.by_compute = result.technique == Technique::compute;
                 result.status = check_query(queries[query_]);
                 planned.a = find_shape(query.a.shape);
                 planned.b = find_shape(query.b.shape);
@@ -209,7 +210,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     result.kind = query.kind;
     result.strategy = query.strategy;
     const auto& missing = limits_.missing_for_strategy[static_cast<std::size_t>(query.strategy)];
-    if (!missing.empty()) {
+    if (!missing.empty() && !planned.by_compute) {
         result.status = {StatusCode::unsupported_strategy,
                          std::string("the device lacks what the intersection strategy ") +
                              to_string(query.strategy) + " needs; each reason names one thing",
@@ -323,17 +324,45 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
     }
 }
 
+/// A round of the compute technique takes as many cells as an atlas image has, which bounds what
+/// its masks and lists take. Of a tile with points nothing is kept by cell.
+void Planner::add_compute_rounds() {
+    constexpr double points_share = 1.0 / 16.0;
+    const double most = static_cast<double>(limits_.largest_atlas) * limits_.largest_atlas;
+    double cells = most;
+    for (Tile& tile : plan_->tiles) {
+        if (!plan_->queries[tile.query].by_compute) {
+            continue;
+        }
+        const double own = static_cast<double>(tile.width) * tile.height *
+                           (tile.kind == TileKind::points ? points_share : 1.0);
+        cells += own;
+        if (cells > most) {
+            ++plan_->rounds;
+            cells = own;
+        }
+        tile.place = {plan_->rounds - 1, 0, 0};
+    }
+}
+
 void Planner::pack() {
     sizes_.clear();
     for (const Tile& tile : plan_->tiles) {
-        sizes_.push_back({tile.width, tile.height});
+        if (!plan_->queries[tile.query].by_compute) {
+            sizes_.push_back({tile.width, tile.height});
+        }
     }
     packer_.pack(sizes_, places_);
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        plan_->tiles[i].place = places_[i];
+    std::size_t next = 0;
+    for (Tile& tile : plan_->tiles) {
+        if (!plan_->queries[tile.query].by_compute) {
+            tile.place = places_[next++];
+        }
     }
     plan_->extent = packer_.extent();
     plan_->rounds = packer_.rounds();
+    plan_->raster_rounds = plan_->rounds;
+    add_compute_rounds();
     const std::vector<Tile>& tiles = plan_->tiles;
     const std::vector<PlannedPoint>& points = plan_->points;
     const std::vector<PlannedFieldPoint>& field_points = plan_->field_points;

@@ -93,6 +93,7 @@ private:
                                           std::uint32_t first_tile);
     void require_memory(double bytes, double tolerance, double growth);
     void pack();
+    void add_compute_rounds();
 
     PlanLimits limits_;
     AtlasPacker packer_;

@@ -17,10 +17,6 @@ using geometry::Mesh;
 using geometry::PlacedPolygon;
 using geometry::Vector;
 
-// Edges longer than this, in cells, stand for themselves: their far ends may be cut off, so that
-// what is left has coordinates that a float can tell apart.
-constexpr double longest_run = 64.0;
-
 // An occlusion query costs about as much as searching this many samples (docs/performance.md), and
 // gains nothing where some pass.
 constexpr std::uint32_t smallest_watched = 128U * 128U;
@@ -54,6 +50,16 @@ TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
     return edge;
 }
 
+/// Which part of each shape takes part, and whether samples are listed.
+void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
+                      Round& round) {
+    const bool volumes = query.kind == IntersectionKind::volume_volume;
+    draw.part_a = volumes ? Part::volume : Part::boundary;
+    draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
+    draw.list = query.records;
+    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
+}
+
 DrawRange since(std::size_t first, const Mesh& mesh) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(mesh.size() - first)};
 }
@@ -76,13 +82,17 @@ void Round::clear() {
     field_point_index.clear();
     field_point_runs.clear();
     field_words = 0;
+    by_compute = false;
+    compute.clear();
     watched = 0;
     listed_cells = 0;
 }
 
 void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
     round.clear();
+    round.by_compute = number >= plan.raster_rounds;
     tile_of_plan_.resize(plan.tiles.size());
+    first_part_.resize(plan.tiles.size());
     for (const std::uint32_t i : plan.tiles_by_round.of(number)) {
         const Tile& tile = plan.tiles[i];
         TileDraw draw;
@@ -91,22 +101,51 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
         draw.y = tile.place.y;
         draw.width = tile.width;
         draw.height = tile.height;
-        draw.rectangle = add_rectangle(tile.width, tile.height, round.mesh);
         tile_of_plan_[i] = draw.tile;
+        first_part_[i] = static_cast<std::uint32_t>(round.compute.parts.size());
         round.tile_index.push_back(i);
         TileData& data = round.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;
         data.width = tile.width;
         data.height = tile.height;
-        if (tile.kind == TileKind::overlap) {
-            add_overlap_tile(plan.queries[tile.query], tile, draw, round);
+        if (round.by_compute) {
+            add_compute_tile(plan.queries[tile.query], tile, draw, round);
         } else {
-            add_distance_tile(plan.queries[tile.query], tile, draw, round);
+            add_drawn_tile(plan.queries[tile.query], tile, draw, round);
         }
     }
     add_points(plan, number, round);
     add_field_points(plan, number, round);
+}
+
+void RoundBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                  Round& round) {
+    draw.rectangle = add_rectangle(tile.width, tile.height, round.mesh);
+    if (tile.kind == TileKind::overlap) {
+        add_overlap_tile(query, tile, draw, round);
+    } else {
+        add_distance_tile(query, tile, draw, round);
+    }
+}
+
+void RoundBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                    Round& round) {
+    switch (tile.kind) {
+        case TileKind::points:
+            compute_.add_points_tile(query, tile, shapes_, round.tiles[draw.tile], round);
+            break;
+        case TileKind::field:
+            nearest_.clear();
+            add_field_output(query, tile, draw, round);
+            compute_.add_field_tile(query, tile, draw, shapes_, round);
+            round.distance_draws.push_back(draw);
+            break;
+        case TileKind::overlap:
+            describe_overlap(std::get<IntersectionQuery>(*query.query), tile, draw, round);
+            compute_.add_overlap_tile(query, tile, draw, shapes_, round);
+            break;
+    }
 }
 
 DrawRange RoundBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
@@ -252,9 +291,7 @@ DrawRange RoundBuilder::add_boundary(const TileBoundary& boundary, const Tile& t
 void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                                     Round& round) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
-    const IntersectionKind kind = asked.kind;
-    draw.part_a = kind == IntersectionKind::volume_volume ? Part::volume : Part::boundary;
-    draw.part_b = kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
+    describe_overlap(asked, tile, draw, round);
     const double cell = tile.grid.cell;
     const double simplification = query.budget.simplification;
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
@@ -273,8 +310,6 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
     if (round.watched < most_watched && worth_watching(asked.strategy, tile)) {
         draw.watch = round.watched++;
     }
-    draw.list = asked.records;
-    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
     round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
 }
 
@@ -302,15 +337,20 @@ void RoundBuilder::add_field_points(const Plan& plan, std::uint32_t number, Roun
         if (round.field_point_runs.empty() || round.field_point_runs.back().query != tile.query) {
             const PlannedQuery& query = plan.queries[tile.query];
             FieldPointRun& run = round.field_point_runs.emplace_back();
-            run.first = static_cast<std::uint32_t>(round.field_points.size());
+            run.first = static_cast<std::uint32_t>(round.field_point_index.size());
             run.query = tile.query;
             run.first_word = static_cast<std::uint32_t>(round.field_words);
             run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
             run.parts = query.field;
         }
-        const Vector local = (point.position - tile.origin()) / tile.grid.cell;
-        round.field_points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
-                                      tile_of_plan_[point.tile], point.column | point.row << 16U});
+        if (round.by_compute) {
+            ComputeBuilder::add_field_point(tile, first_part_[point.tile], point, round.compute);
+        } else {
+            const Vector local = (point.position - tile.origin()) / tile.grid.cell;
+            round.field_points.push_back({static_cast<float>(local.x()),
+                                          static_cast<float>(local.y()), tile_of_plan_[point.tile],
+                                          point.column | point.row << 16U});
+        }
         round.field_point_index.push_back(i);
         FieldPointRun& run = round.field_point_runs.back();
         ++run.count;

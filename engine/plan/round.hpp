@@ -2,6 +2,8 @@
 
 #include <engine/geometry/distance_mesh.hpp>
 #include <engine/geometry/mesh.hpp>
+#include <engine/plan/compute_builder.hpp>
+#include <engine/plan/compute_work.hpp>
 #include <engine/plan/edge_lists.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/nearest_edges.hpp>
@@ -15,6 +17,10 @@
 
 namespace nearfield::plan {
 
+/// Edges longer than this, in cells, stand for themselves: their far ends may be cut off, so that
+/// what is left has coordinates that a float can tell apart.
+inline constexpr double longest_run = 64.0;
+
 /// Consecutive vertices of a round's mesh.
 struct DrawRange {
     std::uint32_t first = 0;
@@ -26,9 +32,6 @@ struct EdgeRun {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
 };
-
-/// In place of a position in the read-back.
-inline constexpr std::uint32_t not_asked = UINT32_MAX;
 
 /// How a shape is drawn into an overlap tile.
 enum class Part : std::uint8_t { volume, boundary };
@@ -91,6 +94,10 @@ struct Round {
     std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
     std::vector<FieldPointRun> field_point_runs;
     std::uint64_t field_words = 0;  ///< of the read-back of all fields together
+    /// A round is either drawn or, by the compute technique, worked off from this; then it has no
+    /// mesh.
+    bool by_compute = false;
+    ComputeWork compute;
 
     void clear();
 };
@@ -98,13 +105,16 @@ struct Round {
 /// Turns the tiles of one round into meshes, edge lists and points. Keeps its scratch memory.
 class RoundBuilder {
 public:
-    explicit RoundBuilder(geometry::SubpixelGrid grid) : grid_(grid) {}
+    explicit RoundBuilder(geometry::SubpixelGrid grid) : grid_(grid), compute_(grid) {}
 
     /// Forgets simplified shapes; first in each batch, since shapes may have changed.
     void begin_batch() { shapes_.clear(); }
     void build(const Plan& plan, std::uint32_t number, Round& round);
 
 private:
+    void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw, Round& round);
+    void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                          Round& round);
     void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                            Round& round);
     /// Makes room in the read-back for what is asked for at every cell.
@@ -131,6 +141,8 @@ private:
     std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its place in the round
+    std::vector<std::uint32_t> first_part_;    // by tile of the plan: its first in ComputeWork
+    ComputeBuilder compute_;
 };
 
 }  // namespace nearfield::plan

@@ -52,7 +52,8 @@ double expect_common_part(const Json& json, const std::string& query, double tol
     EXPECT_TRUE(json.at("intersects").is_boolean());
     EXPECT_TRUE(json.at("device").is_string());
     EXPECT_NE(json.at("device"), "");
-    EXPECT_TRUE(json.at("technique") == "raster" || json.at("technique") == "cpu")
+    EXPECT_TRUE(json.at("technique") == "raster" || json.at("technique") == "compute" ||
+                json.at("technique") == "cpu")
         << json.at("technique");
     expect_times(json.at("timings_ms"));
     for (const char* const count : {"nodes_evaluated", "pairs_rejected", "edges_kept"}) {

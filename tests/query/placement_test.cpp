@@ -9,7 +9,10 @@ namespace {
 
 constexpr std::uint64_t seed = 360;
 
-class Placement : public QueryTest {};
+class Placement : public QueryTest {
+protected:
+    static void check_moved(Technique technique);
+};
 
 /// `pose` followed by a rigid motion of the world.
 Pose moved(const Pose& pose, const Pose& motion) {
@@ -21,7 +24,7 @@ Pose moved(const Pose& pose, const Pose& motion) {
             pose.angle + motion.angle};
 }
 
-TEST_F(Placement, MovingBothChangesNothing) {
+void Placement::check_moved(Technique technique) {
     Random random(seed);
     for (const Pair& pair : family_pairs(seed)) {
         const Pose motion{{random.between(-1e6, 1e6), random.between(-1e6, 1e6)},
@@ -30,8 +33,8 @@ TEST_F(Placement, MovingBothChangesNothing) {
         elsewhere.pose_a = moved(pair.pose_a, motion);
         elsewhere.pose_b = moved(pair.pose_b, motion);
         SCOPED_TRACE(describe(pair) + "\nmoved to\n" + describe(elsewhere));
-        const PlacedPair here(context(), pair);
-        const PlacedPair there(context(), elsewhere);
+        const PlacedPair here(context(), pair, technique);
+        const PlacedPair there(context(), elsewhere, technique);
         for (const auto points : {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
             const auto before = run_alone(context(), here.penetration(points));
             const auto after = run_alone(context(), there.penetration(points));
@@ -46,6 +49,14 @@ TEST_F(Placement, MovingBothChangesNothing) {
             }
         }
     }
+}
+
+TEST_F(Placement, MovingBothChangesNothing) {
+    check_moved(Technique::raster);
+}
+
+TEST_F(Placement, MovingBothChangesNothingForTheComputeTechnique) {
+    check_moved(Technique::compute);
 }
 
 TEST_F(Placement, ContainmentIsFoundBothWays) {

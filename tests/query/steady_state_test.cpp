@@ -153,7 +153,7 @@ private:
         const Instance here{a, {{5.0, 5.0}, 0.0}};
         const Instance there{b, {{5.7, 5.1}, 0.3}};
         const Instance apart{b, {{8.5, 5.1}, 0.3}};
-        for (const Technique technique : {Technique::raster, Technique::cpu}) {
+        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
             for (const PenetrationPoints points :
                  {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
                 batch.add(PenetrationQuery{here, there, 0.08, points, true, technique});
@@ -170,10 +170,14 @@ private:
         field.features = true;
         static constexpr Vector2 points[] = {{5.1, 5.2}, {4.7, 5.4}};
         field.points = points;
-        batch.add(field);
-        for (const IntersectionKind kind :
-             {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
-            batch.add(IntersectionQuery{here, there, 0.08, kind});
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            field.technique = technique;
+            batch.add(field);
+            for (const IntersectionKind kind :
+                 {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
+                batch.add(IntersectionQuery{here, there, 0.08, kind, true,
+                                            IntersectionStrategy::stencil, technique});
+            }
         }
         return batch;
     }

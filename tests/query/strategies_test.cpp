@@ -120,6 +120,18 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
             EXPECT_EQ(counted.box.max, result.box.max);
             EXPECT_TRUE(counted.samples.empty());
         }
+        query.technique = Technique::compute;
+        query.records = true;
+        const IntersectionResult computed = run_alone(context, query);
+        EXPECT_EQ(computed.technique, Technique::compute);
+        expect_same(expected, computed);
+        expect_same_edges(first, computed);
+        query.records = false;
+        const IntersectionResult counted = run_alone(context, query);
+        EXPECT_EQ(counted.count, first.count);
+        EXPECT_EQ(counted.box.min, first.box.min);
+        EXPECT_EQ(counted.box.max, first.box.max);
+        EXPECT_TRUE(counted.samples.empty());
     }
 }
 
@@ -188,6 +200,7 @@ TEST_F(Strategies, MixInOneBatch) {
         IntersectionQuery query = placed.intersection(every_kind[handles.size() % 3]);
         query.strategy = every_strategy[(handles.size() / 3) % 4];
         query.records = handles.size() % 2 == 0;
+        query.technique = handles.size() % 5 < 2 ? Technique::compute : Technique::raster;
         handles.push_back(batch.add(query));
         batch.add(placed.penetration());
         alone.push_back(run_alone(*context_, query));
@@ -284,6 +297,12 @@ TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
     EXPECT_TRUE(results[before].status.ok());
     EXPECT_TRUE(results[after].status.ok());
     EXPECT_EQ(results[before].count, results[after].count);
+    // What a strategy needs of the device, it needs for drawing.
+    query.strategy = IntersectionStrategy::logic_op;
+    query.technique = Technique::compute;
+    const IntersectionResult computed = run_alone(context(), query);
+    EXPECT_TRUE(computed.status.ok()) << computed.status.text();
+    EXPECT_EQ(computed.count, results[before].count);
 }
 
 TEST_F(MissingStrategies, AreNoEnumerators) {

@@ -55,27 +55,30 @@ Rings plain(const support::Rings& rings) {
     return result;
 }
 
-/// Both techniques held against the oracle by the CPU's answers, and against each other.
+/// All techniques held against the oracle by the CPU's answers, and against each other.
 class Techniques : public QueryTest {
 protected:
     static void check(const Pair& pair) {
-        const PlacedPair raster(context(), pair, Technique::raster);
         const PlacedPair cpu(context(), pair, Technique::cpu);
         const CorpusKeeper keeper(pair, 2.0 * pair.tolerance);
         SCOPED_TRACE(describe(pair));
-        check_penetrations(raster, cpu);
-        check_all_contacts(raster, cpu);
-        check_closest(raster, cpu);
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            SCOPED_TRACE(to_string(technique));
+            const PlacedPair device(context(), pair, technique);
+            check_penetrations(device, cpu);
+            check_all_contacts(device, cpu);
+            check_closest(device, cpu);
+        }
     }
 
-    static void check_penetrations(const PlacedPair& raster, const PlacedPair& cpu) {
+    static void check_penetrations(const PlacedPair& device, const PlacedPair& cpu) {
         for (const PenetrationPoints points : both_ways) {
             PenetrationQuery query = cpu.penetration(points);
             const PenetrationResult exact = run_alone(context(), query);
             check_penetration(cpu, points, exact);
             EXPECT_EQ(exact.technique, Technique::cpu);
-            const PenetrationResult drawn = run_alone(context(), raster.penetration(points));
-            EXPECT_EQ(drawn.technique, Technique::raster);
+            const PenetrationResult drawn = run_alone(context(), device.penetration(points));
+            EXPECT_EQ(drawn.technique, device.penetration().technique);
             EXPECT_EQ(exact.intersects, drawn.intersects);
             const double d = cpu.tolerance();
             match(
@@ -98,13 +101,13 @@ protected:
         }
     }
 
-    static void check_all_contacts(const PlacedPair& raster, const PlacedPair& cpu) {
+    static void check_all_contacts(const PlacedPair& device, const PlacedPair& cpu) {
         const double d = cpu.tolerance();
         const double near = 2.0 * d;
         const ContactResult exact = run_alone(context(), cpu.contacts(near));
         check_contacts(cpu, near, exact);
         EXPECT_EQ(exact.technique, Technique::cpu);
-        const ContactResult drawn = run_alone(context(), raster.contacts(near));
+        const ContactResult drawn = run_alone(context(), device.contacts(near));
         for (const Side side : {Side::a, Side::b}) {
             const auto of_side = [side](const ContactResult& result) {
                 std::vector<ContactRecord> records;
@@ -126,12 +129,12 @@ protected:
         }
     }
 
-    static void check_closest(const PlacedPair& raster, const PlacedPair& cpu) {
+    static void check_closest(const PlacedPair& device, const PlacedPair& cpu) {
         const SeparationResult exact = run_alone(context(), cpu.separation());
         check_separation(cpu, exact);
         check_same(exact, run_alone(context(), cpu.closest_point()));
         EXPECT_EQ(exact.technique, Technique::cpu);
-        const SeparationResult drawn = run_alone(context(), raster.separation());
+        const SeparationResult drawn = run_alone(context(), device.separation());
         EXPECT_EQ(exact.distance, drawn.distance);
         EXPECT_EQ(exact.intersects, drawn.intersects);
         EXPECT_EQ(exact.unique, drawn.unique);

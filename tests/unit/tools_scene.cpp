@@ -142,13 +142,12 @@ TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
     EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
               "query: \"depth\" is none of penetration, intersection, distance-field, contacts, "
               "closest-point, separation");
-    EXPECT_EQ(input_error([] { return parse_technique("compute", "--technique"); }),
-              "--technique: this version does not answer by the technique compute");
     EXPECT_EQ(input_error([] { return parse_technique("gpu", "--technique"); }),
-              "--technique: \"gpu\" is none of automatic, raster, cpu");
+              "--technique: \"gpu\" is none of automatic, raster, compute, cpu");
     EXPECT_EQ(input_error([] { return parse_strategy("blending", "--strategy"); }),
               "--strategy: \"blending\" is none of stencil, blend, logic-op, depth");
     EXPECT_EQ(parse_technique("cpu", "--technique"), Technique::cpu);
+    EXPECT_EQ(parse_technique("compute", "--technique"), Technique::compute);
 }
 
 }  // namespace

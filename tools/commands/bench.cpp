@@ -131,7 +131,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->type_name("FILE.json");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, cpu or automatic, of all queries; default as the scene says")
+                     "raster, compute, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME");
     add_localization_options(*command, arguments.localization);
     command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")

@@ -340,7 +340,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("X,Y,DEGREES");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, cpu or automatic; default automatic: cpu for penetration, contacts, "
+                     "raster, compute, cpu or automatic; default automatic: cpu for penetration, contacts, "
                      "closest-point and separation, raster for the rest")
         ->type_name("NAME");
     command

@@ -21,7 +21,7 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         ->type_name("FILE.json");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, cpu or automatic, of all queries; default as the scene says")
+                     "raster, compute, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME");
     command
         ->add_option("--json", arguments.json,

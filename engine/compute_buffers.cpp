@@ -1,0 +1,93 @@
+#include <engine/compute_buffers.hpp>
+#include <engine/failure.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+// Every part of a buffer that is bound has at least these bytes, its last one too.
+constexpr std::uint64_t smallest_part = 16;
+
+template <class Element>
+std::uint64_t bytes_of(const std::vector<Element>& elements) {
+    return elements.size() * sizeof(Element);
+}
+
+}  // namespace
+
+ComputeBuffers::ComputeBuffers(const gpu::Device& device)
+    : device_(&device),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+             "nearfield compute input"),
+      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+               gpu::Direction::none, "nearfield compute scratch") {}
+
+template <class... Vectors>
+BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
+    const std::uint64_t step = device_->limits().minStorageBufferOffsetAlignment;
+    BufferPart part{input_.handle(), (end_ + step - 1) / step * step, (bytes_of(vectors) + ...)};
+    const std::uint64_t most = device_->limits().maxStorageBufferRange;
+    if (part.bytes > most) {
+        throw Failure({StatusCode::too_large, std::string(what) + " of one round take " +
+                                                  std::to_string(part.bytes) +
+                                                  " bytes; a storage buffer of this device holds " +
+                                                  std::to_string(most)});
+    }
+    std::byte* target = input_.data() + part.offset;
+    const auto copy = [&](const auto& vector) {
+        if (!vector.empty()) {
+            std::memcpy(target, vector.data(), bytes_of(vector));
+            target += bytes_of(vector);
+        }
+    };
+    (copy(vectors), ...);
+    part.bytes = std::max(part.bytes, smallest_part);
+    end_ = part.offset + part.bytes;
+    return part;
+}
+
+void ComputeBuffers::upload(const plan::Round& round) {
+    const plan::ComputeWork& work = round.compute;
+    constexpr std::uint64_t parts = 5;
+    const std::uint64_t between =
+        parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
+    input_.reserve(between + bytes_of(round.tiles) + bytes_of(round.points) + bytes_of(work.parts) +
+                   bytes_of(round.lists.geometry()) + bytes_of(work.blocks) +
+                   bytes_of(work.points) + work.ranges().words * sizeof(std::uint32_t));
+    scratch_.reserve(work.scratch_words() * sizeof(std::uint32_t) + smallest_part);
+    end_ = 0;
+    tiles_ = append("the tiles", round.tiles);
+    points_ = append("the points", round.points);
+    parts_ = append("the parts of field tiles", work.parts);
+    geometry_ = append("the edges", round.lists.geometry(), work.blocks, work.points);
+    work_ = append("the masks", work.masks, work.edges, work.rows, work.polygons_a, work.polygons_b,
+                   work.overlaps, work.overlap_rows);
+    input_.flush();
+}
+
+void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Frame& frame,
+                          const Output& output) const {
+    using Layout = passes::ComputeLayout;
+    const auto write = [&](VkDescriptorSet set, Layout::Binding binding, const BufferPart& part) {
+        layout.write_buffer(set, binding, part.buffer, part.offset,
+                            std::max(part.bytes, smallest_part));
+    };
+    const BufferPart scratch{scratch_.handle(), 0, scratch_.capacity()};
+    write(frame.points, Layout::tiles, tiles_);
+    write(frame.points, Layout::geometry, geometry_);
+    write(frame.points, Layout::points, points_);
+    write(frame.points, Layout::output, output.points);
+    write(frame.masks, Layout::work, work_);
+    write(frame.masks, Layout::scratch_of_masks, scratch);
+    write(frame.masks, Layout::summaries, output.summaries);
+    write(frame.masks, Layout::output, output.samples);
+    write(frame.blocks, Layout::tiles, parts_);
+    write(frame.blocks, Layout::geometry, geometry_);
+    write(frame.blocks, Layout::scratch_of_blocks, scratch);
+    write(frame.blocks, Layout::output, output.field);
+}
+
+}  // namespace nearfield

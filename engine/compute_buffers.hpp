@@ -1,0 +1,53 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/plan/round.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/frame.hpp>
+
+#include <cstdint>
+
+namespace nearfield {
+
+/// A part of a buffer.
+struct BufferPart {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// What the compute technique needs of memory beside the read-back: its input, and scratch memory
+/// that never leaves the device. Both only grow.
+class ComputeBuffers {
+public:
+    explicit ComputeBuffers(const gpu::Device& device);
+
+    /// Hands a round over. Throws Failure (too_large) where a part exceeds what a storage buffer of
+    /// the device may hold.
+    void upload(const plan::Round& round);
+
+    [[nodiscard]] VkBuffer input() const { return input_.handle(); }
+    [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
+
+    /// Parts of the read-back: by point, of all fields, by tile, the samples.
+    struct Output {
+        BufferPart points, field, summaries, samples;
+    };
+    /// Points the frame's descriptor sets of the compute technique to the round handed over last.
+    void bind(const passes::ComputeLayout& layout, const passes::Frame& frame,
+              const Output& output) const;
+
+private:
+    /// Copies what vectors hold, one after the other, into the next part of the input.
+    template <class... Vectors>
+    BufferPart append(const char* what, const Vectors&... vectors);
+
+    const gpu::Device* device_;
+    gpu::MappedBuffer input_;
+    gpu::MappedBuffer scratch_;
+    std::uint64_t end_ = 0;  // of what is in the input
+    BufferPart tiles_, points_, parts_, geometry_, work_;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,244 @@
+#include <engine/failure.hpp>
+#include <engine/geometry/fill_mesh.hpp>
+#include <engine/geometry/offset_mesh.hpp>
+#include <engine/plan/compute_builder.hpp>
+#include <engine/plan/round.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Vector;
+
+// How far outside its part, in cells, a point's reconstruction looks: a sample two cells on.
+constexpr double points_reach = 2.5 * std::numbers::sqrt2;
+
+constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
+
+std::uint32_t words_for(std::uint32_t cells) {
+    return (cells + 31) / 32;
+}
+
+std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
+    return static_cast<std::int32_t>(std::llround(coordinate * grid.steps));
+}
+
+TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
+    const double cell = tile.grid.cell;
+    return {shapes.get(*query.b, query.budget.simplification, longest_run * cell),
+            ToCells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell)};
+}
+
+EdgeListWriter::Entry words(std::uint32_t first, std::uint32_t second) {
+    return {std::bit_cast<float>(first), std::bit_cast<float>(second)};
+}
+
+std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
+    const MaskData mask{static_cast<std::uint32_t>(work.mask_words), words_for(tile.width),
+                        tile.width, tile.height};
+    work.mask_words += std::uint64_t{mask.words_per_row} * mask.height;
+    work.masks.push_back(mask);
+    return static_cast<std::uint32_t>(work.masks.size() - 1);
+}
+
+}  // namespace
+
+EdgeListData ComputeBuilder::add_crossing(const TileBoundary& boundary, const Tile& tile,
+                                          double slack, Round& round) {
+    crossing_.clear();
+    crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
+    return round.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
+}
+
+void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
+                                     SimplifiedShapes& shapes, TileData& data, Round& round) {
+    const TileBoundary boundary = boundary_of(query, tile, shapes);
+    const double simplification = query.budget.simplification / tile.grid.cell;
+    round.lists.begin_tile(boundary);
+    finder_.find(boundary, tile.needed, simplification + margin_in_cells, nearest_);
+    nearest_list_.clear();
+    double largest_reach = 0.0;
+    for (const NearestEdge& nearest : nearest_) {
+        nearest_list_.push_back(nearest.edge);
+        largest_reach = std::max(largest_reach, nearest.reach());
+    }
+    data.nearest = round.lists.write(nearest_list_,
+                                     std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
+    data.crossing = add_crossing(boundary, tile, simplification, round);
+    data.margin = static_cast<float>(margin_in_cells);
+    data.outside = query.outside ? 1 : 0;
+}
+
+void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const {
+    const geometry::FillMesh fill(tile.width, tile.height, grid_);
+    for (const TileEdge& edge : crossing_) {
+        for (const auto& [x0, y0, x1, y1] : fill.pieces(edge.a, edge.b)) {
+            work.edges.push_back(
+                {steps(x0, grid_), steps(y0, grid_), steps(x1, grid_), steps(y1, grid_), mask});
+        }
+    }
+    const MaskData& data = work.masks[mask];
+    for (std::uint32_t row = 0; row < data.height; ++row) {
+        work.rows.push_back({data.first_word + row * data.words_per_row, data.words_per_row});
+    }
+}
+
+void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
+                                    const TileDraw& draw, SimplifiedShapes& shapes, Round& round) {
+    ComputeWork& work = round.compute;
+    const double simplification = query.budget.simplification / tile.grid.cell;
+    const TileBoundary boundary = boundary_of(query, tile, shapes);
+    crossing_.clear();
+    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
+    const std::uint32_t mask = add_mask(tile, work);
+    add_fill(tile, mask, work);
+
+    const bool with_points = query.field_point_count > 0;
+    const bool with_features = with_points || query.field.features;
+    part_edges_.find(boundary, tile.width, tile.height,
+                     (with_features ? simplification + margin_in_cells : 0.0) +
+                         (with_points ? points_reach : 0.0));
+    TileData data;
+    data.tile_width = tile.width;
+    data.mask = work.masks[mask].first_word;
+    data.first_value = draw.first_value;
+    data.first_feature = draw.first_feature;
+    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification +
+                                      2.0 * grid_.largest_move() + 0.01);
+    data.margin = static_cast<float>(margin_in_cells);
+    std::uint32_t index = 0;
+    for (std::uint32_t row = 0; row < tile.height; row += PartEdges::side) {
+        for (std::uint32_t column = 0; column < tile.width; column += PartEdges::side) {
+            data.atlas_x = column;
+            data.atlas_y = row;
+            data.width = std::min(PartEdges::side, tile.width - column);
+            data.height = std::min(PartEdges::side, tile.height - row);
+            add_part(query, tile, index++, data, shapes, round);
+        }
+    }
+}
+
+void ComputeBuilder::add_part(const PlannedQuery& query, const Tile& tile, std::uint32_t index,
+                              TileData data, SimplifiedShapes& shapes, Round& round) {
+    const Vector corner(data.atlas_x, data.atlas_y);
+    nearest_list_.clear();
+    part_edges_.append(index, nearest_list_);
+    for (TileEdge& edge : nearest_list_) {
+        edge.a -= corner;
+        edge.b -= corner;
+    }
+    const double extent = part_edges_.window() + tile.width + tile.height;
+    if (query.field_point_count > 0 || query.field.features) {
+        Tile part = tile;
+        part.column += data.atlas_x;
+        part.row += data.atlas_y;
+        part.width = data.width;
+        part.height = data.height;
+        const TileBoundary boundary = boundary_of(query, part, shapes);
+        round.lists.begin_tile(boundary);
+        data.nearest = round.lists.write(nearest_list_, extent);
+        data.crossing =
+            add_crossing(boundary, part, query.budget.simplification / tile.grid.cell, round);
+    } else {
+        data.nearest = round.lists.write_straight(nearest_list_, extent);
+    }
+    if (query.field.values || query.field.features) {
+        add_blocks(data, round.compute);
+    }
+    round.compute.parts.push_back(data);
+}
+
+void ComputeBuilder::add_blocks(const TileData& part, ComputeWork& work) {
+    const auto index = static_cast<std::uint32_t>(work.parts.size());
+    for (std::uint32_t row = 0; row < part.height; row += block_side) {
+        for (std::uint32_t column = 0; column < part.width; column += block_side) {
+            work.blocks.push_back(words(index, column | row << 16U));
+        }
+    }
+    work.block_words = std::uint64_t{work.blocks.size()} * (1 + block_capacity);
+}
+
+void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_part,
+                                     const PlannedFieldPoint& point, ComputeWork& work) {
+    const Vector local = (point.position - tile.origin()) / tile.grid.cell;
+    const auto place = [](double coordinate, std::uint32_t cells) {
+        return static_cast<std::uint32_t>(std::clamp(std::floor(coordinate), 0.0, cells - 1.0)) /
+               PartEdges::side;
+    };
+    const std::uint32_t column = place(local.x(), tile.width);
+    const std::uint32_t row = place(local.y(), tile.height);
+    const std::uint32_t parts_along = PartEdges::along(tile.width);
+    work.points.push_back({static_cast<float>(local.x() - column * PartEdges::side),
+                           static_cast<float>(local.y() - row * PartEdges::side)});
+    work.points.push_back(
+        words(first_part + row * parts_along + column, point.column | point.row << 16U));
+}
+
+void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
+                                  std::uint32_t overlap, bool of_a, Round& round) const {
+    ComputeWork& work = round.compute;
+    // Offset polygons reach a little farther than the offset.
+    const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
+    boundary.for_edges_near(tile.centre(), reach, [&](std::uint32_t i) {
+        const auto polygon = geometry::offset_polygon(boundary.start(i), boundary.end(i), offset,
+                                                      tile.width, tile.height, grid_);
+        if (!polygon) {
+            return;
+        }
+        MaskPolygonData data;
+        for (std::size_t corner = 0; corner < polygon->size(); ++corner) {
+            data.corners[2 * corner] = steps((*polygon)[corner].x(), grid_);
+            data.corners[2 * corner + 1] = steps((*polygon)[corner].y(), grid_);
+        }
+        data.overlap = overlap;
+        if (of_a) {
+            data.run = static_cast<std::uint32_t>(round.runs.size());
+            round.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
+        }
+        (of_a ? work.polygons_a : work.polygons_b).push_back(data);
+    });
+}
+
+void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
+                                      const TileDraw& draw, SimplifiedShapes& shapes,
+                                      Round& round) {
+    ComputeWork& work = round.compute;
+    const double cell = tile.grid.cell;
+    const double simplification = query.budget.simplification;
+    const auto overlap = static_cast<std::uint32_t>(work.overlaps.size());
+    OverlapData data;
+    data.tile = draw.tile;
+    data.list = draw.list ? 1 : 0;
+    const bool with_runs = draw.list && draw.part_a == Part::boundary;
+    data.first_run = with_runs ? static_cast<std::uint32_t>(work.run_words) : no_runs;
+    if (with_runs) {
+        work.run_words += std::uint64_t{tile.width} * tile.height;
+    }
+    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part, bool of_a) {
+        const std::uint32_t mask = add_mask(tile, work);
+        const TileBoundary boundary(shapes.get(polygon, simplification, longest_run * cell),
+                                    ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
+        if (part == Part::boundary) {
+            add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, round);
+        } else {
+            crossing_.clear();
+            crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);
+            add_fill(tile, mask, work);
+        }
+        return mask;
+    };
+    data.mask_b = add(*query.b, query.pose_b, draw.part_b, false);
+    data.mask_a = add(*query.a, query.pose_a, draw.part_a, true);
+    work.overlaps.push_back(data);
+    for (std::uint32_t row = 0; row < tile.height; ++row) {
+        work.overlap_rows.push_back({overlap, row});
+    }
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,43 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The fill of a mask, first half: one thread an edge. In each row that an edge spans, lower end
+// included and upper end not, the samples left of it are inverted. Only the last of them is marked;
+// mask_rows.comp inverts those before it as well.
+
+#include "masks.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform Push {
+    uint first;
+    uint end;
+    uint edges;  // where they start in the work
+    uint masks;
+    uint bits;   // of sub-pixel precision
+} push;
+
+void main() {
+    uint index = push.first + gl_GlobalInvocationID.x;
+    if (index >= push.end) {
+        return;
+    }
+    uint word = push.edges + 5u * index;
+    ivec2 low = ivec2(work[word], work[word + 1u]);
+    ivec2 high = ivec2(work[word + 2u], work[word + 3u]);
+    if (low.y > high.y) {
+        ivec2 former = low;
+        low = high;
+        high = former;
+    }
+    Mask mask = mask_at(push.masks + 4u * work[word + 4u]);
+    int end = min(row_from(high.y, push.bits), int(mask.height));
+    for (int row = max(row_from(low.y, push.bits), 0); row < end; ++row) {
+        uint count = samples_left(low, high, row_centre(row, push.bits), mask.width, push.bits);
+        if (count > 0u) {
+            uint last = count - 1u;
+            atomicXor(scratch[mask.first_word + uint(row) * mask.words_per_row + last / 32u],
+                      1u << (last & 31u));
+        }
+    }
+}

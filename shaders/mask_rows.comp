@@ -1,0 +1,35 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The fill of a mask, second half: one thread a row. A sample is inside where an odd number of marks
+// lie at or after it (odd-even rule).
+
+#include "masks.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant) uniform Push {
+    uint first;
+    uint end;
+    uint rows;  // where they start in the work
+} push;
+
+void main() {
+    uint index = push.first + gl_GlobalInvocationID.x;
+    if (index >= push.end) {
+        return;
+    }
+    uint first_word = work[push.rows + 2u * index];
+    uint beyond = 0u;  // all ones where an odd number of marks lie in the words after
+    for (uint i = work[push.rows + 2u * index + 1u]; i > 0u; --i) {
+        uint word = scratch[first_word + i - 1u];
+        word ^= word >> 1;
+        word ^= word >> 2;
+        word ^= word >> 4;
+        word ^= word >> 8;
+        word ^= word >> 16;
+        word ^= beyond;
+        scratch[first_word + i - 1u] = word;
+        beyond = (word & 1u) != 0u ? ~0u : 0u;
+    }
+}

@@ -1,0 +1,60 @@
+// Bit masks of tiles: the structures of engine/plan/compute_work.hpp, and which samples lie left of
+// an edge, decided exactly. Coordinates are integers, in sub-pixel steps.
+
+layout(std430, set = 0, binding = 0) readonly buffer Work {
+    uint work[];
+};
+
+layout(std430, set = 0, binding = 1) buffer Scratch {
+    uint scratch[];
+};
+
+struct Mask {
+    uint first_word;
+    uint words_per_row;
+    uint width;
+    uint height;
+};
+
+Mask mask_at(uint word) {
+    return Mask(work[word], work[word + 1u], work[word + 2u], work[word + 3u]);
+}
+
+// True where a * b > c * d, without loss.
+bool product_exceeds(int a, int b, int c, int d) {
+    int high_ab, low_ab, high_cd, low_cd;
+    imulExtended(a, b, high_ab, low_ab);
+    imulExtended(c, d, high_cd, low_cd);
+    return high_ab > high_cd || (high_ab == high_cd && uint(low_ab) > uint(low_cd));
+}
+
+// The samples of a row of `width` lie at x = column * 2^bits + half a step, and the row at y. How
+// many of them lie strictly left of the edge from `low` up to `high`, low.y < high.y: those with the
+// edge on the side of larger x. A guess in floats is put right in integers.
+uint samples_left(ivec2 low, ivec2 high, int y, uint width, uint bits) {
+    int half_cell = 1 << (bits - 1u);
+    ivec2 d = high - low;
+    int up = y - low.y;
+    float cell = float(1 << bits);
+    float crossing = (float(low.x) + float(d.x) * (float(up) / float(d.y))) / cell - 0.5;
+    int count = int(clamp(ceil(crossing), 0.0, float(width)));
+    while (count < int(width) &&
+           product_exceeds(d.x, up, d.y, (count << bits) + half_cell - low.x)) {
+        ++count;
+    }
+    while (count > 0 &&
+           !product_exceeds(d.x, up, d.y, ((count - 1) << bits) + half_cell - low.x)) {
+        --count;
+    }
+    return uint(count);
+}
+
+// The first row whose samples lie at or above y.
+int row_from(int y, uint bits) {
+    return (y + (1 << (bits - 1u)) - 1) >> bits;
+}
+
+// y of a row's samples.
+int row_centre(int row, uint bits) {
+    return (row << bits) + (1 << (bits - 1u));
+}

@@ -1,0 +1,199 @@
+#include <tests/query/field_laws.hpp>
+#include <tests/support/outlines.hpp>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 3141;
+
+std::vector<Vector2> points_in(Random& random, const Rectangle& box, int count) {
+    std::vector<Vector2> points{box.min, box.max, {box.min.x, box.max.y}};
+    for (int i = 0; i < count; ++i) {
+        points.push_back(
+            {random.between(box.min.x, box.max.x), random.between(box.min.y, box.max.y)});
+    }
+    return points;
+}
+
+/// Distance fields by the compute technique, held to the oracle and to the raster's signs.
+class ComputeFields : public FieldLaws {
+protected:
+    static void check(Context& context, const oracle::ShapeOracle& b, DistanceFieldQuery query) {
+        query.technique = Technique::raster;
+        const DistanceFieldResult drawn = run_alone(context, query);
+        query.technique = Technique::compute;
+        const DistanceFieldResult result = run_alone(context, query);
+        EXPECT_EQ(result.technique, Technique::compute);
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        ASSERT_EQ(drawn.values.size(), result.values.size());
+        Report report("signs of raster and compute");
+        for (std::size_t i = 0; i < drawn.values.size(); ++i) {
+            report.require(std::signbit(drawn.values[i]) == std::signbit(result.values[i]), "cell ",
+                           i, ": ", drawn.values[i], " and ", result.values[i]);
+        }
+        if (query.values) {
+            check_field(b, query.tolerance, result, 2000);
+        }
+        if (query.features && query.gradients && query.gradient == GradientMethod::analytic) {
+            check_cells(b, query, result, 1000);
+        }
+        if (query.gradients && query.gradient == GradientMethod::central_differences) {
+            check_differences(b, result, 1000);
+        }
+        check_points(b, query, result);
+    }
+
+    static void check(const Rings& rings, double tolerance, const Rectangle& box, bool features) {
+        const PlacedShape shape(context(), rings, {});
+        SCOPED_TRACE(to_text(rings));
+        DistanceFieldQuery query;
+        query.b = shape.instance();
+        query.tolerance = tolerance;
+        query.rectangle = box;
+        query.features = query.gradients = features;
+        check(context(), shape.oracle(), query);
+    }
+};
+
+TEST_F(ComputeFields, HoldForRandomShapesAndEveryPart) {
+    for_each_case(seed, 24, [&](Random& random) {
+        const AnyField field(context(), random);
+        SCOPED_TRACE(field.text());
+        DistanceFieldQuery query = field.query();
+        const auto points = points_in(random, field.rectangle(), 20);
+        if (random.whole(0, 1) == 0) {
+            query.points = points;
+        }
+        query.values = random.whole(0, 3) > 0;
+        query.features = random.whole(0, 1) == 0;
+        query.gradients = random.whole(0, 2) > 0;
+        query.gradient = random.whole(0, 1) == 0 ? GradientMethod::analytic
+                                                 : GradientMethod::central_differences;
+        query.sign = static_cast<SignEncoding>(random.whole(0, 2));
+        if (!query.values && !query.features && !query.gradients) {
+            query.points = points;
+        }
+        check(context(), field.oracle(), query);
+    });
+}
+
+TEST_F(ComputeFields, HoldForEveryFamilyAndARealOutline) {
+    for (const auto& [name, rings] : every_family(seed)) {
+        SCOPED_TRACE(name);
+        check(rings, 0.02, {{-1.3, -1.2}, {1.2, 1.3}}, false);
+        check(rings, 0.08, {{-1.3, -1.2}, {1.2, 1.3}}, true);
+    }
+    const Rings iceland = read_outline(NEARFIELD_TEST_DATA "/iceland_10m.geojson").rings;
+    check(iceland, 2.0, oracle::ShapeOracle(iceland, {}).box(), false);
+}
+
+TEST_F(ComputeFields, HoldWhereABlockCannotListAllItsEdges) {
+    // A comb of 30 teeth a cell, over all of a block's height.
+    const double d = 0.5;
+    const double cell = d * std::numbers::sqrt2;
+    Ring comb;
+    for (int i = 0; i < 600; ++i) {
+        comb.push_back({i * cell / 30.0, i % 2 == 0 ? 0.0 : 10.0 * cell});
+    }
+    comb.push_back({20.0 * cell, -cell});
+    comb.push_back({0.0, -cell});
+    for (const bool features : {false, true}) {
+        check({comb}, d, {{-3, -3}, {16, 10}}, features);
+    }
+}
+
+TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
+    Random random(seed);
+    const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
+    const double d = 1.0 / (60.0 * std::numbers::sqrt2);
+    check(shape, d, {{-20.0, 3.0}, {20.0, 3.05}}, false);
+    check(shape, d, {{-0.03, -20.0}, {0.03, 20.0}}, false);
+    check(shape, 0.5, {{500.0, -600.0}, {540.0, -580.0}}, false);
+    check(shape, 0.5, {{500.0, -600.0}, {520.0, -590.0}}, true);
+}
+
+TEST_F(ComputeFields, HoldOverManyRounds) {
+    // So little memory that a round has 256 x 256 cells.
+    Expected<Context> small = Context::create(host_device(), {.memory_limit = 24U << 20U});
+    ASSERT_TRUE(small.ok()) << small.status().text();
+    Random random(seed);
+    const PlacedShape shape(*small, star(random, 60, 0.4), {});
+    DistanceFieldQuery query;
+    query.b = shape.instance();
+    query.rectangle = Rectangle{{-1.1, -1.0}, {1.2, 1.1}};
+    query.tolerance = 0.004;
+    const auto points = points_in(random, *query.rectangle, 50);
+    check(*small, shape.oracle(), query);
+    query.points = points;
+    check(*small, shape.oracle(), query);
+}
+
+TEST_F(ComputeFields, StandBesideAllOtherQueriesInOneBatch) {
+    Random random(seed);
+    const Pair shapes{
+        {"A", star(random, 20, 0.5)}, {"B", star(random, 30, 0.4)}, {}, {{0.4, 0.2}, 0.5}, 0.04};
+    std::vector<std::unique_ptr<PlacedPair>> pairs;
+    Batch batch;
+    std::vector<QueryHandle<PenetrationQuery>> penetrations;
+    std::vector<QueryHandle<IntersectionQuery>> intersections;
+    std::vector<QueryHandle<ContactQuery>> contacts;
+    std::vector<QueryHandle<DistanceFieldQuery>> fields;
+    const std::array techniques{Technique::compute, Technique::raster, Technique::compute};
+    for (const Technique technique : techniques) {
+        const PlacedPair& pair =
+            *pairs.emplace_back(std::make_unique<PlacedPair>(context(), shapes, technique));
+        penetrations.push_back(batch.add(pair.penetration()));
+        IntersectionQuery intersection = pair.intersection(IntersectionKind::boundary_volume);
+        intersection.technique = technique;
+        intersections.push_back(batch.add(intersection));
+        ContactQuery by_gradient = pair.contacts(0.08);
+        by_gradient.normals = ContactNormals::gradient;
+        contacts.push_back(batch.add(by_gradient));
+        DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.04, std::nullopt};
+        field.technique = technique;
+        fields.push_back(batch.add(field));
+    }
+    Results results;
+    ASSERT_TRUE(context().run(batch, results).ok());
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        SCOPED_TRACE(i);
+        const PlacedPair& pair = *pairs[i];
+        EXPECT_EQ(results[intersections[i]].technique, techniques[i]);
+        EXPECT_EQ(results[fields[i]].technique, techniques[i]);
+        check_penetration(pair, PenetrationPoints::boundary, results[penetrations[i]]);
+        check_intersection(pair, IntersectionKind::boundary_volume, results[intersections[i]]);
+        EXPECT_EQ(results[intersections[i]].count, results[intersections[0]].count);
+        check_field(pair.b(), 0.04, results[fields[i]], 500);
+        ASSERT_TRUE(results[contacts[i]].status.ok()) << results[contacts[i]].status.text();
+        EXPECT_EQ(results[contacts[i]].count, results[contacts[0]].count);
+        EXPECT_GT(results[contacts[i]].count, 0U);
+    }
+    // The graph of the last round, which is the compute technique's.
+    const std::string graph = context().describe_graph(GraphFormat::text);
+    EXPECT_NE(graph.find("mark edges"), std::string::npos) << graph;
+}
+
+TEST_F(ComputeFields, BlendedGradientsAreRefusedByName) {
+    const PlacedShape shape(context(), regular(5), {});
+    DistanceFieldQuery query;
+    query.b = shape.instance();
+    query.tolerance = 0.1;
+    query.rectangle = Rectangle{{-1, -1}, {1, 1}};
+    query.gradients = true;
+    query.gradient = GradientMethod::blended;
+    query.technique = Technique::compute;
+    const Status status = run_alone(context(), query).status;
+    EXPECT_EQ(status.code(), StatusCode::invalid_query);
+    EXPECT_NE(status.message().find("compute does not answer gradients by blending"),
+              std::string::npos)
+        << status.message();
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,70 @@
+#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/segment.hpp>
+#include <engine/plan/part_edges.hpp>
+#include <engine/plan/simplified_shapes.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Vector;
+
+double distance(const Vector& point, const TileEdge& edge) {
+    return std::sqrt(geometry::nearest_on_segment(point, edge.a, edge.b).squared_distance);
+}
+
+TEST(PartEdges, ListTheNearestEdgeOfEveryPlace) {
+    constexpr std::uint32_t width = 77;
+    constexpr std::uint32_t height = 41;
+    std::size_t listed = 0;
+    std::size_t all = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        test::Random random(seed);
+        for (const test::NamedRings& shape : test::every_family(seed)) {
+            SCOPED_TRACE(shape.name + ", seed " + std::to_string(seed));
+            const double size = random.scale(3.0, 3e4);
+            geometry::Polygon polygon;
+            ASSERT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, size, {})).ok());
+            const Pose pose{{random.between(-0.9, 0.9) * size + 0.5 * width,
+                             random.between(-0.9, 0.9) * size + 0.5 * height},
+                            random.between(0.0, 7.0)};
+            SimplifiedShapes shapes;
+            const TileBoundary boundary(
+                shapes.get(polygon, 0.2, 64.0),
+                ToCells(geometry::PlacedPolygon(polygon, pose), Vector::Zero(), 1.0));
+            PartEdges parts;
+            parts.find(boundary, width, height, 0.0);
+            std::vector<TileEdge> edges;
+            for (std::uint32_t part = 0; part < PartEdges::along(width) * PartEdges::along(height);
+                 ++part) {
+                edges.clear();
+                parts.append(part, edges);
+                ASSERT_FALSE(edges.empty());
+                listed += edges.size();
+                all += boundary.size();
+                const double left = part % PartEdges::along(width) * PartEdges::side;
+                const double low = part / PartEdges::along(width) * PartEdges::side;
+                for (int i = 0; i < 40; ++i) {
+                    const Vector p(
+                        std::min<double>(left + random.between(0.0, PartEdges::side), width),
+                        std::min<double>(low + random.between(0.0, PartEdges::side), height));
+                    double nearest = distance(p, edges.front());
+                    for (const TileEdge& edge : edges) {
+                        nearest = std::min(nearest, distance(p, edge));
+                    }
+                    ASSERT_LE(nearest, boundary.distance(p) + 1e-9) << p.transpose();
+                }
+            }
+        }
+    }
+    EXPECT_LT(listed, all / 2) << "of " << all << " nothing is left out";
+}
+
+}  // namespace
+}  // namespace nearfield::plan
