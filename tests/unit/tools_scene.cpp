@@ -141,7 +141,7 @@ TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
 TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
     EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
               "query: \"depth\" is none of penetration, intersection, distance-field, contacts, "
-              "closest-point, separation");
+              "closest-point, separation, intersection-test");
     EXPECT_EQ(input_error([] { return parse_technique("compute", "--technique"); }),
               "--technique: this version does not answer by the technique compute");
     EXPECT_EQ(input_error([] { return parse_technique("gpu", "--technique"); }),
