@@ -1,6 +1,7 @@
 #include <engine/closest.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/nearest_feature.hpp>
+#include <engine/placed_pair.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@ namespace nearfield {
 namespace {
 
 using exact::ClosestPair;
+using exact::PlacedEdges;
 using geometry::PlacedPolygon;
 using geometry::Vector;
 using plan::PlannedQuery;
@@ -47,48 +49,108 @@ std::optional<Vector> vertex_inside(const PlacedPolygon& inner, const PlacedPoly
     return std::nullopt;
 }
 
-/// A point of both shapes, which intersect: where the boundaries meet, or else a vertex of the one
-/// in the other.
-Vector common_point(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPair& closest,
-                    double rounding) {
-    if (std::sqrt(closest.squared_distance) > rounding) {
-        for (const auto& vertex : {vertex_inside(a, b), vertex_inside(b, a)}) {
-            if (vertex) {
-                return *vertex;
-            }
+/// A vertex of either shape in the other; `otherwise` where there is none.
+Vector vertex_of_both(const PlacedPolygon& a, const PlacedPolygon& b, const Vector& otherwise) {
+    for (const auto& vertex : {vertex_inside(a, b), vertex_inside(b, a)}) {
+        if (vertex) {
+            return *vertex;
         }
     }
-    return closest.point_a;
+    return otherwise;
 }
 
-double rounding_of(const PlacedPolygon& a, const PlacedPolygon& b) {
-    return localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box());
+/// Whose closest point a query asks for.
+exact::Side side_of(const PlannedQuery& query) {
+    return std::holds_alternative<SeparationQuery>(*query.query) ? exact::Side::either
+                                                                 : exact::Side::a;
 }
 
-/// Everything a SeparationResult says beyond its summary.
-void write_pair(const PlannedQuery& query, const ClosestPair& pair, SeparationResult& result) {
+void write_common_point(const Vector& point, SeparationResult& result) {
+    result.point_a = result.point_b = geometry::to_public(point);
+}
+
+/// Everything a SeparationResult says of shapes that are apart beyond its summary, but for how many
+/// such pairs there are and what was rendered.
+void write_pair(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPair& pair,
+                SeparationResult& result) {
     result.distance = std::sqrt(pair.squared_distance);
     result.point_a = geometry::to_public(pair.point_a);
     result.point_b = geometry::to_public(pair.point_b);
     result.direction = geometry::to_public((pair.point_b - pair.point_a) / result.distance);
-    result.feature_a =
-        feature_at(PlacedPolygon(*query.a, query.pose_a), pair.edge_a, pair.parameter_a);
-    result.feature_b =
-        feature_at(PlacedPolygon(*query.b, query.pose_b), pair.edge_b, pair.parameter_b);
+    result.feature_a = feature_at(a, pair.edge_a, pair.parameter_a);
+    result.feature_b = feature_at(b, pair.edge_b, pair.parameter_b);
+    result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
 }
 
 }  // namespace
 
+void ClosestDecoder::find_common_point(const PlacedPolygon& a, const PlacedPolygon& b,
+                                       double rounding, SeparationResult& result) {
+    const ClosestPair closest = finder_.find(a, b, infinity);
+    const bool boundaries_meet = std::sqrt(closest.squared_distance) <= rounding;
+    write_common_point(boundaries_meet ? closest.point_a : vertex_of_both(a, b, closest.point_a),
+                       result);
+}
+
+void ClosestDecoder::answer_small(const PlannedQuery& query, const PlacedEdges& a,
+                                  const PlacedEdges& b, SeparationResult& result) {
+    exact::EdgePair met;
+    if (!result.intersects) {
+        const ClosestPair closest = edges_.find(a, b);
+        write_pair(a.placed, b.placed, closest, result);
+        result.sampled_distance = result.distance;
+        result.unique =
+            edges_.is_unique(a, b, closest, side_of(query),
+                             result.tolerance * plan::uniqueness_margin, result.tolerance);
+    } else if (meeting_.boundaries_meet(a, b, met)) {
+        write_common_point(geometry::closest_of_segments(a.start(met.first), a.end(met.first),
+                                                         b.start(met.second), b.end(met.second))
+                               .first,
+                           result);
+    } else {
+        write_common_point(vertex_of_both(a.placed, b.placed, a.start(0)), result);
+    }
+}
+
+void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& instances,
+                            SeparationResult& result) {
+    const InstancePairIndex pair = place_pair(query, instances);
+    const PlacedEdges& a = instances[pair.a];
+    const PlacedEdges& b = instances[pair.b];
+    if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
+        result.status = std::move(status);
+        return;
+    }
+    const double rounding = a.rounding + b.rounding;
+    result.error_bound = rounding + query.deviations.a + query.deviations.b;
+    result.intersects = meeting_.intersect(a, b);
+    if (is_small(a) && is_small(b)) {
+        answer_small(query, a, b, result);
+    } else if (result.intersects) {
+        find_common_point(a.placed, b.placed, rounding, result);
+    } else {
+        const ClosestPair closest = finder_.find(a.placed, b.placed, infinity);
+        write_pair(a.placed, b.placed, closest, result);
+        result.sampled_distance = result.distance;
+        result.unique = finder_.is_unique(
+            closest, side_of(query), result.tolerance * plan::uniqueness_margin, result.tolerance);
+    }
+}
+
 void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
-                            std::span<const std::uint32_t> words, SeparationResult& result) {
+                            std::span<const std::uint32_t> words, exact::PlacedInstances& instances,
+                            SeparationResult& result) {
+    if (query.on_cpu) {
+        answer(query, instances, result);
+        return;
+    }
     const PlacedPolygon a(*query.a, query.pose_a);
     const PlacedPolygon b(*query.b, query.pose_b);
-    const double rounding = rounding_of(a, b);
+    const double rounding =
+        localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box());
     result.error_bound = rounding + query.deviations.a + query.deviations.b;
     if (result.intersects) {
-        const ClosestPair closest = finder_.find(a, b, infinity);
-        result.point_a = geometry::to_public(common_point(a, b, closest, rounding));
-        result.point_b = result.point_a;
+        find_common_point(a, b, rounding, result);
         return;
     }
     double sampled = sampled_distance(plan, query, words);
@@ -96,21 +158,18 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
         sampled = std::min(sampled, sampled_distance(plan, plan.queries[query.reverse], words));
     }
     const ClosestPair closest = finder_.find(a, b, sampled);
-    write_pair(query, closest, result);
-    result.error_bound += 8.0 * std::numeric_limits<double>::epsilon() * result.distance;
-    result.sampled_distance = query.on_cpu ? result.distance : sampled;
-    const exact::Side side = std::holds_alternative<SeparationQuery>(*query.query)
-                                 ? exact::Side::either
-                                 : exact::Side::a;
-    result.unique = finder_.is_unique(closest, side, result.tolerance * plan::uniqueness_margin,
-                                      result.tolerance);
+    write_pair(a, b, closest, result);
+    result.sampled_distance = sampled;
+    result.unique = finder_.is_unique(closest, side_of(query),
+                                      result.tolerance * plan::uniqueness_margin, result.tolerance);
 }
 
 void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
-                            std::span<const std::uint32_t> words, ClosestPointResult& result) {
+                            std::span<const std::uint32_t> words, exact::PlacedInstances& instances,
+                            ClosestPointResult& result) {
     SeparationResult separation;
     static_cast<ResultSummary&>(separation) = std::move(static_cast<ResultSummary&>(result));
-    decode(plan, query, words, separation);
+    decode(plan, query, words, instances, separation);
     static_cast<ResultSummary&>(result) = std::move(static_cast<ResultSummary&>(separation));
     result.point = separation.point_a;
     result.nearest = separation.point_b;

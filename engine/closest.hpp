@@ -1,6 +1,8 @@
 #pragma once
 
+#include <engine/exact/closest_edges.hpp>
 #include <engine/exact/closest_pair.hpp>
+#include <engine/exact/meeting.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <nearfield/result.hpp>
@@ -16,12 +18,25 @@ class ClosestDecoder {
 public:
     /// `words` by point of the plan. Whether the shapes intersect stands in the result already.
     void decode(const plan::Plan& plan, const plan::PlannedQuery& query,
-                std::span<const std::uint32_t> words, ClosestPointResult& result);
+                std::span<const std::uint32_t> words, exact::PlacedInstances& instances,
+                ClosestPointResult& result);
     void decode(const plan::Plan& plan, const plan::PlannedQuery& query,
-                std::span<const std::uint32_t> words, SeparationResult& result);
+                std::span<const std::uint32_t> words, exact::PlacedInstances& instances,
+                SeparationResult& result);
 
 private:
+    /// Technique::cpu: all from the shapes themselves.
+    void answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
+                SeparationResult& result);
+    void answer_small(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
+                      const exact::PlacedEdges& b, SeparationResult& result);
+    /// Of shapes that intersect.
+    void find_common_point(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+                           double rounding, SeparationResult& result);
+
     exact::ClosestPairFinder finder_;
+    exact::ClosestEdges edges_;
+    exact::MeetingFinder meeting_;
 };
 
 }  // namespace nearfield

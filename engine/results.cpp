@@ -59,6 +59,7 @@ bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultS
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
+    instances_.clear();
     vertices_.begin_batch();
     fields_.begin_batch(plan);
 }
@@ -110,7 +111,7 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     if (planned.on_cpu &&
         std::get<PenetrationQuery>(*planned.query).points == PenetrationPoints::vertices) {
-        vertices_.answer(planned, result);
+        vertices_.answer(planned, instances_, result);
         return;
     }
     resolver_.begin(plan, planned);
@@ -194,11 +195,15 @@ void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
             }
         } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {
             if (closest->status.ok()) {
-                closest_.decode(plan, planned, words_, *closest);
+                closest_.decode(plan, planned, words_, instances_, *closest);
             }
         } else if (auto* separation = std::get_if<SeparationResult>(&results[i])) {
             if (separation->status.ok()) {
-                closest_.decode(plan, planned, words_, *separation);
+                closest_.decode(plan, planned, words_, instances_, *separation);
+            }
+        } else if (auto* test = std::get_if<IntersectionTestResult>(&results[i])) {
+            if (test->status.ok()) {
+                intersection_test_.answer(planned, instances_, *test);
             }
         }
     }

@@ -2,8 +2,10 @@
 
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
+#include <engine/exact/placed_edges.hpp>
 #include <engine/exact_points.hpp>
 #include <engine/field_results.hpp>
+#include <engine/intersection_test.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/point_resolver.hpp>
@@ -63,9 +65,11 @@ private:
     std::vector<std::uint32_t> words_;  // by point of the plan
     ExactPoints exact_points_;
     PointResolver resolver_;
+    exact::PlacedInstances instances_;  // of the batch, as far as the CPU alone answers
     VertexPenetration vertices_;
     ContactDecoder contacts_;
     ClosestDecoder closest_;
+    IntersectionTest intersection_test_;
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
 };

@@ -97,6 +97,9 @@ struct Estimate {
 
     Work operator()(const ClosestPointQuery&) const { return {&TechniqueCost::closest, edges()}; }
     Work operator()(const SeparationQuery&) const { return {&TechniqueCost::closest, edges()}; }
+    Work operator()(const IntersectionTestQuery&) const {
+        return {&TechniqueCost::closest, edges()};
+    }
 
     Work operator()(const IntersectionQuery& query) const {
         const Box box =

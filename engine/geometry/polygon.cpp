@@ -45,11 +45,48 @@ bool usable(const Vector2& v) {
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
 }
 
-Status check_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
-    const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
-    if (bad == vertices.end()) {
-        return {};
+/// The box of a ring's vertices, which is kept in registers.
+struct Range {
+    Vector low;
+    Vector high;
+    Vector sum;  ///< no number where a coordinate is none
+
+    explicit Range(std::span<const Vector2> vertices) {
+        double low_x = vertices.front().x;
+        double low_y = vertices.front().y;
+        double high_x = low_x;
+        double high_y = low_y;
+        double sum_x = 0.0;
+        double sum_y = 0.0;
+        for (const auto& [x, y] : vertices) {
+            low_x = x < low_x ? x : low_x;
+            low_y = y < low_y ? y : low_y;
+            high_x = x > high_x ? x : high_x;
+            high_y = y > high_y ? y : high_y;
+            sum_x += x;
+            sum_y += y;
+        }
+        low = {low_x, low_y};
+        high = {high_x, high_y};
+        sum = {sum_x, sum_y};
     }
+
+    [[nodiscard]] bool usable() const {
+        return sum.allFinite() && magnitude() <= largest_coordinate;
+    }
+    /// The largest coordinate.
+    [[nodiscard]] double magnitude() const {
+        return low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+    }
+    /// The largest difference of a coordinate from that of a vertex.
+    [[nodiscard]] double reach_from(const Vector& vertex) const {
+        return (high - vertex).cwiseMax(vertex - low).maxCoeff();
+    }
+};
+
+/// Says which vertex of a ring cannot be used; there is one.
+Status bad_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
+    const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
     const std::string error_of_x = coordinate_error(bad->x);
     const std::string what =
         error_of_x.empty() ? "y " + coordinate_error(bad->y) : "x " + error_of_x;
@@ -76,22 +113,17 @@ double largest_of(const Vector2& v) {
 /// The line goes through the first vertex and the one farthest from it, so its two points are at
 /// least half the ring's extent apart and their own rounding does not swing it by more. Area would
 /// be no test: a bow tie has none. Precondition: at least two different vertices.
-bool on_one_line(std::span<const Vector2> vertices) {
+bool on_one_line(std::span<const Vector2> vertices, const Range& range) {
     const Vector2 origin = vertices.front();
-    const auto from_origin = [&](const Vector2& v) {
+    const auto from_origin = [origin](const Vector2& v) {
         return Vector2{v.x - origin.x, v.y - origin.y};
     };
-    Vector2 along;
-    double extent = 0.0;
-    double magnitude = 0.0;
-    for (const Vector2& v : vertices) {
-        const Vector2 d = from_origin(v);
-        if (largest_of(d) > extent) {
-            extent = largest_of(d);
-            along = d;
-        }
-        magnitude = std::max(magnitude, largest_of(v));
-    }
+    const double extent = range.reach_from(to_vector(origin));
+    const double magnitude = range.magnitude();
+    const auto farthest = std::find_if(vertices.begin(), vertices.end(), [&](const Vector2& v) {
+        return largest_of(from_origin(v)) == extent;
+    });
+    Vector2 along = from_origin(*farthest);
     // Divided by the extent first: the products of a tiny ring must not underflow.
     along = {along.x / extent, along.y / extent};
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * (magnitude / extent);
@@ -101,7 +133,8 @@ bool on_one_line(std::span<const Vector2> vertices) {
     });
 }
 
-Status check(std::span<const Ring> rings) {
+/// Grows the box to hold the rings.
+Status check(std::span<const Ring> rings, Box& box) {
     if (rings.empty()) {
         return invalid("the shape has no ring");
     }
@@ -115,13 +148,19 @@ Status check(std::span<const Ring> rings) {
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
         const std::span<const Vector2> vertices = open_ring(rings[r]);
-        if (Status status = check_coordinates(r, vertices); !status.ok()) {
-            return status;
+        if (vertices.empty()) {
+            return invalid(ring_name(r) + " has fewer than three different vertices");
         }
+        const Range range(vertices);
+        if (!range.usable()) {
+            return bad_coordinates(r, vertices);
+        }
+        box.extend(range.low);
+        box.extend(range.high);
         if (!has_three_different(vertices)) {
             return invalid(ring_name(r) + " has fewer than three different vertices");
         }
-        if (on_one_line(vertices)) {
+        if (on_one_line(vertices, range)) {
             return invalid(ring_name(r) + " lies on one line");
         }
     }
@@ -131,7 +170,8 @@ Status check(std::span<const Ring> rings) {
 }  // namespace
 
 Status Polygon::assign(std::span<const Ring> rings, double deviation) {
-    if (Status status = check(rings); !status.ok()) {
+    Box box;
+    if (Status status = check(rings, box); !status.ok()) {
         return status;
     }
     if (!(deviation >= 0.0 && deviation <= largest_coordinate)) {
@@ -140,13 +180,8 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
                        number(largest_coordinate));
     }
     std::size_t total = 0;
-    Box box;
     for (const Ring& ring : rings) {
-        const std::span<const Vector2> vertices = open_ring(ring);
-        total += vertices.size();
-        for (const Vector2& v : vertices) {
-            box.extend(to_vector(v));
-        }
+        total += open_ring(ring).size();
     }
     // Memory first: should there be none, the polygon is still what it was.
     vertices_.reserve(total);
@@ -154,13 +189,14 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
 
     centre_ = 0.5 * (box.min() + box.max());
     deviation_ = deviation;
-    vertices_.clear();
+    vertices_.resize(total);
     ring_ends_.clear();
+    std::uint32_t end = 0;
     for (const Ring& ring : rings) {
         for (const Vector2& v : open_ring(ring)) {
-            vertices_.push_back(to_vector(v) - centre_);
+            vertices_[end++] = to_vector(v) - centre_;
         }
-        ring_ends_.push_back(size());
+        ring_ends_.push_back(end);
     }
     return {};
 }

@@ -12,8 +12,24 @@ struct NearestOnSegment {
 };
 
 /// The point of segment ab nearest to p. A segment of no length is its point a.
-[[nodiscard]] NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a,
-                                                  const Vector& b);
+[[nodiscard]] inline NearestOnSegment nearest_on_segment(const Vector& p, const Vector& a,
+                                                         const Vector& b) {
+    const Vector along = b - a;
+    const double along_of_p = along.dot(p - a);
+    const double squared_length = along.squaredNorm();
+    // Both ends are returned as they are, so that a caller can tell a vertex from an edge.
+    if (!(along_of_p > 0.0) || squared_length == 0.0) {
+        return {a, 0.0, (p - a).squaredNorm()};
+    }
+    if (along_of_p >= squared_length) {
+        return {b, 1.0, (p - b).squaredNorm()};
+    }
+    const double parameter = along_of_p / squared_length;
+    // From the nearer end, where less is lost.
+    const Vector point =
+        parameter < 0.5 ? Vector(a + parameter * along) : Vector(b - (1.0 - parameter) * along);
+    return {point, parameter, (p - point).squaredNorm()};
+}
 
 /// The points of two segments that are closest to each other.
 struct ClosestOfSegments {

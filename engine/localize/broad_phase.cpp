@@ -34,18 +34,19 @@ void BroadPhase::find(std::span<const Box> boxes, double reach, std::vector<Pair
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
         return boxes[i].min()[axis] < boxes[j].min()[axis];
     });
-    active_.clear();
+    // Next to each other, as they are swept over.
+    sorted_.clear();
     for (const std::uint32_t index : order_) {
-        const Box& box = boxes[index];
-        std::erase_if(active_, [&](std::uint32_t other) {
-            return boxes[other].max()[axis] + reach < box.min()[axis];
-        });
-        for (const std::uint32_t other : active_) {
-            if (boxes_meet(box, boxes[other], reach)) {
-                pairs.emplace_back(std::min(index, other), std::max(index, other));
+        sorted_.push_back(boxes[index]);
+    }
+    for (std::size_t i = 0; i < sorted_.size(); ++i) {
+        const Box& box = sorted_[i];
+        const double end = box.max()[axis] + reach;
+        for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].min()[axis] <= end; ++j) {
+            if (boxes_meet(sorted_[j], box, reach)) {
+                pairs.emplace_back(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
             }
         }
-        active_.push_back(index);
     }
     std::sort(pairs.begin(), pairs.end());
 }

@@ -21,7 +21,7 @@ public:
 
 private:
     std::vector<std::uint32_t> order_;   // positions by low end along the axis
-    std::vector<std::uint32_t> active_;  // those that may still meet the one at hand
+    std::vector<geometry::Box> sorted_;  // in that order
 };
 
 }  // namespace nearfield::localize

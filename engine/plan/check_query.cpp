@@ -56,12 +56,10 @@ Status check_pose(const Pose& pose, std::string_view whose) {
     if (!std::isfinite(pose.angle)) {
         return invalid("the angle of " + std::string(whose) + "'s pose is " + number(pose.angle));
     }
-    for (const auto& [name, value] :
-         {std::pair("x", pose.translation.x), std::pair("y", pose.translation.y)}) {
-        if (!is_usable(value)) {
-            return unusable(value,
-                            "the " + std::string(name) + " of " + std::string(whose) + "'s pose");
-        }
+    const auto& [x, y] = pose.translation;
+    if (!is_usable(x) || !is_usable(y)) {
+        return unusable(is_usable(x) ? y : x, std::string("the ") + (is_usable(x) ? "y" : "x") +
+                                                  " of " + std::string(whose) + "'s pose");
     }
     return {};
 }
@@ -111,8 +109,10 @@ Status check_pair(const Query& query) {
     if (Status status = check_technique(query); !status.ok()) {
         return status;
     }
-    if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
-        return status;
+    if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
+        if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
+            return status;
+        }
     }
     if (Status status = check_pose(query.a.pose, "A"); !status.ok()) {
         return status;

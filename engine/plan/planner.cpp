@@ -36,7 +36,9 @@ Result& reuse(AnyResult& any) {
         any.emplace<Result>();
     }
     auto& result = std::get<Result>(any);
-    result.status = {};
+    if (!result.status.ok()) {
+        result.status = {};
+    }
     result.error_bound = 0.0;
     result.intersects = false;
     result.regions.clear();
@@ -99,18 +101,22 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         PlannedQuery& planned = plan.queries[query_];
-        planned = {};
         query_bytes_ = 0.0;
         planned.query = &queries[query_];
         std::visit(
             [&](const auto& query) {
                 using Query = std::decay_t<decltype(query)>;
                 auto& result = reuse<typename ResultOf<Query>::type>(results[query_]);
-                result.tolerance = query.tolerance;
+                if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
+                    result.tolerance = query.tolerance;
+                }
                 result.technique = query.technique;
                 planned.on_cpu = result.technique == Technique::cpu;
                 planned.by_compute = result.technique == Technique::compute;
-                result.status = check_query(queries[query_]);
+                // Success is not copied: it is what thousands of queries have in common.
+                if (Status status = check_query(queries[query_]); !status.ok()) {
+                    result.status = std::move(status);
+                }
                 planned.a = find_shape(query.a.shape);
                 planned.b = find_shape(query.b.shape);
                 planned.pose_a = query.a.pose;

@@ -58,6 +58,8 @@ private:
     void add(const ContactQuery& query, ContactResult& result);
     void add(const ClosestPointQuery& query, ClosestPointResult& result);
     void add(const SeparationQuery& query, SeparationResult& result);
+    /// There is nothing to plan: IntersectionTest answers it.
+    void add(const IntersectionTestQuery& /*query*/, IntersectionTestResult& /*result*/) {}
 
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);

@@ -47,10 +47,12 @@ bool Planner::check_numbers(ResultSummary& result) const {
 
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = penetration_budget(query, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
+    const ErrorBudget budget = penetration_budget(query, planned.deviations);
+    result.error_bound = budget.bound;
+    result.cell = budget.cell;
     if (planned.on_cpu && query.points == PenetrationPoints::vertices) {
+        // Nothing is sampled: of the budget the bound alone is asked for.
+        planned.budget.bound = budget.bound;
         // VertexPenetration finds them itself; for whom keeps records, where they can be.
         if (query.records) {
             require_memory(sizeof(PenetrationRecord) * static_cast<double>(planned.a->size()),
@@ -65,6 +67,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         }
         return;
     }
+    planned.budget = budget;
     const PlacedPolygon a(*planned.a, query.a.pose);
     const PlacedPolygon b(*planned.b, query.b.pose);
     if (!check_numbers(result)) {
@@ -196,8 +199,8 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     planned.budget = search_budget(tolerance);
     planned.outside = true;
     result.cell = planned.budget.cell;
-    if (!check_numbers(result)) {
-        return;
+    if (planned.on_cpu || !check_numbers(result)) {
+        return;  // ClosestDecoder does all of the rest on the CPU
     }
     const Stopwatch start;
     localize::Effort effort;
@@ -207,8 +210,8 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     chains_.clear();
     count(effort, result);
     localize_milliseconds_ += start.milliseconds();
-    if (result.intersects || planned.on_cpu) {
-        return;  // at distance 0, or left to the exact search: nothing to render
+    if (result.intersects) {
+        return;  // at distance 0: nothing to render
     }
     const std::uint32_t reverse = both_ways ? add_reverse() : PlannedQuery::none;
     double samples = find_closest_chains(query_, closest_chains_[0], result);

@@ -26,6 +26,11 @@ template <class Query>
             return "intersections";
         }
     }
+    if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
+        if (technique != Technique::cpu && technique != Technique::automatic) {
+            return "intersection tests";
+        }
+    }
     if constexpr (std::is_same_v<Query, ContactQuery>) {
         if (technique == Technique::cpu && query.normals == ContactNormals::gradient) {
             return "contacts with normals by gradient";

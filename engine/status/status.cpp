@@ -37,8 +37,8 @@ const char* to_string(StatusCode code) noexcept {
 }
 
 std::string Status::text() const {
-    std::string text = std::string(to_string(code_)) + ": " + message_;
-    for (const std::string& reason : reasons_) {
+    std::string text = std::string(to_string(code_)) + ": " + message();
+    for (const std::string& reason : reasons()) {
         text += "\n  - " + reason;
     }
     return text;

@@ -24,8 +24,9 @@ inline constexpr double most_deviation = 0.25;
 /// d/1000, the same sides but for points that touch the other boundary. Raster and compute find the
 /// same samples of an intersection and the same signs of a distance field, bit for bit.
 enum class Technique {
-    /// Penetration, closest point and separation, and contacts with analytic normals: cpu. Fields,
-    /// intersections and contacts with gradient normals: raster. docs/performance.md has the
+    /// Penetration, closest point, separation and intersection tests, and contacts with analytic
+    /// normals: cpu. Fields, intersections and contacts with gradient normals: raster.
+    /// docs/performance.md has the
     /// measurements behind it.
     automatic,
     /// The paper's: fields drawn on the device, refined on the CPU.
@@ -193,6 +194,15 @@ struct SeparationQuery {
     Technique technique = Technique::automatic;
 };
 
+/// Whether the closed shapes A and B share a point: the answer is ResultSummary::intersects and
+/// nothing else. Exact up to the rounding of placed vertices, so no tolerance is asked for. Always
+/// answered on the CPU (Technique::automatic or cpu): raster is refused (invalid_query).
+struct IntersectionTestQuery {
+    Instance a;
+    Instance b;
+    Technique technique = Technique::automatic;
+};
+
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
@@ -200,7 +210,7 @@ struct QueryHandle {
 };
 
 using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
-                              ClosestPointQuery, SeparationQuery>;
+                              ClosestPointQuery, SeparationQuery, IntersectionTestQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so a batch that is filled anew each
 /// frame does not allocate. Not thread-safe; different batches are independent.

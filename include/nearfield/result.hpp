@@ -216,6 +216,11 @@ struct SeparationResult : ResultSummary {
     double sampled_distance = 0.0;  ///< of the points of both that were rendered
 };
 
+/// Answer to an IntersectionTestQuery: `intersects`. Shapes whose distance is at most
+/// `error_bound`, the rounding of their placed vertices and their deviations, may be said to
+/// intersect or not; exact but for that. Tolerance and cell are 0.
+struct IntersectionTestResult : ResultSummary {};
+
 /// Time one pass took on the device.
 struct PassTime {
     std::string name;
@@ -236,8 +241,9 @@ struct Timings {
     std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
 };
 
-using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
-                               ContactResult, ClosestPointResult, SeparationResult>;
+using AnyResult =
+    std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult, ContactResult,
+                 ClosestPointResult, SeparationResult, IntersectionTestResult>;
 
 template <class Query>
 struct ResultOf;
@@ -265,6 +271,11 @@ struct ResultOf<ClosestPointQuery> {
 template <>
 struct ResultOf<SeparationQuery> {
     using type = SeparationResult;
+};
+
+template <>
+struct ResultOf<IntersectionTestQuery> {
+    using type = IntersectionTestResult;
 };
 
 /// The results of one batch, in the order of its queries. Reusing one object for every frame keeps

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,20 +42,33 @@ public:
     /// An error. `message` says what failed, where and why; `reasons` lists each cause where
     /// there can be several (all the features a device lacks, say).
     Status(StatusCode code, std::string message, std::vector<std::string> reasons = {})
-        : code_(code), message_(std::move(message)), reasons_(std::move(reasons)) {}
+        : code_(code),
+          words_(std::make_shared<const Words>(Words{std::move(message), std::move(reasons)})) {}
 
     [[nodiscard]] bool ok() const noexcept { return code_ == StatusCode::ok; }
     [[nodiscard]] StatusCode code() const noexcept { return code_; }
-    [[nodiscard]] const std::string& message() const noexcept { return message_; }
-    [[nodiscard]] const std::vector<std::string>& reasons() const noexcept { return reasons_; }
+    [[nodiscard]] const std::string& message() const noexcept { return words().message; }
+    [[nodiscard]] const std::vector<std::string>& reasons() const noexcept {
+        return words().reasons;
+    }
 
     /// Code, message and reasons in one text, a reason a line.
     [[nodiscard]] std::string text() const;
 
 private:
+    struct Words {
+        std::string message;
+        std::vector<std::string> reasons;
+    };
+
+    [[nodiscard]] const Words& words() const noexcept {
+        static const Words none;
+        return words_ ? *words_ : none;
+    }
+
     StatusCode code_ = StatusCode::ok;
-    std::string message_;
-    std::vector<std::string> reasons_;
+    // Kept elsewhere: success, which is checked for every query, is to cost nothing.
+    std::shared_ptr<const Words> words_;
 };
 
 /// A value, or the error that stands in its place.

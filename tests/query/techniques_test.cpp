@@ -289,6 +289,7 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
             batch.add(
                 PenetrationQuery{a, b, 0.01, PenetrationPoints::boundary, true, Technique::cpu});
             batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
+            batch.add(IntersectionTestQuery{a, b});
             batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});
             batch.add(
                 ContactQuery{a, b, 0.01, 0.02, ContactNormals::analytic, true, Technique::cpu});

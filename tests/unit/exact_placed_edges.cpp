@@ -1,5 +1,6 @@
 #include "shape_samples.hpp"
 
+#include <engine/exact/meeting.hpp>
 #include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/overlap.hpp>
@@ -56,57 +57,68 @@ TEST(PlacedEdges, AreThePolygonsOwn) {
 TEST(PlacedEdges, ContainAndFindTheNearestAsOneByOne) {
     for_each_shape(
         [](const PlacedEdges& edges, const PlacedPolygon& placed, samples::Random& random) {
-            std::vector<double> squared(edges.count + 2);
+            std::vector<std::uint32_t> near(padded(edges.count));
             int inside = 0;
             for (int i = 0; i < 200; ++i) {
                 const Vector point = any_point(placed, random);
-                const bool contained = contains(edges, point);
+                const bool contained = kernels::contain(edges, point.x(), point.y());
                 EXPECT_EQ(contained, geometry::contains(placed, point));
                 inside += contained ? 1 : 0;
-                const std::uint32_t nearest = find_nearest(edges, point, squared);
-                ASSERT_LT(nearest, edges.count);
+                const NearEdge nearest = kernels::find_nearest(edges, point.x(), point.y());
+                ASSERT_LT(nearest.edge, edges.count);
                 double least = std::numeric_limits<double>::infinity();
+                std::vector<std::uint32_t> expected;
+                const double limit = random.between(0.0, 2.0);
                 for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
                     const double distance =
                         geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
                             .squared_distance;
-                    EXPECT_NEAR(squared[edge], distance, 1e-12);
                     least = std::min(least, distance);
+                    if (distance <= limit) {
+                        expected.push_back(edge);
+                    }
                 }
-                EXPECT_NEAR(squared[nearest], least, 1e-12);
+                EXPECT_NEAR(nearest.squared, least, 1e-12);
+                EXPECT_NEAR(geometry::nearest_on_segment(point, edges.start(nearest.edge),
+                                                         edges.end(nearest.edge))
+                                .squared_distance,
+                            least, 1e-12);
+                near.resize(padded(edges.count));
+                near.resize(
+                    kernels::find_edges_within(edges, point.x(), point.y(), limit, near.data()));
+                EXPECT_EQ(near, expected);
             }
             EXPECT_LT(inside, 200);
         });
 }
 
 TEST(PlacedEdges, SelectTheVerticesInABox) {
-    for_each_shape([](const PlacedEdges& edges, const PlacedPolygon& placed,
-                      samples::Random& random) {
-        for (int i = 0; i < 20; ++i) {
-            Box box(any_point(placed, random));
-            box.extend(any_point(placed, random));
-            std::vector<std::uint32_t> found;
-            for (std::uint32_t first = 0; first < edges.count; first += most_edges_one_by_one) {
-                const Selection selection = vertices_in(edges, first, box);
-                found.insert(found.end(), selection.indices().begin(), selection.indices().end());
-            }
-            std::vector<std::uint32_t> expected;
-            for (std::uint32_t v = 0; v < edges.count; ++v) {
-                if (box.contains(edges.start(v))) {
-                    expected.push_back(v);
+    for_each_shape(
+        [](const PlacedEdges& edges, const PlacedPolygon& placed, samples::Random& random) {
+            for (int i = 0; i < 20; ++i) {
+                Box box(any_point(placed, random));
+                box.extend(any_point(placed, random));
+                std::vector<std::uint32_t> found(padded(edges.count));
+                found.resize(kernels::find_points_in(edges.starts(), extent_of(box), found.data()));
+                std::vector<std::uint32_t> expected;
+                for (std::uint32_t v = 0; v < edges.count; ++v) {
+                    if (box.contains(edges.start(v))) {
+                        expected.push_back(v);
+                    }
                 }
+                EXPECT_EQ(found, expected);
             }
-            EXPECT_EQ(found, expected);
-        }
-    });
+        });
 }
 
 TEST(PlacedEdges, MeetAsTheHierarchySays) {
     samples::Random random(78);
+    MeetingFinder finder;
     int met = 0;
     int tried = 0;
     while (tried < 1000) {
-        const auto size_a = static_cast<std::uint32_t>(random.between(3.0, 90.0));
+        const auto size_a =
+            static_cast<std::uint32_t>(random.between(3.0, tried % 8 == 0 ? 400.0 : 90.0));
         const auto size_b = static_cast<std::uint32_t>(random.between(3.0, 40.0));
         const Polygon a = samples::polygon({samples::star(random, size_a, 0.3, 1.0)});
         const Polygon b = samples::polygon({samples::star(random, size_b, 0.1, 0.6)});
@@ -114,18 +126,21 @@ TEST(PlacedEdges, MeetAsTheHierarchySays) {
         PlacedInstances instances;
         const std::uint32_t index_a = instances.place(a, {});
         const std::uint32_t index_b = instances.place(b, pose);
-        const PlacedEdges edges_a = instances[index_a];
-        const PlacedEdges edges_b = instances[index_b];
+        const PlacedEdges& edges_a = instances[index_a];
+        const PlacedEdges& edges_b = instances[index_b];
+        const bool meets = localize::intersects(edges_a.placed, edges_b.placed);
+        EXPECT_EQ(finder.intersect(edges_a, edges_b), meets);
+        EXPECT_EQ(finder.intersect(edges_b, edges_a), meets);
         bool vertex_inside = false;
         for (std::uint32_t v = 0; v < edges_a.count; ++v) {
-            vertex_inside = vertex_inside || contains(edges_b, edges_a.start(v));
+            vertex_inside =
+                vertex_inside || kernels::contain(edges_b, edges_a.start_x[v], edges_a.start_y[v]);
         }
         if (vertex_inside) {
             continue;
         }
-        const bool meet = meet_without_vertex_inside(edges_a, edges_b);
-        EXPECT_EQ(meet, localize::intersects(edges_a.placed, edges_b.placed));
-        met += meet ? 1 : 0;
+        EXPECT_EQ(finder.intersect_without_vertex_inside(edges_a, edges_b), meets);
+        met += meets ? 1 : 0;
         ++tried;
     }
     EXPECT_GT(met, 40);

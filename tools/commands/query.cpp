@@ -91,10 +91,11 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     if (!arguments.at.empty()) {
         refuse_option(arguments.at.front(), "--at", request, QueryType::distance_field);
     }
-    if (!arguments.tolerance) {
+    if (arguments.tolerance) {
+        request.tolerance = parse_positive(*arguments.tolerance, "-d");
+    } else if (request.type != QueryType::intersection_test) {
         throw InputError("-d: the tolerance is required");
     }
-    request.tolerance = parse_positive(*arguments.tolerance, "-d");
     if (arguments.technique) {
         request.technique = parse_technique(*arguments.technique, "--technique");
     }
@@ -138,6 +139,9 @@ PlacedOutline place(const Outline& outline, double deviation,
 double parse_deviation(const QueryArguments& arguments, const QueryRequest& request,
                        const Outline& a, const Outline& b) {
     if (!arguments.deviation) {
+        if (request.tolerance == 0.0 && (a.curved() || b.curved())) {
+            throw InputError("--deviation: required for curves where there is no tolerance");
+        }
         return usual_deviation * request.tolerance;
     }
     const double deviation = parse_positive(*arguments.deviation, "--deviation");
@@ -314,7 +318,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "contacts: the points of either boundary that are close to the other, and "
                      "the normals of B there;\n"
                      "closest-point: the point of A that is closest to B;\n"
-                     "separation: the least distance between A and B, and where it is")
+                     "separation: the least distance between A and B, and where it is;\n"
+                     "intersection-test: whether A and B share a point")
         ->required()
         ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
     command->add_option("A", arguments.file_a, "Outline A: GeoJSON, WKT, SVG or SVG path data file")
@@ -323,7 +328,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->required();
     command
         ->add_option("-d", arguments.tolerance,
-                     "Tolerance, world units, > 0: half the diagonal of a grid cell; required")
+                     "Tolerance, world units, > 0: half the diagonal of a grid cell; required but "
+                     "for intersection-test, which is exact")
         ->type_name("TOLERANCE");
     command
         ->add_option("--deviation", arguments.deviation,
@@ -340,8 +346,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("X,Y,DEGREES");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, compute, cpu or automatic; default automatic: cpu for penetration, contacts, "
-                     "closest-point and separation, raster for the rest")
+                     "raster, compute, cpu or automatic; default automatic: whatever is quickest for "
+                     "the query on this device, see nearfield calibrate")
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,

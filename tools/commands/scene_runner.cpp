@@ -20,6 +20,15 @@ void set_technique(Scene& scene, std::optional<Technique> technique) {
     }
 }
 
+namespace {
+
+/// True where A and B may change places: once is enough then.
+bool is_symmetric(QueryType type) {
+    return type == QueryType::separation || type == QueryType::intersection_test;
+}
+
+}  // namespace
+
 SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
     : scene_(scene), file_(std::move(file)), context_(context) {
     for (const SceneShape& shape : scene_.shapes) {
@@ -68,7 +77,7 @@ void SceneRunner::add_all_pairs(std::size_t query) {
     require(context_.find_pairs(instances_, reach, pairs_), file_);
     for (const InstancePair& pair : pairs_) {
         add(query, pair.first, pair.second);
-        if (request.type != QueryType::separation) {
+        if (!is_symmetric(request.type)) {
             add(query, pair.second, pair.first);
         }
     }

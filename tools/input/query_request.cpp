@@ -12,13 +12,14 @@ namespace {
 template <class Value>
 using Named = std::pair<std::string_view, Value>;
 
-constexpr std::array<Named<QueryType>, 6> query_types{{
+constexpr std::array<Named<QueryType>, 7> query_types{{
     {"penetration", QueryType::penetration},
     {"intersection", QueryType::intersection},
     {"distance-field", QueryType::distance_field},
     {"contacts", QueryType::contacts},
     {"closest-point", QueryType::closest_point},
     {"separation", QueryType::separation},
+    {"intersection-test", QueryType::intersection_test},
 }};
 constexpr std::array<Named<Technique>, 4> techniques{{
     {"automatic", Technique::automatic},
@@ -166,6 +167,9 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             break;
         case QueryType::separation:
             batch.add(SeparationQuery{a, b, request.tolerance, request.technique});
+            break;
+        case QueryType::intersection_test:
+            batch.add(IntersectionTestQuery{a, b, request.technique});
             break;
     }
 }

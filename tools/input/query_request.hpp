@@ -16,7 +16,8 @@ enum class QueryType {
     distance_field,
     contacts,
     closest_point,
-    separation
+    separation,
+    intersection_test
 };
 
 /// What the picture of a distance field shows.
@@ -25,7 +26,7 @@ enum class FieldPicture { field, voronoi, gradient };
 /// One query as a person or a scene asks for it: all but its two shapes.
 struct QueryRequest {
     QueryType type = QueryType::penetration;
-    double tolerance = 0.0;
+    double tolerance = 0.0;  ///< 0 where none is given, which intersection-test alone allows
     Technique technique = Technique::automatic;
     PenetrationPoints points = PenetrationPoints::boundary;         ///< of penetration
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection

@@ -77,12 +77,12 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
         const bool takes_part = query.all_pairs ? is_placed
                                                 : scene.instances[query.a].shape == shape ||
                                                       scene.instances[query.b].shape == shape;
-        if (takes_part) {
+        if (takes_part && query.request.tolerance > 0.0) {
             smallest = std::min(smallest, query.request.tolerance);
         }
     }
     if (!std::isfinite(smallest)) {
-        place.fail("has curves and is in no query; needs \"deviation\"");
+        place.fail("has curves and is in no query with a tolerance; needs \"deviation\"");
     }
     return usual_deviation * smallest;
 }
@@ -160,7 +160,9 @@ void read_field_request(const JsonPlace& place, QueryRequest& request) {
 QueryRequest read_request(const JsonPlace& place) {
     QueryRequest request;
     request.type = parse_member(place, "query", parse_query_type);
-    request.tolerance = read_above_zero(place.member("tolerance"));
+    if (request.type != QueryType::intersection_test || place.has("tolerance")) {
+        request.tolerance = read_above_zero(place.member("tolerance"));
+    }
     if (place.has("technique")) {
         request.technique = parse_member(place, "technique", parse_technique);
     }
@@ -206,6 +208,9 @@ QueryRequest read_request(const JsonPlace& place) {
         case QueryType::separation:
             require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
                                           "technique", "strategy", "records"});
+            break;
+        case QueryType::intersection_test:
+            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "technique"});
             break;
     }
     if (place.has("records")) {

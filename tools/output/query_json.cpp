@@ -175,6 +175,9 @@ void write_result(JsonWriter& json, const SeparationResult& result) {
     write_features(json, result);
 }
 
+/// There is nothing but what every answer says.
+void write_result(JsonWriter& /*json*/, const IntersectionTestResult& /*result*/) {}
+
 }  // namespace
 
 void write_timings(JsonWriter& json, const Timings& timings) {
@@ -202,9 +205,14 @@ void write_localization(JsonWriter& json, const LocalizationStatistics& statisti
 void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
     const ResultSummary& summary = summary_of(result);
     json.key("query").value(name_of(request.type));
-    json.key("tolerance").value(summary.tolerance);
+    const bool has_tolerance = request.type != QueryType::intersection_test;
+    if (has_tolerance) {
+        json.key("tolerance").value(summary.tolerance);
+    }
     json.key("error_bound").value(summary.error_bound);
-    json.key("cell").value(summary.cell);
+    if (has_tolerance) {
+        json.key("cell").value(summary.cell);
+    }
     json.key("intersects").value(summary.intersects);
     json.key("technique").value(to_string(summary.technique));
     write_localization(json, summary.localization);

@@ -122,6 +122,10 @@ void write_result(std::ostream& stream, const SeparationResult& result) {
                   result.feature_b, result.unique);
 }
 
+void write_result(std::ostream& stream, const IntersectionTestResult& result) {
+    write_item(stream, "share a point", result.intersects ? "yes" : "no");
+}
+
 void write_regions(std::ostream& stream, const ResultSummary& summary) {
     write_item(stream, "regions", std::to_string(summary.regions.size()));
     constexpr std::size_t most_shown = 8;
@@ -168,9 +172,12 @@ void write_summary(std::ostream& stream, const Answer& answer) {
     write_item(stream, "query", std::string(name_of(answer.request.type)));
     write_item(stream, "device", answer.device);
     write_item(stream, "technique", to_string(summary.technique));
-    write_item(
-        stream, "tolerance",
-        short_number(summary.tolerance) + ", error bound " + short_number(summary.error_bound));
+    const std::string bound = short_number(summary.error_bound);
+    if (answer.request.type == QueryType::intersection_test) {
+        write_item(stream, "error bound", bound);
+    } else {
+        write_item(stream, "tolerance", short_number(summary.tolerance) + ", error bound " + bound);
+    }
     write_item(stream, "intersects", summary.intersects ? "yes" : "no");
     write_regions(stream, summary);
     std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);

@@ -40,6 +40,7 @@ const Rectangle& detail_panel(const Answer& answer) {
         case QueryType::intersection:
         case QueryType::closest_point:
         case QueryType::separation:
+        case QueryType::intersection_test:
             break;
     }
     return panel_alone;
@@ -70,6 +71,8 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
             return "Point of " + name(figure.a) + " closest to " + name(figure.b);
         case QueryType::separation:
             return "Separation of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::intersection_test:
+            return "Intersection test of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::distance_field:
             break;
     }
@@ -115,14 +118,20 @@ std::string facts_of(const SeparationResult& result) {
                                  : "the shapes intersect";
 }
 
+std::string facts_of(const IntersectionTestResult& result) {
+    return result.intersects ? "the shapes intersect" : "the shapes are apart";
+}
+
 void draw_header(Canvas& canvas, const Figure& figure) {
     const double width = page_width - 2.0 * margin;
     canvas.text({margin, 86.0}, title_of(figure, canvas), title_size, palette::text, Align::left,
                 Weight::bold);
     const std::string facts =
         std::visit([](const auto& result) { return facts_of(result); }, figure.answer.result);
-    const std::string line = "d = " + short_number(figure.answer.request.tolerance) + " \u00B7 " +
-                             facts + " \u00B7 " + figure.answer.device;
+    const double tolerance = figure.answer.request.tolerance;
+    const std::string line =
+        (tolerance > 0.0 ? "d = " + short_number(tolerance) + " \u00B7 " : std::string()) + facts +
+        " \u00B7 " + figure.answer.device;
     canvas.text({margin, 132.0}, canvas.shortened(line, 24.0, width), 24.0, palette::quiet_text);
 }
 

@@ -82,6 +82,8 @@ void add_entries(std::vector<LegendEntry>& entries, const SeparationResult&) {
     entries.push_back({pair_mark(draw_closest_pair, false), "closest points of A and B"});
 }
 
+void add_entries(std::vector<LegendEntry>& /*entries*/, const IntersectionTestResult& /*result*/) {}
+
 /// Three features of one kind, side by side.
 auto feature_colors(Feature::Kind kind) {
     return [kind](Canvas& canvas, const Rectangle& area) {
@@ -130,6 +132,7 @@ const char* meaning_of_regions(QueryType type) {
             return "where the closest can be";
         case QueryType::penetration:
         case QueryType::intersection:
+        case QueryType::intersection_test:
             break;
     }
     return "region of potential intersection";

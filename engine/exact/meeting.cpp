@@ -1,0 +1,92 @@
+#include <engine/exact/meeting.hpp>
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/localize/overlap.hpp>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::Box;
+using geometry::Polygon;
+using geometry::Vector;
+
+/// True where a ring of `inner` lies in `outer`, told by one vertex of each: their boundaries do
+/// not meet.
+bool holds_a_ring(const PlacedEdges& outer, const PlacedEdges& inner) {
+    const Polygon& polygon = inner.placed.polygon();
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const Vector vertex = inner.start(polygon.ring_begin(ring));
+        if (outer.box.contains(vertex) && kernels::contain(outer, vertex.x(), vertex.y())) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+void MeetingFinder::Picked::pick(const PlacedEdges& from, const Extent& box) {
+    count_ = kernels::find_edges_in(from, box, indices_);
+    if (count_ == 0) {
+        return;
+    }
+    const auto lanes = static_cast<std::uint32_t>(padded(count_));
+    for (std::uint32_t i = 0; i < lanes; ++i) {
+        // What fills up the last lanes is the last one once more.
+        const std::uint32_t index = indices_[i < count_ ? i : count_ - 1];
+        start_x_[i] = from.start_x[index];
+        start_y_[i] = from.start_y[index];
+        end_x_[i] = from.end_x[index];
+        end_y_[i] = from.end_y[index];
+    }
+}
+
+EdgeArrays MeetingFinder::Picked::edges() const {
+    return {count_, start_x_, start_y_, end_x_, end_y_, nullptr};
+}
+
+bool MeetingFinder::boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges) {
+    const double margin = a.rounding + b.rounding;
+    Box common = a.box.intersection(b.box);
+    common.min().array() -= 2.0 * margin;
+    common.max().array() += 2.0 * margin;
+    of_a_.pick(a, extent_of(common));
+    if (of_a_.empty()) {
+        return false;
+    }
+    of_b_.pick(b, extent_of(common));
+    if (of_b_.empty()) {
+        return false;
+    }
+    const EdgeArrays picked_a = of_a_.edges();
+    const EdgeArrays picked_b = of_b_.edges();
+    EdgePair pair;
+    while (kernels::find_meeting_pair(picked_a, picked_b, margin, pair)) {
+        edges = {of_a_.index(pair.first), of_b_.index(pair.second)};
+        if (geometry::segments_meet(a.start(edges.first), a.end(edges.first), b.start(edges.second),
+                                    b.end(edges.second), margin)) {
+            return true;
+        }
+        ++pair.second;
+    }
+    return false;
+}
+
+bool MeetingFinder::intersect(const PlacedEdges& a, const PlacedEdges& b) {
+    return intersect_without_vertex_inside(a, b) ||
+           (is_small(a) && is_small(b) && a.box.intersects(b.box) && holds_a_ring(b, a));
+}
+
+bool MeetingFinder::intersect_without_vertex_inside(const PlacedEdges& a, const PlacedEdges& b) {
+    if (!localize::boxes_meet(a.box, b.box, a.rounding + b.rounding)) {
+        return false;
+    }
+    if (!is_small(a) || !is_small(b)) {
+        return localize::intersects(a.placed, b.placed);
+    }
+    // Without contact a whole ring of one shape lies in the other, or none does; and none of A.
+    EdgePair ignored;
+    return boundaries_meet(a, b, ignored) || holds_a_ring(a, b);
+}
+
+}  // namespace nearfield::exact

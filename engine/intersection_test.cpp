@@ -1,0 +1,14 @@
+#include <engine/intersection_test.hpp>
+
+namespace nearfield {
+
+void IntersectionTest::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
+                              IntersectionTestResult& result) {
+    const InstancePairIndex pair = place_pair(query, instances);
+    const exact::PlacedEdges& a = instances[pair.a];
+    const exact::PlacedEdges& b = instances[pair.b];
+    result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
+    result.intersects = meeting_.intersect(a, b);
+}
+
+}  // namespace nearfield

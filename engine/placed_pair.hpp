@@ -1,0 +1,43 @@
+#pragma once
+
+#include <engine/exact/placed_edges.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/magnitude.hpp>
+#include <engine/plan/plan.hpp>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace nearfield {
+
+/// Which instances of a batch a query is about, by their index among the placed ones.
+struct InstancePairIndex {
+    static constexpr std::uint32_t none = UINT32_MAX;
+    std::uint32_t a = none;
+    std::uint32_t b = none;
+
+    [[nodiscard]] bool is_reverse_of(const InstancePairIndex& other) const {
+        return a == other.b && b == other.a;
+    }
+};
+
+[[nodiscard]] inline InstancePairIndex place_pair(const plan::PlannedQuery& query,
+                                                  exact::PlacedInstances& instances) {
+    const std::uint32_t a = instances.place(*query.a, query.pose_a);
+    return {a, instances.place(*query.b, query.pose_b)};
+}
+
+/// Whether deviations and coordinates leave room for the tolerance.
+[[nodiscard]] inline Status check_numbers(const plan::PlannedQuery& query,
+                                          const exact::PlacedEdges& a, const exact::PlacedEdges& b,
+                                          double tolerance) {
+    if (Status status = plan::check_deviations(tolerance, query.deviations, query.budget.bound);
+        !status.ok()) {
+        return status;
+    }
+    return plan::check_resolution(tolerance,
+                                  std::max(plan::largest_magnitude(a.placed, query.pose_a, a.box),
+                                           plan::largest_magnitude(b.placed, query.pose_b, b.box)));
+}
+
+}  // namespace nearfield

@@ -1,0 +1,123 @@
+#include "shape_samples.hpp"
+
+#include <engine/exact/placed_edges.hpp>
+#include <engine/geometry/segment.hpp>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <vector>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::PlacedPolygon;
+using geometry::Polygon;
+using geometry::Vector;
+
+/// Everything that the kernels say of two shapes, as numbers.
+std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose,
+                            const std::vector<Vector>& points) {
+    PlacedInstances instances;
+    const std::uint32_t index_a = instances.place(a, {});
+    const std::uint32_t index_b = instances.place(b, pose);
+    const PlacedEdges& edges_a = instances[index_a];
+    const PlacedEdges& edges_b = instances[index_b];
+    std::vector<double> said;
+    for (std::uint32_t i = 0; i < edges_b.count; ++i) {
+        said.insert(said.end(),
+                    {edges_b.start_x[i], edges_b.start_y[i], edges_b.inverse_length[i]});
+    }
+    std::vector<std::uint32_t> found(padded(edges_a.count) + padded(edges_b.count));
+    const auto add_found = [&](std::uint32_t count) {
+        said.push_back(count);
+        said.insert(said.end(), found.begin(), found.begin() + count);
+    };
+    const Extent box_b = extent_of(edges_b.box);
+    add_found(kernels::find_points_in(edges_a.starts(), box_b, found.data()));
+    add_found(kernels::find_points_inside(edges_a.starts(), box_b, edges_b, found.data()));
+    add_found(kernels::find_edges_in(edges_a, box_b, found.data()));
+    said.push_back(kernels::find_point_nearest_to(edges_a.starts(), box_b));
+    const std::uint32_t within =
+        kernels::find_points_within(edges_a.starts(), box_b, 0.02, found.data());
+    add_found(within);
+    std::vector<double> squared(within);
+    kernels::find_distances(edges_a.starts(), found.data(), within, edges_b, squared.data());
+    said.insert(said.end(), squared.begin(), squared.end());
+    for (const Vector& point : points) {
+        said.push_back(kernels::contain(edges_a, point.x(), point.y()) ? 1.0 : 0.0);
+        const NearEdge nearest = kernels::find_nearest(edges_a, point.x(), point.y());
+        said.insert(said.end(), {static_cast<double>(nearest.edge), nearest.squared});
+        add_found(kernels::find_edges_within(edges_a, point.x(), point.y(), 0.3, found.data()));
+    }
+    for (EdgePair pair; kernels::find_meeting_pair(edges_a, edges_b, 1e-15, pair); ++pair.second) {
+        said.insert(said.end(),
+                    {static_cast<double>(pair.first), static_cast<double>(pair.second)});
+    }
+    return said;
+}
+
+TEST(EdgeKernels, SayTheSameOnEveryInstructionSet) {
+    samples::Random random(91);
+    std::vector<std::int64_t> targets;
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+        targets.push_back(left & ~(left - 1));
+    }
+    for (int i = 0; i < 60; ++i) {
+        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 40.0)); };
+        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
+        const Polygon b = samples::polygon({samples::star(random, size(), 0.1, 0.9)});
+        const Pose pose{{random.between(-1.5, 1.5), random.between(-1.5, 1.5)}, 0.4};
+        std::vector<Vector> points;
+        for (int k = 0; k < 20; ++k) {
+            points.emplace_back(random.between(-1.2, 1.2), random.between(-1.2, 1.2));
+        }
+        const std::vector<double> expected = said_of(a, b, pose, points);
+        for (const std::int64_t target : targets) {
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().DeInit();
+            EXPECT_EQ(said_of(a, b, pose, points), expected) << "target " << target;
+        }
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().DeInit();
+    }
+}
+
+TEST(EdgeKernels, MissNoPairOfEdgesThatMeet) {
+    samples::Random random(92);
+    int met = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Polygon a = samples::polygon({samples::star(random, 15, 0.3, 1.0)});
+        const Polygon b = samples::polygon({samples::star(random, 11, 0.1, 0.9)});
+        PlacedInstances instances;
+        const std::uint32_t index_a = instances.place(a, {});
+        // Every other time corner to corner.
+        const Vector corner =
+            i % 2 == 0 ? Vector(a.vertices()[3] + a.centre() - b.centre() - b.vertices()[2])
+                       : Vector(random.between(-1.5, 1.5), 0.3);
+        const std::uint32_t index_b = instances.place(b, {{corner.x(), corner.y()}, 0.0});
+        const PlacedEdges& edges_a = instances[index_a];
+        const PlacedEdges& edges_b = instances[index_b];
+        const double margin = edges_a.rounding + edges_b.rounding;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+        for (EdgePair pair; kernels::find_meeting_pair(edges_a, edges_b, margin, pair);
+             ++pair.second) {
+            found.emplace_back(pair.first, pair.second);
+        }
+        EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+        for (std::uint32_t e = 0; e < edges_a.count; ++e) {
+            for (std::uint32_t f = 0; f < edges_b.count; ++f) {
+                if (geometry::segments_meet(edges_a.start(e), edges_a.end(e), edges_b.start(f),
+                                            edges_b.end(f), margin)) {
+                    ++met;
+                    EXPECT_TRUE(std::binary_search(found.begin(), found.end(), std::pair(e, f)))
+                        << e << " and " << f;
+                }
+            }
+        }
+    }
+    EXPECT_GT(met, 200);
+}
+
+}  // namespace
+}  // namespace nearfield::exact
