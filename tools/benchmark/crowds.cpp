@@ -1,0 +1,49 @@
+#include <tools/benchmark/crowds.hpp>
+#include <tools/benchmark/objects.hpp>
+#include <tools/benchmark/outlines.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace nearfield::benchmark {
+namespace {
+
+constexpr std::size_t star_vertices = 50;
+
+double any_angle(Random& random) {
+    return random.between(0.0, 2.0 * std::numbers::pi);
+}
+
+}  // namespace
+
+tools::Scene crowd_scene() {
+    constexpr double spacing = 1.716;
+    constexpr double jitter = 0.25;
+    tools::Scene scene;
+    Random random(1);
+    for (std::size_t index = 0; index < 1000; ++index) {
+        const Vector2 place{
+            spacing * static_cast<double>(index % 40) + random.between(-jitter, jitter),
+            spacing * static_cast<double>(index / 40) + random.between(-jitter, jitter)};
+        add_object(scene, {star(random, star_vertices)}, {place, any_angle(random)});
+    }
+    return scene;
+}
+
+tools::Scene small_pairs_scene(std::size_t pairs) {
+    constexpr double apart = 1.3;
+    tools::Scene scene;
+    Random random(3);
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        const Vector2 place{5.0 * static_cast<double>(pair % 100),
+                            5.0 * static_cast<double>(pair / 100)};
+        add_object(scene, {star(random, star_vertices)}, {place, any_angle(random)});
+        const double angle = any_angle(random);
+        add_object(scene, {star(random, star_vertices)},
+                   {{place.x + apart * std::cos(angle), place.y + apart * std::sin(angle)},
+                    any_angle(random)});
+    }
+    return scene;
+}
+
+}  // namespace nearfield::benchmark
