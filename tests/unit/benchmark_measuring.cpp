@@ -39,12 +39,8 @@ TEST(Measure, TakesTurnsUntilEachHasHadItsTime) {
     std::string log;
     std::vector<Contender> contenders{fake(log, 'a', 10.0), fake(log, 'b', 20.0)};
     measure(contenders, {.milliseconds = 60.0, .turn = 20.0});
-    // Warm-up until more than a turn has passed: three of a, two of b.
-    EXPECT_EQ(log,
-              "aaabb"
-              "aab"
-              "aab"
-              "aab");
+    // Warm-up until more than a turn has passed, three of a, two of b; then to and fro.
+    EXPECT_EQ(log, std::string("aaabb") + "aab" + "baa" + "aab");
     EXPECT_EQ(contenders[0].frames_ms, std::vector<double>(6, 10.0));
     EXPECT_EQ(contenders[1].frames_ms, std::vector<double>(3, 20.0));
 }

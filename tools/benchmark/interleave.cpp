@@ -1,5 +1,6 @@
 #include <tools/benchmark/interleave.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace nearfield::benchmark {
@@ -42,11 +43,16 @@ void measure(std::span<Contender> contenders, const Budget& budget) {
     for (const Contender& contender : contenders) {
         warm_up(contender, budget.turn);
     }
+    std::vector<Contender*> order;
+    for (Contender& contender : contenders) {
+        order.push_back(&contender);
+    }
     for (bool more = true; more;) {
         more = false;
-        for (Contender& contender : contenders) {
-            more = take_turn(contender, budget) || more;
+        for (Contender* const contender : order) {
+            more = take_turn(*contender, budget) || more;
         }
+        std::reverse(order.begin(), order.end());
     }
 }
 

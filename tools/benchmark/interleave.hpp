@@ -26,8 +26,9 @@ struct Budget {
     double turn = 20.0;
 };
 
-/// Measures contenders turn by turn, so that what else the machine does falls on all alike. Before,
-/// each does its work once, or more often where that is quick, unmeasured.
+/// Measures contenders turn by turn, to and fro, so that what else the machine does, and what one
+/// leaves behind for the next, falls on all alike. Before, each does its work once, or more often
+/// where that is quick, unmeasured.
 void measure(std::span<Contender> contenders, const Budget& budget);
 
 }  // namespace nearfield::benchmark

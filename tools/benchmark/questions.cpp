@@ -54,9 +54,12 @@ tools::QueryRequest square_field(Vector2 middle, double side, std::size_t cells)
 
 tools::Scene asked(tools::Scene scene, const tools::QueryRequest& request, Pairs pairs) {
     if (pairs == Pairs::all) {
-        // Separation of objects farther apart than this is of no interest to a simulation.
+        // Objects farther apart than this are of no interest to a simulation.
         constexpr double reach_in_tolerances = 20.0;
-        scene.queries.push_back({request, 0, 0, true, reach_in_tolerances * request.tolerance});
+        const double reach = request.type == tools::QueryType::separation
+                                 ? reach_in_tolerances * request.tolerance
+                                 : 0.0;
+        scene.queries.push_back({request, 0, 0, true, reach});
         return scene;
     }
     for (std::size_t a = 0; a + 1 < scene.instances.size(); a += 2) {

@@ -44,6 +44,16 @@ FrameWork work_of_row(const RowTimes& row) {
     return most;
 }
 
+/// Null where there is none.
+void write_number(JsonWriter& json, std::string_view name, const std::optional<double>& number) {
+    json.key(name);
+    if (number) {
+        json.value(*number);
+    } else {
+        json.null();
+    }
+}
+
 void write_work(JsonWriter& json, const FrameWork& work) {
     json.key("queries").value(std::uint64_t{work.queries});
     json.key("vertices").value(std::uint64_t{work.vertices});
@@ -64,12 +74,7 @@ void write_technique(JsonWriter& json, const TechniqueTime& time) {
     json.key("min_ms").value(time.frame_ms.least);
     json.key("quartiles_ms").begin_array();
     json.value(time.frame_ms.lower_quartile).value(time.frame_ms.upper_quartile).end_array();
-    json.key("gpu_ms");
-    if (const std::optional<double> device = time.device_ms()) {
-        json.value(*device);
-    } else {
-        json.null();
-    }
+    write_number(json, "gpu_ms", time.device_ms());
     write_work(json, time.work);
     write_timings(json, time.timings);
     json.end_object();
@@ -79,15 +84,16 @@ void write_technique(JsonWriter& json, const TechniqueTime& time) {
 
 TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
     const benchmark::Machine& machine = surroundings.machine;
-    stream_ << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-            << machine.cores << " cores; " << surroundings.device << " (" << surroundings.driver
-            << ")\n\n"
-            << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
-               "quartile - upper quartile);\n"
-            << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
-               "found. The last column is the\n"
-            << "median of automatic over that of the quickest other.\n\n"
-            << "| " << padded("row", name_width) << " | " << padded("work", work_width);
+    stream_
+        << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
+        << machine.cores << " cores; " << surroundings.device << " (" << surroundings.driver
+        << ")\n\n"
+        << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
+           "quartile - upper quartile);\n"
+        << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
+           "found. The last column is the\n"
+        << "median of automatic over that of the quickest other (and the same of the least).\n\n"
+        << "| " << padded("row", name_width) << " | " << padded("work", work_width);
     for (const char* technique : {"raster", "compute", "cpu", "automatic"}) {
         stream_ << " | " << padded(technique, cell_width);
     }
@@ -117,8 +123,10 @@ void TextTable::add(const RowTimes& row) {
     }
     const TechniqueTime* const automatic = row.find("automatic");
     const std::optional<double> ratio = row.automatic_to_best();
+    const std::optional<double> least = row.automatic_to_best(&benchmark::Spread::least);
     stream_ << " | " << (automatic != nullptr ? automatic->answered_by : "") << " | "
-            << (ratio ? three_digits(*ratio) : "") << " |\n"
+            << (ratio && least ? three_digits(*ratio) + " (" + three_digits(*least) + ")" : "")
+            << " |\n"
             << std::flush;
 }
 
@@ -151,12 +159,9 @@ void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
             write_technique(json, time);
         }
         json.end_object();
-        json.key("automatic_to_best");
-        if (const std::optional<double> ratio = row.automatic_to_best()) {
-            json.value(*ratio);
-        } else {
-            json.null();
-        }
+        write_number(json, "automatic_to_best", row.automatic_to_best());
+        write_number(json, "automatic_to_best_least",
+                     row.automatic_to_best(&benchmark::Spread::least));
         json.end_object();
     }
     json.end_array();

@@ -93,15 +93,15 @@ const TechniqueTime* RowTimes::find(const std::string& technique) const {
     return place == techniques.end() || !place->refusal.empty() ? nullptr : &*place;
 }
 
-std::optional<double> RowTimes::automatic_to_best() const {
+std::optional<double> RowTimes::automatic_to_best(double benchmark::Spread::*of) const {
     const TechniqueTime* const automatic = find(std::string(automatic_name));
     std::optional<double> best;
     for (const TechniqueTime& time : techniques) {
         if (time.refusal.empty() && time.technique != automatic_name) {
-            best = std::min(best.value_or(time.frame_ms.median), time.frame_ms.median);
+            best = std::min(best.value_or(time.frame_ms.*of), time.frame_ms.*of);
         }
     }
-    return automatic != nullptr && best ? std::optional(automatic->frame_ms.median / *best)
+    return automatic != nullptr && best ? std::optional(automatic->frame_ms.*of / *best)
                                         : std::nullopt;
 }
 

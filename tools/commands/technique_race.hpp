@@ -41,9 +41,11 @@ struct RowTimes {
     std::vector<TechniqueTime> techniques;
 
     [[nodiscard]] const TechniqueTime* find(const std::string& technique) const;
-    /// What automatic took, as a multiple of the quickest technique; nothing where there is nothing
-    /// to compare.
-    [[nodiscard]] std::optional<double> automatic_to_best() const;
+    /// What automatic took, as a multiple of the quickest technique, by medians or by another
+    /// member of the spread; nothing where there is nothing to compare. The least is what other
+    /// load of the machine disturbs least.
+    [[nodiscard]] std::optional<double> automatic_to_best(
+        double benchmark::Spread::*of = &benchmark::Spread::median) const;
 };
 
 /// All techniques there are, each with a context of its own, so that none warms up or disturbs what
