@@ -1,3 +1,4 @@
+#include <tools/output/answer.hpp>
 #include <tools/peers/agreement.hpp>
 
 #include <algorithm>
@@ -20,6 +21,12 @@ public:
     }
 
     void compare(const PenetrationResult& result, const Answer& answer);
+    void compare_test(const ResultSummary& result, const Answer& answer) {
+        if (result.intersects != (answer.number != 0.0)) {
+            complain(result.intersects ? "only nearfield says that they intersect"
+                                       : "only the peer says that they intersect");
+        }
+    }
     void compare(const SeparationResult& result, const Answer& answer) {
         expect_near("distance", result.distance, answer.number, 0.0);
     }
@@ -112,6 +119,10 @@ Agreement compare(Peer& peer, const Problem& problem, std::span<const PlacedShap
     Comparison comparison(peer, shapes, agreement);
     for (std::size_t index = 0; index < answers.size(); ++index) {
         comparison.next(problem.scene.queries[index], index);
+        if (problem.task == Task::intersection_test) {
+            comparison.compare_test(tools::summary_of(*results[index]), answers[index]);
+            continue;
+        }
         std::visit([&](const auto& result) { comparison.compare(result, answers[index]); },
                    *results[index]);
     }

@@ -24,6 +24,7 @@ struct Agreement {
 /// - boundary: the greatest depth within the bound, since samples lie elsewhere; and every record
 ///   of nearfield's, by asking the peer about the very point;
 /// - separation: the distance;
+/// - intersection test: the same answer;
 /// - area: within the area of a band as wide as the bound along the boundary of what is common,
 ///   whose length the boundaries of both shapes near it bound;
 /// - field: each value; without its sign where the peer has none.

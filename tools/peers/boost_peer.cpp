@@ -33,6 +33,9 @@ public:
     double separation(std::size_t a, std::size_t b) override {
         return bg::distance(shapes_[a].area, shapes_[b].area);
     }
+    bool intersect(std::size_t a, std::size_t b) override {
+        return bg::intersects(shapes_[a].area, shapes_[b].area);
+    }
     double common_area(std::size_t a, std::size_t b) override {
         std::vector<BoostPolygon> common;
         bg::intersection(shapes_[a].area, shapes_[b].area, common);
@@ -60,6 +63,8 @@ std::string Boost::how(Task task) const {
                    "every edge is looked at; a depth, no direction";
         case Task::separation:
             return "distance of polygons; no points, no direction";
+        case Task::intersection_test:
+            return "intersects of polygons";
         case Task::common_area:
             return "area of the intersection, exact";
         case Task::field:

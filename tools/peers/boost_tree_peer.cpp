@@ -30,7 +30,8 @@ class BoostTree final : public Peer {
 public:
     [[nodiscard]] std::string name() const override { return "Boost R-tree"; }
     [[nodiscard]] std::string how(Task task) const override {
-        if (task == Task::separation || task == Task::common_area) {
+        if (task == Task::separation || task == Task::intersection_test ||
+            task == Task::common_area) {
             return {};
         }
         return "R-tree of B's edges: nearest one, and those a ray may cross; the parity of the "

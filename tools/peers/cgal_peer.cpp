@@ -33,6 +33,7 @@ public:
         return std::sqrt(shapes_[shape]->tree.squared_distance(in_plane(point)));
     }
     double separation(std::size_t a, std::size_t b) override;
+    bool intersect(std::size_t a, std::size_t b) override;
 
 private:
     struct Shape {
@@ -56,6 +57,8 @@ std::string Cgal::how(Task task) const {
         case Task::separation:
             return "AABB trees: whether boundaries meet, else the nearest distance of each one's "
                    "vertices to the other; no points, no direction";
+        case Task::intersection_test:
+            return "edges of A against the AABB tree of B, then bounded_side_2 of a vertex of each";
         case Task::common_area:
             return {};
         case Task::field:
@@ -106,17 +109,23 @@ double Cgal::least_from_vertices(const Shape& a, const Shape& b) const {
     return least;
 }
 
-double Cgal::separation(std::size_t a, std::size_t b) {
+bool Cgal::intersect(std::size_t a, std::size_t b) {
     const Shape& first = *shapes_[a];
     const Shape& second = *shapes_[b];
     const auto vertex_of = [](const Shape& shape) {
         const Kernel::Point_3& point = shape.edges.front().source();
         return Vector2{point.x(), point.y()};
     };
-    if (boundaries_meet(first, second) || is_inside(b, vertex_of(first)) ||
-        is_inside(a, vertex_of(second))) {
+    return boundaries_meet(first, second) || is_inside(b, vertex_of(first)) ||
+           is_inside(a, vertex_of(second));
+}
+
+double Cgal::separation(std::size_t a, std::size_t b) {
+    if (intersect(a, b)) {
         return 0.0;
     }
+    const Shape& first = *shapes_[a];
+    const Shape& second = *shapes_[b];
     return std::sqrt(
         std::min(least_from_vertices(first, second), least_from_vertices(second, first)));
 }

@@ -13,7 +13,9 @@ class Clipper final : public Peer {
 public:
     [[nodiscard]] std::string name() const override { return "Clipper"; }
     [[nodiscard]] std::string how(Task task) const override {
-        return task == Task::common_area
+        return task == Task::intersection_test ? "whether the intersection has an area; touching "
+                                                 "does not count"
+               : task == Task::common_area
                    ? "area of the intersection, exact for coordinates rounded to a millionth"
                    : "";
     }
@@ -30,6 +32,7 @@ public:
             }
         }
     }
+    bool intersect(std::size_t a, std::size_t b) override { return common_area(a, b) > 0.0; }
     double common_area(std::size_t a, std::size_t b) override {
         ClipperLib::Clipper clipper;
         clipper.AddPaths(shapes_[a], ClipperLib::ptSubject, true);

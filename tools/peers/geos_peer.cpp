@@ -23,6 +23,7 @@ public:
     bool is_inside(std::size_t shape, Vector2 point) override;
     double distance_to_boundary(std::size_t shape, Vector2 point) override;
     double separation(std::size_t a, std::size_t b) override;
+    bool intersect(std::size_t a, std::size_t b) override;
     double common_area(std::size_t a, std::size_t b) override;
 
 private:
@@ -56,6 +57,8 @@ std::string Geos::how(Task task) const {
                    "of those inside to B's boundary; a depth, no direction";
         case Task::separation:
             return "prepared distance; no points, no direction";
+        case Task::intersection_test:
+            return "prepared intersects";
         case Task::common_area:
             return "area of the intersection, exact";
         case Task::field:
@@ -100,7 +103,8 @@ GEOSGeometry* Geos::area_of(const PlacedShape& shape) {
 
 void Geos::build(std::span<const PlacedShape> shapes, Task task) {
     clear();
-    const bool needs_line = task != Task::separation && task != Task::common_area;
+    const bool needs_line = task == Task::vertex_penetration ||
+                            task == Task::boundary_penetration || task == Task::field;
     for (const PlacedShape& placed : shapes) {
         Shape& shape = shapes_.emplace_back();
         shape.area = area_of(placed);
@@ -135,6 +139,11 @@ double Geos::separation(std::size_t a, std::size_t b) {
     const int done =
         GEOSPreparedDistance_r(context_, shapes_[b].prepared_area, shapes_[a].area, &distance);
     return checked(distance, done == 1, "distance");
+}
+
+bool Geos::intersect(std::size_t a, std::size_t b) {
+    const char meet = GEOSPreparedIntersects_r(context_, shapes_[b].prepared_area, shapes_[a].area);
+    return checked(meet == 1, meet != 2, "intersects");
 }
 
 double Geos::common_area(std::size_t a, std::size_t b) {

@@ -37,6 +37,10 @@ double Peer::separation(std::size_t /*a*/, std::size_t /*b*/) {
     fail_unasked(*this);
 }
 
+bool Peer::intersect(std::size_t /*a*/, std::size_t /*b*/) {
+    fail_unasked(*this);
+}
+
 double Peer::common_area(std::size_t /*a*/, std::size_t /*b*/) {
     fail_unasked(*this);
 }
@@ -73,6 +77,9 @@ void answer(Peer& peer, const Problem& problem, std::span<const PlacedShape> sha
                 break;
             case Task::separation:
                 result.number = peer.separation(query.a, query.b);
+                break;
+            case Task::intersection_test:
+                result.number = peer.intersect(query.a, query.b) ? 1.0 : 0.0;
                 break;
             case Task::common_area:
                 result.number = peer.common_area(query.a, query.b);

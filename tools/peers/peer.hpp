@@ -36,6 +36,7 @@ public:
     [[nodiscard]] virtual bool is_inside(std::size_t shape, Vector2 point);
     [[nodiscard]] virtual double distance_to_boundary(std::size_t shape, Vector2 point);
     [[nodiscard]] virtual double separation(std::size_t a, std::size_t b);
+    [[nodiscard]] virtual bool intersect(std::size_t a, std::size_t b);
     [[nodiscard]] virtual double common_area(std::size_t a, std::size_t b);
     virtual void field(std::size_t shape, const Grid& grid, std::vector<float>& values);
 };

@@ -14,6 +14,7 @@ enum class Task {
     vertex_penetration,    ///< which vertices of A lie in B, how deep the deepest
     boundary_penetration,  ///< the same of samples along A's boundary, at most a cell apart
     separation,            ///< the least distance of two shapes
+    intersection_test,     ///< whether two shapes have a point in common
     common_area,           ///< the area of what two shapes have in common
     field,                 ///< signed distances at the centres of a grid
 };
@@ -60,7 +61,7 @@ void points_in(const PlacedShape& a, double spacing, const Rectangle& box,
 /// What was found about one query; what a task does not ask for stays as it is here.
 struct Answer {
     std::uint64_t count = 0;
-    double number = 0.0;        ///< greatest depth, separation, area
+    double number = 0.0;        ///< greatest depth, separation, area; 1 where shapes intersect
     std::vector<float> values;  ///< row by row from the lowest
 };
 

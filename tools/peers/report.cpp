@@ -71,8 +71,8 @@ void write_head(std::ostream& stream, const benchmark::Machine& machine,
            "anew. Peers: built / kept, with\n"
         << "geometries and indices made each frame, and with all of that made before. The last "
            "columns: how many times as long as\n"
-        << "nearfield the quickest exact peer takes, built and kept; below 1 nearfield is "
-           "behind.\n\n"
+        << "nearfield the quickest peer takes that gives the whole answer exactly, built and "
+           "kept; below 1 nearfield is behind.\n\n"
         << "| row | queries | nearfield | by";
     for (const char* const name : peer_names) {
         stream << " | " << name;
@@ -107,9 +107,10 @@ void write_row(std::ostream& stream, const ProblemTimes& times) {
 void write_notes(std::ostream& stream, std::span<const ProblemTimes> table) {
     std::set<std::string> notes;
     for (const ProblemTimes& times : table) {
-        const std::string task = times.name.substr(times.name.rfind(", ") + 2);
+        std::string task = times.name.substr(times.name.rfind(", ") + 2);
+        task = task.rfind("field", 0) == 0 ? "field" : task;
         for (const PeerTimes& peer : times.peers) {
-            notes.insert(peer.name + ", " + task.substr(0, task.find(' ')) + ": " + peer.how);
+            notes.insert(peer.name + ", " + task + ": " + peer.how);
         }
     }
     stream << '\n';
