@@ -22,10 +22,10 @@ tools::Scene crowd_scene() {
     tools::Scene scene;
     Random random(1);
     for (std::size_t index = 0; index < 1000; ++index) {
-        const Vector2 place{
-            spacing * static_cast<double>(index % 40) + random.between(-jitter, jitter),
-            spacing * static_cast<double>(index / 40) + random.between(-jitter, jitter)};
-        add_object(scene, {star(random, star_vertices)}, {place, any_angle(random)});
+        const Vector2 place = in_rows(index, 40, {spacing, spacing});
+        const Vector2 aside{random.between(-jitter, jitter), random.between(-jitter, jitter)};
+        add_object(scene, {star(random, star_vertices)},
+                   {{place.x + aside.x, place.y + aside.y}, any_angle(random)});
     }
     return scene;
 }
@@ -35,8 +35,7 @@ tools::Scene small_pairs_scene(std::size_t pairs) {
     tools::Scene scene;
     Random random(3);
     for (std::size_t pair = 0; pair < pairs; ++pair) {
-        const Vector2 place{5.0 * static_cast<double>(pair % 100),
-                            5.0 * static_cast<double>(pair / 100)};
+        const Vector2 place = in_rows(pair, 100, {5.0, 5.0});
         add_object(scene, {star(random, star_vertices)}, {place, any_angle(random)});
         const double angle = any_angle(random);
         add_object(scene, {star(random, star_vertices)},

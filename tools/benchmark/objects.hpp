@@ -2,10 +2,18 @@
 
 #include <tools/input/scene.hpp>
 
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace nearfield::benchmark {
+
+/// A position in rows of `columns` each, at these distances.
+[[nodiscard]] inline Vector2 in_rows(std::size_t index, std::size_t columns, Vector2 spacing) {
+    const std::size_t row = index / columns;
+    return {spacing.x * static_cast<double>(index % columns), spacing.y * static_cast<double>(row)};
+}
 
 /// Adds an object of a shape of its own to a scene.
 inline void add_object(tools::Scene& scene, std::vector<Ring> rings, const Pose& pose) {

@@ -4,15 +4,6 @@
 #include <tools/input/values.hpp>
 
 namespace nearfield::benchmark {
-namespace {
-
-/// A position in rows of `columns` each, at these distances.
-Vector2 in_rows(std::size_t index, std::size_t columns, Vector2 spacing) {
-    return {spacing.x * static_cast<double>(index % columns),
-            spacing.y * static_cast<double>(index / columns)};
-}
-
-}  // namespace
 
 tools::Scene map_scene(std::size_t scale) {
     tools::Scene scene;
