@@ -75,6 +75,31 @@ std::string refusal_of(Action action) {
     return {};
 }
 
+/// Runs a first frame, which says what the work is; null, and the reason in `time`, where it is
+/// refused.
+std::unique_ptr<Entry> enter(const Scene& scene, Technique technique, Context& context,
+                             TechniqueTime& time) {
+    auto entry = std::make_unique<Entry>(scene, technique, context);
+    time.refusal = refusal_of([&] {
+        entry->run_frame();
+        entry->runner->require_results();
+    });
+    if (!time.refusal.empty()) {
+        return nullptr;
+    }
+    time.answered_by = entry->runner->technique();
+    time.work = work_of(entry->scene, *entry->runner);
+    return entry;
+}
+
+void summarize(Entry& entry, const std::vector<double>& frames_ms, TechniqueTime& time) {
+    time.frame_ms = benchmark::spread_of(frames_ms);
+    // The frames that were measured are the last ones.
+    std::vector<Timings>& timings = entry.timings;
+    timings.erase(timings.begin(), timings.end() - static_cast<std::ptrdiff_t>(frames_ms.size()));
+    time.timings = benchmark::median_timings(timings);
+}
+
 }  // namespace
 
 std::optional<double> TechniqueTime::device_ms() const {
@@ -117,41 +142,24 @@ TechniqueRace::TechniqueRace(const Settings& settings) {
 
 RowTimes TechniqueRace::run(const benchmark::Row& row) {
     RowTimes times{row.name, {}};
-    std::vector<std::unique_ptr<Entry>> entries;  // one a runner; none where it refuses
+    std::vector<std::unique_ptr<Entry>> entries;  // one a technique; none where it refuses
     std::vector<benchmark::Contender> contenders;
     const Scene scene = row.scene();
     for (Runner& runner : runners_) {
         TechniqueTime& time = times.techniques.emplace_back();
         time.technique = runner.name;
         time.refusal = runner.missing;
-        entries.push_back(nullptr);
-        if (!runner.technique) {
-            continue;
-        }
-        entries.back() = std::make_unique<Entry>(scene, *runner.technique, runner.context);
-        Entry& entry = *entries.back();
-        time.refusal = refusal_of([&] {
-            entry.run_frame();
-            entry.runner->require_results();
-        });
-        if (time.refusal.empty()) {
-            time.answered_by = entry.runner->technique();
-            time.work = work_of(entry.scene, *entry.runner);
-            contenders.push_back({[&entry] { return entry.run_frame(); }, {}});
+        entries.push_back(
+            time.refusal.empty() ? enter(scene, *runner.technique, runner.context, time) : nullptr);
+        if (Entry* const entry = entries.back().get()) {
+            contenders.push_back({[entry] { return entry->run_frame(); }, {}});
         }
     }
     benchmark::measure(contenders, {});
     auto contender = contenders.begin();
     for (std::size_t index = 0; index < entries.size(); ++index) {
-        TechniqueTime& time = times.techniques[index];
-        if (time.refusal.empty()) {
-            time.frame_ms = benchmark::spread_of(contender->frames_ms);
-            // The frames that were measured are the last ones.
-            std::vector<Timings>& timings = entries[index]->timings;
-            timings.erase(timings.begin(),
-                          timings.end() - static_cast<std::ptrdiff_t>(contender->frames_ms.size()));
-            time.timings = benchmark::median_timings(timings);
-            ++contender;
+        if (entries[index] != nullptr) {
+            summarize(*entries[index], (contender++)->frames_ms, times.techniques[index]);
         }
     }
     return times;

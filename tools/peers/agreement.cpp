@@ -1,4 +1,5 @@
 #include <tools/output/answer.hpp>
+#include <tools/output/summary.hpp>
 #include <tools/peers/agreement.hpp>
 
 #include <algorithm>
@@ -65,8 +66,8 @@ void Comparison::expect_near(const char* what, double ours, double theirs, doubl
         agreement_.allowed = allowed;
     }
     if (!(difference <= allowed)) {
-        complain(std::string(what) + " " + std::to_string(ours) + ", by the peer " +
-                 std::to_string(theirs) + ", allowed " + std::to_string(allowed));
+        complain(std::string(what) + " " + tools::short_number(ours) + ", by the peer " +
+                 tools::short_number(theirs) + ", allowed " + tools::short_number(allowed));
     }
 }
 
