@@ -1,7 +1,9 @@
 #include <tools/benchmark/interleave.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
+#include <thread>
 
 namespace nearfield::benchmark {
 namespace {
@@ -29,6 +31,9 @@ bool take_turn(Contender& contender, const Budget& budget) {
     if (has_enough(contender, budget)) {
         return false;
     }
+    // From rest: a driver's threads have come to an end, and a scheduler that favours who has
+    // slept, as one that waits for a device has, favours all alike.
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
     double taken = 0.0;
     while (taken < budget.turn && contender.frames_ms.size() < budget.most_frames) {
         contender.frames_ms.push_back(contender.frame());
