@@ -111,7 +111,61 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
 
 TEST_F(Bench, RefusesWhatLaterVersionsAnswer) {
     expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2]", "technique cpu", "intersections"});
-    expect_refused({"bench"}, {"--scene"});
+}
+
+/// One row, small: two bars of 100 vertices.
+constexpr auto small_row = "wavy x1, vertices";
+
+TEST_F(Bench, WithoutASceneItMeasuresRowsOfTheStandardTableByEachTechnique) {
+    const Json json = answer({"bench", "--filter", small_row});
+    for (const auto& name : {"commit", "date", "processor", "device", "driver"}) {
+        EXPECT_FALSE(json.at(name).get<std::string>().empty()) << name;
+    }
+    ASSERT_EQ(json.at("rows").size(), 1U);
+    const Json& row = json.at("rows").at(0);
+    EXPECT_EQ(row.at("name"), small_row);
+    EXPECT_EQ(row.at("queries"), 2);
+    EXPECT_EQ(row.at("vertices"), 200);
+    EXPECT_GT(row.at("cells"), 0);
+    EXPECT_GT(row.at("found"), 0);
+    EXPECT_GT(row.at("automatic_to_best"), 0.0);
+    for (const auto& name : {"raster", "cpu", "automatic"}) {
+        const Json& technique = row.at("techniques").at(name);
+        EXPECT_GE(technique.at("frames"), 2) << name;
+        EXPECT_LE(technique.at("min_ms"), technique.at("quartiles_ms").at(0)) << name;
+        EXPECT_LE(technique.at("quartiles_ms").at(0), technique.at("median_ms")) << name;
+        EXPECT_LE(technique.at("median_ms"), technique.at("quartiles_ms").at(1)) << name;
+        EXPECT_EQ(technique.at("found"), row.at("found")) << name;
+        EXPECT_EQ(technique.at("gpu_ms").is_null(), technique.at("technique") == "cpu") << name;
+    }
+    EXPECT_TRUE(row.at("techniques").contains("compute"));
+}
+
+TEST_F(Bench, ATechniqueThatRefusesARowIsNamedInTheTable) {
+    const Outcome outcome = run_program(
+        {"bench", "--filter", "wavy at 4d, intersection", "--json", folder_.path("table.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json row = Json::parse(folder_.read("table.json")).at("rows").at(0);
+    std::size_t refused = 0;
+    for (const auto& [name, technique] : row.at("techniques").items()) {
+        if (technique.contains("refused")) {
+            ++refused;
+            const std::string reason = technique.at("refused");
+            EXPECT_NE(reason.find(name), std::string::npos) << reason;
+            EXPECT_NE(outcome.out.find("] " + reason), std::string::npos) << outcome.out;
+        }
+    }
+    EXPECT_EQ(outcome.out.find("refused") == std::string::npos, refused == 0) << outcome.out;
+    EXPECT_NE(outcome.out.find("| wavy at 4d, intersection"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Bench, RefusesAFilterThatLeavesNoRowAndOptionsOfTheOtherWay) {
+    expect_refused({"bench", "--filter", "no such row"}, {"--filter", "no such row", small_row});
+    expect_refused({"bench", "--filter", small_row, "--frames", "3"}, {"--frames", "--scene"});
+    expect_refused({"bench", "--filter", small_row, "--technique", "cpu"},
+                   {"--technique", "--scene"});
+    expect_refused({"bench", "--scene", folder_.write("scene.json", good_scene), "--filter", "x"},
+                   {"--filter", "--scene"});
 }
 
 TEST_F(Bench, RefusesFilesAndCountsThatAreNone) {

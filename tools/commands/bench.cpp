@@ -1,8 +1,11 @@
 #include <nearfield/context.hpp>
 
+#include <tools/benchmark/median_timings.hpp>
+#include <tools/benchmark/spread.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/scene_runner.hpp>
+#include <tools/commands/standard_table.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/scene.hpp>
 #include <tools/output/answer.hpp>
@@ -14,59 +17,22 @@
 #include <algorithm>
 #include <cstddef>
 #include <iostream>
-#include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace nearfield::tools {
 namespace {
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : std::midpoint(values[half - 1], values[half]);
-}
-
-/// The median over all frames of what `get` picks from each.
-template <class Get>
-double median_of(const std::vector<Timings>& frames, Get get) {
-    std::vector<double> values;
-    values.reserve(frames.size());
-    for (const Timings& frame : frames) {
-        values.push_back(get(frame));
-    }
-    return median(std::move(values));
-}
-
-/// Stage by stage and pass by pass. Every frame has the passes of the first: the queries are the
-/// same.
-Timings median_timings(const std::vector<Timings>& frames) {
-    Timings result;
-    result.localize = median_of(frames, [](const Timings& frame) { return frame.localize; });
-    result.plan = median_of(frames, [](const Timings& frame) { return frame.plan; });
-    result.record = median_of(frames, [](const Timings& frame) { return frame.record; });
-    result.device = median_of(frames, [](const Timings& frame) { return frame.device; });
-    result.decode = median_of(frames, [](const Timings& frame) { return frame.decode; });
-    result.total = median_of(frames, [](const Timings& frame) { return frame.total; });
-    for (std::size_t pass = 0; pass < frames.front().passes.size(); ++pass) {
-        result.passes.push_back(
-            {frames.front().passes[pass].name, median_of(frames, [pass](const Timings& frame) {
-                 return frame.passes.at(pass).milliseconds;
-             })});
-    }
-    return result;
-}
-
 /// What was measured.
 struct Measurement {
-    std::vector<double> frames_ms;
+    benchmark::Spread frame_ms;
+    double slowest_ms = 0.0;
     Timings timings;
 };
 
 Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
     const bool show_progress = isatty(STDERR_FILENO) == 1;
-    Measurement measurement;
+    std::vector<double> frames_ms;
     std::vector<Timings> timings;
     const std::uint64_t all = std::uint64_t{arguments.warm_up} + arguments.frames;
     for (std::uint64_t frame = 0; frame < all; ++frame) {
@@ -76,31 +42,29 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
         const double milliseconds = runner.run_frame();
         runner.require_results();
         if (frame >= arguments.warm_up) {
-            measurement.frames_ms.push_back(milliseconds);
+            frames_ms.push_back(milliseconds);
             timings.push_back(runner.timings());
         }
     }
     if (show_progress) {
         std::cerr << '\n';
     }
-    measurement.timings = median_timings(timings);
-    return measurement;
+    return {benchmark::spread_of(frames_ms), *std::max_element(frames_ms.begin(), frames_ms.end()),
+            benchmark::median_timings(timings)};
 }
 
 void write_bench_json(std::ostream& stream, const Measurement& measurement,
                       const BenchArguments& arguments, const std::string& device,
                       std::string_view technique) {
-    const auto [fastest, slowest] =
-        std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.key("scene").value(std::string_view(arguments.scene));
     json.key("device").value(std::string_view(device));
     json.key("technique").value(technique);
     json.key("frames").value(std::uint64_t{arguments.frames});
-    json.key("median_ms").value(median(measurement.frames_ms));
-    json.key("min_ms").value(*fastest);
-    json.key("max_ms").value(*slowest);
+    json.key("median_ms").value(measurement.frame_ms.median);
+    json.key("min_ms").value(measurement.frame_ms.least);
+    json.key("max_ms").value(measurement.slowest_ms);
     write_timings(json, measurement.timings);
     json.end_object();
     stream << '\n';
@@ -108,14 +72,13 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
 
 void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
                          const std::string& device, std::string_view technique) {
-    const auto [fastest, slowest] =
-        std::minmax_element(measurement.frames_ms.begin(), measurement.frames_ms.end());
     stream << "device            " << device << '\n'
            << "technique         " << technique << '\n'
            << "queries           " << scene.queries.size() << '\n'
-           << "frames            " << measurement.frames_ms.size() << '\n'
-           << "median            " << short_number(median(measurement.frames_ms)) << " ms a frame ("
-           << short_number(*fastest) << " to " << short_number(*slowest) << ")\n";
+           << "frames            " << measurement.frame_ms.count << '\n'
+           << "median            " << short_number(measurement.frame_ms.median) << " ms a frame ("
+           << short_number(measurement.frame_ms.least) << " to "
+           << short_number(measurement.slowest_ms) << ")\n";
     write_timings_summary(stream, measurement.timings);
 }
 
@@ -123,25 +86,36 @@ void write_bench_summary(std::ostream& stream, const Measurement& measurement, c
 
 CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
     CLI::App* command = program.add_subcommand(
-        "bench", "Run the queries of a scene as one batch a frame and report median times (ms)");
+        "bench",
+        "Report median times (ms) of whole frames: of the standard table, or of a scene's queries "
+        "as one batch a frame");
+    CLI::Option* const scene =
+        command
+            ->add_option("--scene", arguments.scene,
+                         "Scene: shapes, instances (shape and pose) and queries; default: the "
+                         "standard table, by each technique")
+            ->type_name("FILE.json");
     command
-        ->add_option("--scene", arguments.scene,
-                     "Scene: shapes, instances (shape and pose) and queries; required")
-        ->required()
-        ->type_name("FILE.json");
+        ->add_option("--filter", arguments.filter,
+                     "Only the rows of the standard table whose names hold this text")
+        ->type_name("TEXT")
+        ->excludes(scene);
     command
         ->add_option("--technique", arguments.technique,
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
-        ->type_name("NAME");
+        ->type_name("NAME")
+        ->needs(scene);
     add_localization_options(*command, arguments.localization);
     command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
         ->type_name("COUNT")
-        ->check(CLI::Range(1U, 1'000'000U));
+        ->check(CLI::Range(1U, 1'000'000U))
+        ->needs(scene);
     command
         ->add_option("--warmup", arguments.warm_up,
                      "Frames before them that are not measured; default 5")
         ->type_name("COUNT")
-        ->check(CLI::Range(0U, 1'000'000U));
+        ->check(CLI::Range(0U, 1'000'000U))
+        ->needs(scene);
     command
         ->add_option("--json", arguments.json,
                      "Write the times as JSON, milliseconds; - for the standard output, the "
@@ -151,6 +125,11 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 }
 
 void run_bench(const BenchArguments& arguments) {
+    if (arguments.scene.empty()) {
+        run_standard_table(arguments.filter, parse_settings(arguments.localization),
+                           arguments.json);
+        return;
+    }
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.localization);
     Scene scene = read_scene(arguments.scene);

@@ -11,7 +11,8 @@ namespace nearfield::tools {
 
 /// What stands on the command line of `nearfield bench`.
 struct BenchArguments {
-    std::string scene;
+    std::string scene;   ///< empty: the standard table
+    std::string filter;  ///< of the standard table's rows
     std::optional<std::string> technique;
     LocalizationArguments localization;
     std::optional<std::string> json;
@@ -22,8 +23,8 @@ struct BenchArguments {
 /// Adds the command `bench` to the program; parsing fills `arguments`, which must outlive it.
 CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments);
 
-/// Runs the scene as one batch a frame and reports medians. Throws InputError, LibraryError or
-/// std::runtime_error.
+/// Runs the scene as one batch a frame, or the standard table, and reports medians. Throws
+/// InputError, LibraryError or std::runtime_error.
 void run_bench(const BenchArguments& arguments);
 
 }  // namespace nearfield::tools

@@ -39,6 +39,13 @@ SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
     }
 }
 
+SceneRunner::~SceneRunner() {
+    for (const ShapeHandle shape : shapes_) {
+        static_cast<void>(
+            context_.remove_shape(shape));  // fails only for a shape that is not there
+    }
+}
+
 double SceneRunner::run_frame() {
     const auto start = std::chrono::steady_clock::now();
     for (std::size_t index = 0; index < shapes_.size(); ++index) {

@@ -24,6 +24,10 @@ class SceneRunner {
 public:
     /// `file` is for the messages. Throws LibraryError where a shape is refused.
     SceneRunner(const Scene& scene, std::string file, Context& context);
+    /// Takes its shapes out of the context.
+    ~SceneRunner();
+    SceneRunner(const SceneRunner&) = delete;
+    SceneRunner& operator=(const SceneRunner&) = delete;
 
     /// One whole frame: shapes (which may have deformed), poses and queries in, results out.
     /// Returns its milliseconds. Throws LibraryError where the batch as a whole fails.
@@ -38,6 +42,8 @@ public:
     /// What answered the queries of the last frame; "mixed" where it is not the same for all,
     /// "none" where there are none.
     [[nodiscard]] std::string_view technique() const;
+    /// Queries of the last frame, every pair of "all pairs" counted.
+    [[nodiscard]] std::size_t query_count() const noexcept { return entries_.size(); }
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
 
 private:

@@ -2,6 +2,7 @@
 # Installs the Debian packages that are missing.
 #   setup.sh run    what building and running the command line needs
 #   setup.sh test   that, and what the tests and checks need
+#   setup.sh bench  what building and running the benchmark beside other libraries needs
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -11,11 +12,15 @@ run_packages=(
     libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
 test_packages=(libgtest-dev libgeos-dev vulkan-validationlayers clang-format clang-tidy)
+bench_packages=(
+    libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
+)
 
 case "$*" in
     run) wanted=("${run_packages[@]}") ;;
     test) wanted=("${run_packages[@]}" "${test_packages[@]}") ;;
-    *) die "usage: setup.sh run|test" ;;
+    bench) wanted=("${run_packages[@]}" "${bench_packages[@]}") ;;
+    *) die "usage: setup.sh run|test|bench" ;;
 esac
 
 for tool in apt-get dpkg-query; do

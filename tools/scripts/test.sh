@@ -48,7 +48,7 @@ check_format() {
 check_tidy() {
     configure tidy -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 \
         -DNEARFIELD_BUILD_TESTS=OFF >/dev/null
-    build tidy --target nearfield_spirv >/dev/null
+    build tidy --target nearfield_spirv nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }

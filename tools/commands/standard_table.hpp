@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nearfield/context.hpp>
+
+#include <optional>
+#include <string>
+
+namespace nearfield::tools {
+
+/// Measures the rows of the standard table whose names hold `filter`, by each technique, and
+/// reports them. `json`: a path or "-". Throws InputError where no row has such a name, or
+/// LibraryError.
+void run_standard_table(const std::string& filter, const Settings& settings,
+                        const std::optional<std::string>& json);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,56 @@
+#include <tools/peers/nearfield_side.hpp>
+
+#include <variant>
+
+namespace nearfield::peers {
+namespace {
+
+Answer answer_of(const PenetrationResult& result) {
+    return {result.count, result.count > 0 ? result.deepest.depth : 0.0, {}};
+}
+
+Answer answer_of(const SeparationResult& result) {
+    return {0, result.distance, {}};
+}
+
+Answer answer_of(const IntersectionResult& result) {
+    return {0, result.area, {}};
+}
+
+Answer answer_of(const DistanceFieldResult& result) {
+    return {0, 0.0, result.values};
+}
+
+/// No problem asks for others.
+Answer answer_of(const ResultSummary& /*result*/) {
+    return {};
+}
+
+}  // namespace
+
+NearfieldSide::NearfieldSide(const Problem& problem, Context& context)
+    : runner_(problem.scene, problem.name, context) {}
+
+double NearfieldSide::run_frame() {
+    const double milliseconds = runner_.run_frame();
+    runner_.require_results();
+    return milliseconds;
+}
+
+std::vector<Answer> NearfieldSide::answers() const {
+    std::vector<Answer> answers;
+    for (const AnyResult* const result : results()) {
+        answers.push_back(std::visit([](const auto& any) { return answer_of(any); }, *result));
+    }
+    return answers;
+}
+
+std::vector<const AnyResult*> NearfieldSide::results() const {
+    std::vector<const AnyResult*> results;
+    for (const tools::SceneAnswer& answer : runner_.answers()) {
+        results.push_back(&answer.result);
+    }
+    return results;
+}
+
+}  // namespace nearfield::peers

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <nearfield/context.hpp>
+
+#include <tools/commands/scene_runner.hpp>
+#include <tools/peers/problem.hpp>
+
+#include <string>
+#include <vector>
+
+namespace nearfield::peers {
+
+/// nearfield on a problem: Technique::automatic, whole frames, everything handed over anew.
+class NearfieldSide {
+public:
+    /// Both must outlive it.
+    NearfieldSide(const Problem& problem, Context& context);
+
+    /// One frame. Throws where anything is refused.
+    double run_frame();
+
+    /// What the last frame found.
+    [[nodiscard]] std::vector<Answer> answers() const;
+    /// The results of the last frame, in the order of the queries.
+    [[nodiscard]] std::vector<const AnyResult*> results() const;
+    [[nodiscard]] std::string technique() const { return std::string(runner_.technique()); }
+
+private:
+    tools::SceneRunner runner_;
+};
+
+}  // namespace nearfield::peers

@@ -1,0 +1,154 @@
+#include <tools/output/json_writer.hpp>
+#include <tools/peers/report.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <string_view>
+
+namespace nearfield::peers {
+namespace {
+
+using tools::JsonWriter;
+
+std::string digits(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, number >= 1000.0 ? "%.0f" : "%.3g", number);
+    return text;
+}
+
+/// How many times as long as nearfield; below 1 nearfield is behind.
+std::string times_as_long(const std::optional<double>& peer, const benchmark::Spread& ours) {
+    return peer ? digits(*peer / ours.median) : "";
+}
+
+constexpr const char* peer_names[] = {"GEOS", "Boost", "Boost R-tree", "CGAL", "Clipper", "OpenCV"};
+
+void write_spread(JsonWriter& json, std::string_view name, const benchmark::Spread& spread) {
+    json.key(name).begin_object();
+    json.key("median").value(spread.median);
+    json.key("min").value(spread.least);
+    json.key("quartiles").begin_array();
+    json.value(spread.lower_quartile).value(spread.upper_quartile).end_array();
+    json.key("frames").value(std::uint64_t{spread.count});
+    json.end_object();
+}
+
+void write_quickest(JsonWriter& json, std::string_view name, const std::optional<double>& quickest,
+                    const benchmark::Spread& ours) {
+    json.key(name);
+    if (quickest) {
+        json.value(*quickest / ours.median);
+    } else {
+        json.null();
+    }
+}
+
+void write_peer(JsonWriter& json, const PeerTimes& peer) {
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("how").value(std::string_view(peer.how));
+    json.key("exact").value(peer.exact);
+    json.key("signed").value(peer.has_sign);
+    write_spread(json, "built_ms", peer.built_ms);
+    write_spread(json, "kept_ms", peer.kept_ms);
+    if (peer.exact) {
+        json.key("largest_difference").value(peer.largest_difference);
+        json.key("allowed").value(peer.allowed);
+    } else {
+        json.key("error_in_cells").value(peer.error_in_cells);
+    }
+    json.end_object();
+}
+
+}  // namespace
+
+void write_head(std::ostream& stream, const benchmark::Machine& machine,
+                const std::string& device) {
+    stream
+        << machine.date << ", nearfield " << machine.commit << "; " << machine.processor
+        << ", pinned to one core; " << device << "\n\n"
+        << "Milliseconds, medians. nearfield: a whole frame by automatic, everything handed over "
+           "anew. Peers: built / kept, with\n"
+        << "geometries and indices made each frame, and with all of that made before. The last "
+           "columns: how many times as long as\n"
+        << "nearfield the quickest peer takes that gives the whole answer exactly, built and "
+           "kept; below 1 nearfield is behind.\n\n"
+        << "| row | queries | nearfield | by";
+    for (const char* const name : peer_names) {
+        stream << " | " << name;
+    }
+    stream << " | built | kept |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+           << std::flush;
+}
+
+void write_row(std::ostream& stream, const ProblemTimes& times) {
+    stream << "| " << times.name << " | " << times.queries << " | "
+           << digits(times.nearfield_ms.median) << " | " << times.technique;
+    for (const std::string_view name : peer_names) {
+        const auto peer = std::find_if(times.peers.begin(), times.peers.end(),
+                                       [&](const PeerTimes& any) { return any.name == name; });
+        stream << " | ";
+        if (peer != times.peers.end()) {
+            stream << digits(peer->built_ms.median) << " / " << digits(peer->kept_ms.median);
+            if (!peer->has_sign) {
+                stream << ", no sign";
+            }
+            if (!peer->exact) {
+                stream << ", off by " << digits(peer->error_in_cells) << " cells";
+            }
+        }
+    }
+    stream << " | " << times_as_long(times.quickest(&PeerTimes::built_ms), times.nearfield_ms)
+           << " | " << times_as_long(times.quickest(&PeerTimes::kept_ms), times.nearfield_ms)
+           << " |\n"
+           << std::flush;
+}
+
+void write_notes(std::ostream& stream, std::span<const ProblemTimes> table) {
+    std::set<std::string> notes;
+    for (const ProblemTimes& times : table) {
+        std::string task = times.name.substr(times.name.rfind(", ") + 2);
+        task = task.rfind("field", 0) == 0 ? "field" : task;
+        for (const PeerTimes& peer : times.peers) {
+            notes.insert(peer.name + ", " + task + ": " + peer.how);
+        }
+    }
+    stream << '\n';
+    for (const std::string& note : notes) {
+        stream << "- " << note << '\n';
+    }
+}
+
+void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
+                const benchmark::Machine& machine, const std::string& device) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("commit").value(std::string_view(machine.commit));
+    json.key("date").value(std::string_view(machine.date));
+    json.key("processor").value(std::string_view(machine.processor));
+    json.key("device").value(std::string_view(device));
+    json.key("rows").begin_array(JsonWriter::Layout::lines);
+    for (const ProblemTimes& times : table) {
+        json.begin_object(JsonWriter::Layout::lines);
+        json.key("name").value(std::string_view(times.name));
+        json.key("queries").value(std::uint64_t{times.queries});
+        json.key("technique").value(std::string_view(times.technique));
+        write_spread(json, "nearfield_ms", times.nearfield_ms);
+        json.key("peers").begin_object(JsonWriter::Layout::lines);
+        for (const PeerTimes& peer : times.peers) {
+            json.key(peer.name);
+            write_peer(json, peer);
+        }
+        json.end_object();
+        write_quickest(json, "quickest_built_to_nearfield", times.quickest(&PeerTimes::built_ms),
+                       times.nearfield_ms);
+        write_quickest(json, "quickest_kept_to_nearfield", times.quickest(&PeerTimes::kept_ms),
+                       times.nearfield_ms);
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+    stream << '\n';
+}
+
+}  // namespace nearfield::peers
