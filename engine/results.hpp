@@ -2,6 +2,7 @@
 
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
+#include <engine/exact_overlap.hpp>
 #include <engine/exact_points.hpp>
 #include <engine/field_results.hpp>
 #include <engine/plan/plan.hpp>
@@ -48,13 +49,12 @@ private:
         std::uint32_t region = 0;
         std::uint64_t row = 0;
         std::uint64_t column = 0;
-        geometry::Vector point = geometry::Vector::Zero();
-        plan::EdgeRun run;  // of A's edges, where A takes part by its boundary
+        IntersectionSample sample;
     };
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result);
-    void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
+    void write_drawn_samples(std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
     ExactPoints exact_points_;
@@ -62,6 +62,7 @@ private:
     VertexPenetration vertices_;
     ContactDecoder contacts_;
     ClosestDecoder closest_;
+    ExactOverlap overlaps_;
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
 };

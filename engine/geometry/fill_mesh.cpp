@@ -22,7 +22,8 @@ MeshVertex at(double x, double y) {
 FillMesh::FillMesh(std::uint32_t width, std::uint32_t height, SubpixelGrid grid)
     : width_(width), height_(height), grid_(grid) {}
 
-void FillMesh::append(const Vector& a, const Vector& b, Mesh& mesh) const {
+FillMesh::Pieces FillMesh::pieces(const Vector& a, const Vector& b) const {
+    Pieces pieces;
     // Ordered by height, so that an edge and its reverse are cut at the same points.
     Vector low = a;
     Vector high = b;
@@ -30,7 +31,7 @@ void FillMesh::append(const Vector& a, const Vector& b, Mesh& mesh) const {
         std::swap(low, high);
     }
     if (!clip_to_slab(low, high, 1, -margin, height_ + margin)) {
-        return;
+        return pieces;
     }
     // Pieces of the edge follow each other without a gap in y: the cut point of two pieces is
     // snapped once for both, so every row centre of the edge is crossed by exactly one of them.
@@ -42,14 +43,15 @@ void FillMesh::append(const Vector& a, const Vector& b, Mesh& mesh) const {
     for (const double border : borders) {
         if ((low.x() < border) != (high.x() < border)) {
             const Vector cut = point_on_line(low, high, 0, border);
-            append_piece(from, cut, mesh);
+            add_piece(from, cut, pieces);
             from = cut;
         }
     }
-    append_piece(from, high, mesh);
+    add_piece(from, high, pieces);
+    return pieces;
 }
 
-void FillMesh::append_piece(const Vector& from, const Vector& to, Mesh& mesh) const {
+void FillMesh::add_piece(const Vector& from, const Vector& to, Pieces& pieces) const {
     const double left = -margin;
     const double right = width_ + margin;
     const double x0 = grid_.snap(std::clamp(from.x(), left, right));
@@ -62,14 +64,22 @@ void FillMesh::append_piece(const Vector& from, const Vector& to, Mesh& mesh) co
     const double first_row = std::max(std::ceil(std::min(y0, y1) - 0.5), 0.0);
     const double last_row = std::min(std::floor(std::max(y0, y1) - 0.5), height_ - 1.0);
     const bool left_of_all_samples = std::max(x0, x1) < 0.5;
-    if (y0 == y1 || first_row > last_row || left_of_all_samples) {
-        return;
+    if (y0 != y1 && first_row <= last_row && !left_of_all_samples) {
+        pieces.list[pieces.count++] = {Vector(x0, y0), Vector(x1, y1)};
     }
-    if (x1 > left) {
-        mesh.insert(mesh.end(), {at(x0, y0), at(x1, y1), at(left, y1)});
-    }
-    if (x0 > left) {
-        mesh.insert(mesh.end(), {at(x0, y0), at(left, y1), at(left, y0)});
+}
+
+void FillMesh::append(const Vector& a, const Vector& b, Mesh& mesh) const {
+    const Pieces all = pieces(a, b);
+    for (std::uint32_t i = 0; i < all.count; ++i) {
+        const auto& [from, to] = all.list[i];
+        const double left = -margin;
+        if (to.x() > left) {
+            mesh.insert(mesh.end(), {at(from.x(), from.y()), at(to.x(), to.y()), at(left, to.y())});
+        }
+        if (from.x() > left) {
+            mesh.insert(mesh.end(), {at(from.x(), from.y()), at(left, to.y()), at(left, from.y())});
+        }
     }
 }
 

@@ -3,6 +3,9 @@
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/vector.hpp>
 
+#include <array>
+#include <cstdint>
+
 namespace nearfield::geometry {
 
 /// Row-crossing quads: the polygon fill of a tile by parity. A sample is inside where the ray from
@@ -26,8 +29,21 @@ public:
     /// snapped alike, whatever the edge. An edge and its reverse cancel exactly.
     void append(const Vector& a, const Vector& b, Mesh& mesh) const;
 
+    /// A part of an edge between two of the tile's borders, snapped; it goes up.
+    struct Piece {
+        Vector from;
+        Vector to;
+    };
+    /// What an edge becomes: at most three pieces. Those that invert no sample are left out.
+    struct Pieces {
+        std::array<Piece, 3> list;
+        std::uint32_t count = 0;
+    };
+    /// The right sides of the quads that append() makes.
+    [[nodiscard]] Pieces pieces(const Vector& a, const Vector& b) const;
+
 private:
-    void append_piece(const Vector& from, const Vector& to, Mesh& mesh) const;
+    void add_piece(const Vector& from, const Vector& to, Pieces& pieces) const;
 
     double width_;
     double height_;

@@ -1,9 +1,7 @@
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 
-#include <array>
 #include <cstddef>
-#include <iterator>
 
 namespace nearfield::geometry {
 
@@ -21,8 +19,8 @@ constexpr double corners[8][2] = {{cosine, sine},  {sine, cosine},   {-sine, cos
 
 }  // namespace
 
-void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
-                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh) {
+bool make_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
+                         std::uint32_t height, SubpixelGrid grid, OffsetPolygon& polygon) {
     // Snapping pulls the border in by no more than the largest move. Half of it on top keeps a
     // sample at exactly `offset` inside, not on the border, where the fill rule might drop it.
     const double circumradius = (offset + 1.5 * grid.largest_move()) * offset_overreach;
@@ -31,7 +29,7 @@ void append_offset_polygon(const Vector& a, const Vector& b, double offset, std:
     Vector to = b;
     if (!clip_to_slab(from, to, 0, -margin, width + margin) ||
         !clip_to_slab(from, to, 1, -margin, height + margin)) {
-        return;
+        return false;
     }
 
     // The tangent is the whole edge's: the part may be short, or a point.
@@ -40,17 +38,28 @@ void append_offset_polygon(const Vector& a, const Vector& b, double offset, std:
         tangent = Vector::UnitX();
     }
     const Vector normal(-tangent.y(), tangent.x());
-    std::array<MeshVertex, std::size(corners)> polygon;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const auto [along, across] = corners[i];
         const Vector& end = along > 0.0 ? to : from;
         const Vector corner = end + circumradius * (along * tangent + across * normal);
-        polygon[i] = {.x = static_cast<float>(grid.snap(corner.x())),
-                      .y = static_cast<float>(grid.snap(corner.y())),
-                      .id = id};
+        polygon[i] = {grid.snap(corner.x()), grid.snap(corner.y())};
     }
+    return true;
+}
+
+void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
+                           std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh) {
+    OffsetPolygon polygon;
+    if (!make_offset_polygon(a, b, offset, width, height, grid, polygon)) {
+        return;
+    }
+    const auto vertex = [&](std::size_t corner) {
+        return MeshVertex{.x = static_cast<float>(polygon[corner].x()),
+                          .y = static_cast<float>(polygon[corner].y()),
+                          .id = id};
+    };
     for (std::size_t i = 2; i < polygon.size(); ++i) {
-        mesh.insert(mesh.end(), {polygon[0], polygon[i - 1], polygon[i]});
+        mesh.insert(mesh.end(), {vertex(0), vertex(i - 1), vertex(i)});
     }
 }
 

@@ -3,11 +3,23 @@
 #include <engine/geometry/mesh.hpp>
 #include <engine/geometry/vector.hpp>
 
+#include <array>
+#include <cstdint>
+
 namespace nearfield::geometry {
 
 /// How far outside the offset itself the offset polygon may reach, as a factor: its ends are half
 /// octagons around half circles, 1 / cos(22.5 degrees).
 inline constexpr double offset_overreach = 1.0823922002923940;
+
+/// Corners of an offset polygon, counter-clockwise, snapped. So snapped they need not be convex:
+/// the polygon is the fan of triangles around the first corner.
+using OffsetPolygon = std::array<Vector, 8>;
+
+/// The offset polygon of an edge as append_offset_polygon() has it; false where there is none.
+[[nodiscard]] bool make_offset_polygon(const Vector& a, const Vector& b, double offset,
+                                       std::uint32_t width, std::uint32_t height, SubpixelGrid grid,
+                                       OffsetPolygon& polygon);
 
 /// Appends the offset polygon of edge ab (section 2.2.1 of the paper): six triangles of an octagon,
 /// stretched along the edge, with snapped vertices. It covers every sample of the tile within

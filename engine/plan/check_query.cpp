@@ -102,12 +102,9 @@ Status check_technique(const Query& query) {
     if (cpu_answers(query)) {
         return {};
     }
-    const char* const what = std::is_same_v<Query, IntersectionQuery> ? "intersections"
-                             : std::is_same_v<Query, DistanceFieldQuery>
-                                 ? "distance fields"
-                                 : "contacts with normals by gradient";
-    return invalid(std::string("the technique cpu does not answer ") + what +
-                   "; ask for raster or automatic");
+    return invalid(
+        "the technique cpu has no blended gradients, which are blended on a device; ask for "
+        "analytic or central_differences, or for raster");
 }
 
 template <class Query>

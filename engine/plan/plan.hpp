@@ -87,6 +87,8 @@ struct PlannedQuery {
     bool on_cpu = false;
     /// Where the other direction stands in Plan::queries: points of B in the field of A.
     std::uint32_t reverse = none;
+    std::uint32_t first_cpu_tile = 0;  ///< of an intersection on the CPU
+    std::uint32_t cpu_tile_count = 0;
     FieldParts field;  ///< of a distance field
     std::uint32_t first_field_point = 0;
     std::uint32_t field_point_count = 0;
@@ -129,7 +131,9 @@ struct Plan {
     /// By position in the batch; behind them the other directions of some.
     std::vector<PlannedQuery> queries;
     BoundingVolume bounding_volume{};  ///< what hierarchies are made of
+    geometry::SubpixelGrid subpixel;   ///< that overlaps are snapped to
     std::vector<Tile> tiles;
+    std::vector<Tile> cpu_tiles;                  ///< of overlaps that the CPU finds, by query
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
     std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
     TileSize extent;                              ///< of the atlas

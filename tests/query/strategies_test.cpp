@@ -43,7 +43,7 @@ protected:
         return std::move(*made);
     }
 
-    /// All strategies and kinds in one batch and alone: the same samples as the CPU's.
+    /// All strategies and kinds, on the device and on the CPU: the same samples as the scanline's.
     static void check(const PlacedPair& pair, Context& context, const Settings& settings = {});
 
     static test_support::VulkanHost* host_;
@@ -120,6 +120,21 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
             EXPECT_EQ(counted.box.max, result.box.max);
             EXPECT_TRUE(counted.samples.empty());
         }
+        SCOPED_TRACE("cpu");
+        query.technique = Technique::cpu;
+        query.records = true;
+        const IntersectionResult exact = run_alone(context, query);
+        EXPECT_EQ(exact.technique, Technique::cpu);
+        expect_same(expected, exact);
+        expect_same_edges(first, exact);
+        EXPECT_EQ(first.intersects, exact.intersects);
+        query.records = false;
+        const IntersectionResult counted = run_alone(context, query);
+        EXPECT_EQ(counted.count, exact.count);
+        EXPECT_EQ(counted.area, exact.area);
+        EXPECT_EQ(counted.box.min, exact.box.min);
+        EXPECT_EQ(counted.box.max, exact.box.max);
+        EXPECT_TRUE(counted.samples.empty());
     }
 }
 
@@ -284,6 +299,18 @@ TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
     EXPECT_TRUE(results[before].status.ok());
     EXPECT_TRUE(results[after].status.ok());
     EXPECT_EQ(results[before].count, results[after].count);
+}
+
+TEST_F(MissingStrategies, TheCpuNeedsNone) {
+    Random random(seed);
+    const PlacedPair pair(context(), any_pair(random), Technique::cpu);
+    IntersectionQuery query = pair.intersection(IntersectionKind::boundary_volume);
+    const IntersectionResult by_stencil = run_alone(context(), query);
+    query.strategy = IntersectionStrategy::logic_op;
+    const IntersectionResult result = run_alone(context(), query);
+    ASSERT_TRUE(result.status.ok()) << result.status.text();
+    EXPECT_GT(result.count, 0U);
+    expect_same_edges(by_stencil, result);
 }
 
 TEST_F(MissingStrategies, AreNoEnumerators) {
