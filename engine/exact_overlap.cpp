@@ -29,7 +29,7 @@ std::span<const Tile> band_of(std::span<const Tile> tiles, std::size_t first) {
 }  // namespace
 
 void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
-                          IntersectionResult& result) {
+                          plan::SimplifiedShapes& shapes, IntersectionResult& result) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
     const bool with_runs = query.records && query.kind != IntersectionKind::volume_volume;
     const auto tiles =
@@ -40,7 +40,7 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
         samples_.clear();
         row_counts_.clear();
         for (const Tile& tile : band) {
-            find_common(plan, planned, tile, with_runs);
+            find_common(plan, planned, tile, with_runs, shapes);
             add_summary(tile, summarize(), result);
             if (query.records) {
                 append_samples(planned, tile, band.size() == 1 ? result.samples : samples_);
@@ -53,13 +53,13 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
 }
 
 void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& planned,
-                               const Tile& tile, bool with_runs) {
+                               const Tile& tile, bool with_runs, plan::SimplifiedShapes& shapes) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
     const double cell = tile.grid.cell;
     const double simplification = planned.budget.simplification;
     const double offset = planned.budget.offset / cell;
     const auto boundary_of = [&](const geometry::Polygon& polygon, const Pose& pose) {
-        return TileBoundary(shapes_.get(polygon, simplification, plan::longest_tile_run * cell),
+        return TileBoundary(shapes.get(polygon, simplification, plan::longest_tile_run * cell),
                             plan::ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
     };
     b_.reset(tile.width, tile.height, plan.subpixel);

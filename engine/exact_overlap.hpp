@@ -19,17 +19,14 @@ namespace nearfield {
 /// batch to batch.
 class ExactOverlap {
 public:
-    /// Forgets simplified shapes; first in each batch, since shapes may have changed.
-    void begin_batch() { shapes_.clear(); }
-
     /// Adds count, box and samples of a query.
     void answer(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                IntersectionResult& result);
+                plan::SimplifiedShapes& shapes, IntersectionResult& result);
 
 private:
     /// Finds the samples of a tile, into a_; with_runs: and which edges of A they belong to.
     void find_common(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                     const plan::Tile& tile, bool with_runs);
+                     const plan::Tile& tile, bool with_runs, plan::SimplifiedShapes& shapes);
     void fill(const plan::TileBoundary& boundary, const plan::Tile& tile, double slack,
               geometry::SubpixelGrid grid, exact::Coverage& coverage);
     /// Calls `use(run of edges, word, bits)` for what each offset polygon of a boundary covers of
@@ -45,7 +42,6 @@ private:
     /// Appends the samples of tiles side by side, row by row through all of them.
     void append_band(std::span<const plan::Tile> band, IntersectionResult& result);
 
-    plan::SimplifiedShapes shapes_;
     exact::Coverage a_;
     exact::Coverage b_;
     std::vector<plan::TileEdge> crossing_;

@@ -1,4 +1,5 @@
 #include <engine/gradient_normals.hpp>
+#include <engine/plan/technique.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,7 @@ void GradientNormals::add_fields(const ContactQuery& asked, double cell) {
         field.b = asked.b;
         field.tolerance = asked.tolerance;
         field.gradient = GradientMethod::central_differences;
+        field.technique = plan::technique_of(asked);
         field.values = false;
         field.points = std::span(sorted_points_).subspan(first, i - first);
         field.rectangle = around(field.points, cell);

@@ -30,7 +30,7 @@ void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
     vertices_.begin_batch();
-    overlaps_.begin_batch();
+    simplified_.clear();
     fields_.begin_batch(plan);
 }
 
@@ -117,7 +117,7 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
         } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
             if (intersection->status.ok()) {
                 if (planned.on_cpu) {
-                    overlaps_.answer(plan, planned, *intersection);
+                    overlaps_.answer(plan, planned, simplified_, *intersection);
                 }
                 intersection->area = static_cast<double>(intersection->count) * intersection->cell *
                                      intersection->cell;
@@ -126,7 +126,12 @@ void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& resul
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
             if (field->status.ok()) {
                 field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
-                fields_.finish(planned, static_cast<std::uint32_t>(i), *field);
+                const auto query = static_cast<std::uint32_t>(i);
+                if (planned.on_cpu) {
+                    fields_.set_largest(query,
+                                        exact_fields_.answer(plan, planned, simplified_, *field));
+                }
+                fields_.finish(planned, query, *field);
             }
         } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
             if (contact->status.ok()) {

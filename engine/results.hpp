@@ -2,6 +2,7 @@
 
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
+#include <engine/exact_field.hpp>
 #include <engine/exact_overlap.hpp>
 #include <engine/exact_points.hpp>
 #include <engine/field_results.hpp>
@@ -62,7 +63,9 @@ private:
     VertexPenetration vertices_;
     ContactDecoder contacts_;
     ClosestDecoder closest_;
+    plan::SimplifiedShapes simplified_;  // of what the CPU answers
     ExactOverlap overlaps_;
+    ExactField exact_fields_;
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
 };

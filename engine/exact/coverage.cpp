@@ -34,6 +34,17 @@ std::uint64_t bits_between(std::uint32_t first, std::uint32_t end, std::uint32_t
     return (high == 64 ? all : (std::uint64_t{1} << high) - 1) & (all << low);
 }
 
+void fill_from_crossings(std::span<std::uint64_t> row) {
+    std::uint64_t odd = 0;  // all ones or none
+    for (std::size_t i = row.size(); i-- > 0;) {
+        for (const std::uint32_t shift : {1U, 2U, 4U, 8U, 16U, 32U}) {
+            row[i] ^= row[i] >> shift;
+        }
+        row[i] ^= odd;
+        odd = 0 - (row[i] & 1);
+    }
+}
+
 void Coverage::reset(std::uint32_t width, std::uint32_t height, geometry::SubpixelGrid grid) {
     width_ = width;
     height_ = height;
@@ -89,18 +100,8 @@ void Coverage::invert_left_of(const Vector& from, const Vector& to) {
 }
 
 void Coverage::fill() {
-    // A bit says that an edge passes right after its sample: a sample is inside where the bits from
-    // its own on are odd.
     for (std::uint32_t row = 0; row < height_; ++row) {
-        std::uint64_t odd = 0;  // all ones or none
-        for (std::size_t i = words_per_row_; i-- > 0;) {
-            std::uint64_t& word = words_[row * words_per_row_ + i];
-            for (const std::uint32_t shift : {1U, 2U, 4U, 8U, 16U, 32U}) {
-                word ^= word >> shift;
-            }
-            word ^= odd;
-            odd = 0 - (word & 1);
-        }
+        fill_from_crossings(std::span(words_).subspan(row * words_per_row_, words_per_row_));
     }
 }
 

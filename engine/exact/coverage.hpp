@@ -19,6 +19,10 @@ struct RowSpan {
     std::uint32_t end = 0;
 };
 
+/// Fills a row by parity: where a bit says that an edge passes right after its sample, a sample is
+/// inside where the bits from its own on are odd.
+void fill_from_crossings(std::span<std::uint64_t> row);
+
 /// The samples of a tile that something covers, a bit each: what a rasteriser covers whose vertices
 /// are on the sub-pixel grid, exact in integers and by the same fill rule. Coordinates are in cells
 /// of the tile and of that grid. Keeps its memory.

@@ -59,9 +59,11 @@ struct PlannedPoint {
 
 /// A point at which a field is reconstructed, between four cells of a tile.
 struct PlannedFieldPoint {
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< of points that the CPU answers
+
     geometry::Vector position;  ///< in the world
     std::uint32_t tile = 0;
-    std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile as drawn
+    std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile, or grid, as drawn
     std::uint32_t row = 0;
     double across = 0.0;  ///< of the way from the centre of that cell to the next, along x
     double up = 0.0;      ///< and along y

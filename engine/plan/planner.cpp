@@ -351,8 +351,9 @@ void Planner::pack() {
         const std::uint32_t tile = points[i].tile;
         return tile == PlannedPoint::no_tile ? no_round : tiles[tile].place.round;
     });
-    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds, [&](std::size_t i) {
-        return tiles[field_points[i].tile].place.round;
+    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds + 1, [&](std::size_t i) {
+        const std::uint32_t tile = field_points[i].tile;
+        return tile == PlannedFieldPoint::no_tile ? no_round : tiles[tile].place.round;
     });
 }
 

@@ -243,14 +243,11 @@ TEST_F(Techniques, WhatTheCpuDoesNotAnswerIsRefusedByName) {
         EXPECT_EQ(status.code(), StatusCode::invalid_query);
         EXPECT_NE(status.message().find(what), std::string::npos) << status.message();
     };
-    expect_refused(run_alone(context(), pair.intersection(IntersectionKind::volume_volume)).status,
-                   "intersections");
     DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
     field.technique = Technique::cpu;
-    expect_refused(run_alone(context(), field).status, "distance fields");
-    ContactQuery contacts = pair.contacts(0.1);
-    contacts.normals = ContactNormals::gradient;
-    expect_refused(run_alone(context(), contacts).status, "normals by gradient");
+    field.gradients = true;
+    field.gradient = GradientMethod::blended;
+    expect_refused(run_alone(context(), field).status, "blended");
     PenetrationQuery none = pair.penetration();
     none.technique = static_cast<Technique>(17);
     expect_refused(run_alone(context(), none).status, "no enumerator");
@@ -258,6 +255,35 @@ TEST_F(Techniques, WhatTheCpuDoesNotAnswerIsRefusedByName) {
     fine.tolerance = 1e-13;
     fine.a.pose.translation.x = 1e3;
     expect_refused(run_alone(context(), fine).status, "below what double precision resolves");
+}
+
+/// Normals by the gradient of B's field, the field by one technique and by the other.
+TEST_F(Techniques, AgreeOnNormalsByGradient) {
+    Random random(seed);
+    const Pair pair{
+        {"A", star(random, 20, 0.4)}, {"B", star(random, 25, 0.3)}, {}, {{1.2, 0.3}, 0.2}, 0.02};
+    const PlacedPair raster(context(), pair, Technique::raster);
+    const PlacedPair cpu(context(), pair, Technique::cpu);
+    ContactQuery query = raster.contacts(0.03);
+    query.normals = ContactNormals::gradient;
+    const ContactResult drawn = run_alone(context(), query);
+    query = cpu.contacts(0.03);
+    query.normals = ContactNormals::gradient;
+    const ContactResult exact = run_alone(context(), query);
+    EXPECT_EQ(exact.technique, Technique::cpu);
+    ASSERT_TRUE(exact.status.ok()) << exact.status.text();
+    ASSERT_GT(exact.records.size(), 10U);
+    int compared = 0;
+    match(
+        exact.records, drawn.records,
+        [&](const ContactRecord& i, const ContactRecord& j) {
+            // Where the differences say something: each component is off by up to 0.31 of a cell's
+            // side on the device (docs/error_budget.md), and hardly at all on the CPU.
+            EXPECT_GT(oracle::dot(i.normal, j.normal), 0.5);
+            ++compared;
+        },
+        [](const ContactRecord&) {});
+    EXPECT_GT(compared, 10);
 }
 
 TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
@@ -268,6 +294,7 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
         rings.push_back(star(random, n, 0.5));
         shapes.push_back(context().add_shape(rings.back()).value());
     }
+    const std::vector<Vector2> points{{0.1, 0.2}, {-0.4, 0.9}};
     Batch batch;
     Results results;
     bool good = true;
@@ -285,6 +312,17 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
                 PenetrationQuery{a, b, 0.01, PenetrationPoints::vertices, true, Technique::cpu});
             batch.add(
                 PenetrationQuery{a, b, 0.01, PenetrationPoints::boundary, true, Technique::cpu});
+            IntersectionQuery overlap{a, b, 0.01};
+            overlap.kind = static_cast<IntersectionKind>(i % 3);
+            overlap.technique = Technique::cpu;
+            batch.add(overlap);
+            DistanceFieldQuery field{a, b, 0.01, std::nullopt};
+            field.technique = Technique::cpu;
+            batch.add(field);
+            field.features = field.gradients = true;
+            field.points = points;
+            field.rectangle = {{-1, -1}, {1, 1}};
+            batch.add(field);
             batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
             batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});
             batch.add(
