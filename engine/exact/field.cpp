@@ -1,10 +1,12 @@
 #include <engine/exact/coverage.hpp>
 #include <engine/exact/field.hpp>
 #include <engine/geometry/clip.hpp>
+#include <engine/geometry/segment.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace nearfield::exact {
 
@@ -185,19 +187,23 @@ void FieldSolver::divide(const Square& square, std::size_t depth) {
         });
         return;
     }
-    // What can be nearest to a cell, or as near as the nearest, is no farther from it than this.
-    const double reach = (nearest + static_cast<double>(cells.radius)) * (1.0 + 0x1p-16) +
-                         static_cast<double>(slack);
-    make_near_list(square, levels_[depth + 1], reach, levels_[depth + 2]);
+    make_near_list(square, levels_[depth + 1], nearest, levels_[depth + 2]);
     divide_near(square, depth + 2);
 }
 
-void FieldSolver::make_near_list(const Square& square, const EdgeList& far, double reach,
+void FieldSolver::make_near_list(const Square& square, const EdgeList& far, double nearest,
                                  EdgeList& near) {
     const Extent size = extent(square);
     near_origin_ = {static_cast<double>(square.column) + 0.5 * size.width,
                     static_cast<double>(square.row) + 0.5 * size.height};
-    // Far ends are cut off in double precision: what is left has small coordinates.
+    if (far_slack_ > 0.0625) {
+        // A shape so large that single precision says little about the distance of its edges.
+        nearest = distance_from(near_origin_, far);
+    }
+    // What can be nearest to a cell, or as near as the nearest, is no farther from it than this;
+    // far ends are cut off in double precision. What is left has small coordinates.
+    const double reach = nearest * (1.0 + 0x1p-16) + std::hypot(size.width, size.height) / 2.0 +
+                         output_.margin + 1.0;
     const double across = 0.5 * size.width + reach;
     const double up = 0.5 * size.height + reach;
     near.reserve(far.size());
@@ -211,6 +217,16 @@ void FieldSolver::make_near_list(const Square& square, const EdgeList& far, doub
             add_edge(start, end, edge, near);
         }
     }
+}
+
+double FieldSolver::distance_from(const Vector& point, const EdgeList& edges) const {
+    double squared = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < edges.size(); ++i) {
+        const Ends& edge = edges_[edges.indices()[i]];
+        squared = std::min(
+            squared, geometry::nearest_on_segment(point, edge.start, edge.end).squared_distance);
+    }
+    return std::sqrt(squared);
 }
 
 void FieldSolver::divide_near(const Square& square, std::size_t depth) {

@@ -65,7 +65,9 @@ private:
     [[nodiscard]] Extent extent(const Square& square) const;
     [[nodiscard]] Disc disc(const Square& square, const geometry::Vector& origin) const;
     void divide(const Square& square, std::size_t depth);
-    void make_near_list(const Square& square, const EdgeList& far, double reach, EdgeList& near);
+    void make_near_list(const Square& square, const EdgeList& far, double nearest, EdgeList& near);
+    /// Of the nearest of some edges, in double precision.
+    [[nodiscard]] double distance_from(const geometry::Vector& point, const EdgeList& edges) const;
     void divide_near(const Square& square, std::size_t depth);
     void solve_block_at(const Square& square, const EdgeList& edges);
 

@@ -138,6 +138,10 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
     const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
     EXPECT_EQ(one.values.size(), 1U);
     check(shape, {}, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}});
+    // Around a vertex of a shape of 10^8 cells.
+    const Vector2 vertex = shape[0][3];
+    check(shape, {}, 1e-8,
+          {{vertex.x - 1e-6, vertex.y - 7e-7}, {vertex.x + 9e-7, vertex.y + 8e-7}});
     check(shape, {}, 0.05, {{30.0, -40.0}, {32.0, -38.0}});  // far outside
     check(scaled_and_moved(shape, 1e-3, {}), {{1e6, 1e6}, 0.3}, 2e-5,
           {{1e6 - 1e-3, 1e6 - 1e-3}, {1e6 + 1e-3, 1e6 + 1e-3}});

@@ -340,8 +340,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("X,Y,DEGREES");
     command
         ->add_option("--technique", arguments.technique,
-                     "raster, cpu or automatic; default automatic: cpu for penetration, contacts, "
-                     "closest-point and separation, raster for the rest")
+                     "raster, cpu (no blended gradients) or automatic; default automatic: cpu for "
+                     "penetration, contacts, closest-point and separation, raster for the rest")
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,
