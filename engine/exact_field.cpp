@@ -22,7 +22,7 @@ static_assert(exact::nearest_inside == plan::point_inside);
 static_assert(exact::nearest_unique == plan::point_unique);
 
 /// In cells: two distances closer than this count as equal.
-constexpr double margin = plan::uniqueness_margin / std::numbers::sqrt2;
+constexpr double margin_in_cells = plan::uniqueness_margin / std::numbers::sqrt2;
 
 double touching_at(const DistanceFieldResult& result) {
     return touching_distance(result.cell, 0);
@@ -48,7 +48,7 @@ double ExactField::solve_cells(const PlannedQuery& planned, plan::SimplifiedShap
     const PlacedPolygon b(*planned.b, planned.pose_b);
     const double cell = result.cell;
     exact::FieldGrid grid{geometry::to_vector(result.origin), cell, result.width, result.height};
-    exact::FieldOutput output{result.values, {}, cell, margin};
+    exact::FieldOutput output{result.values, {}, cell, margin_in_cells};
     const bool differences =
         query.gradients && query.gradient == GradientMethod::central_differences;
     if (differences) {
@@ -138,7 +138,7 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
         const exact::NearestPoint nearest = boundary_.nearest(point.position, guess.edge);
         const double distance = std::sqrt(nearest.on_edge.squared_distance);
         const bool unique = boundary_.is_unique(point.position, nearest,
-                                                std::max(margin * cell, std::ldexp(distance, -18)));
+                                                std::max(margin_in_cells * cell, std::ldexp(distance, -18)));
         const std::uint32_t word = nearest.edge |
                                    (boundary_.contains(point.position) ? plan::point_inside : 0U) |
                                    (unique ? plan::point_unique : 0U);

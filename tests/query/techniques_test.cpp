@@ -68,6 +68,61 @@ protected:
         check_closest(raster, cpu);
     }
 
+    /// The same of what has an answer at every cell; other pairs than these are held to it where
+    /// fields and strategies are tested.
+    static void check_dense(const Pair& pair) {
+        const PlacedPair raster(context(), pair, Technique::raster);
+        const PlacedPair cpu(context(), pair, Technique::cpu);
+        SCOPED_TRACE(describe(pair));
+        check_intersections(raster, cpu);
+        check_fields(raster, cpu);
+    }
+
+    static void check_intersections(const PlacedPair& raster, const PlacedPair& cpu) {
+        for (const auto kind :
+             {IntersectionKind::boundary_boundary, IntersectionKind::boundary_volume,
+              IntersectionKind::volume_volume}) {
+            const IntersectionResult exact = run_alone(context(), cpu.intersection(kind));
+            const IntersectionResult drawn = run_alone(context(), raster.intersection(kind));
+            ASSERT_TRUE(exact.status.ok()) << exact.status.text();
+            EXPECT_EQ(exact.technique, Technique::cpu);
+            EXPECT_EQ(exact.count, drawn.count);
+            EXPECT_EQ(exact.box.min, drawn.box.min);
+            EXPECT_EQ(exact.box.max, drawn.box.max);
+            EXPECT_EQ(exact.intersects, drawn.intersects);
+            ASSERT_EQ(exact.samples.size(), drawn.samples.size());
+            Report report("samples of kind " + std::to_string(static_cast<int>(kind)));
+            for (std::size_t i = 0; i < exact.samples.size(); ++i) {
+                report.require(exact.samples[i].point == drawn.samples[i].point &&
+                                   exact.samples[i].edge == drawn.samples[i].edge,
+                               "sample ", i);
+            }
+        }
+    }
+
+    static void check_fields(const PlacedPair& raster, const PlacedPair& cpu) {
+        DistanceFieldQuery query;
+        query.a = raster.instance_a();
+        query.b = raster.instance_b();
+        query.tolerance = raster.tolerance();
+        const DistanceFieldResult drawn = run_alone(context(), query);
+        query.a = cpu.instance_a();
+        query.b = cpu.instance_b();
+        query.technique = Technique::cpu;
+        const DistanceFieldResult exact = run_alone(context(), query);
+        EXPECT_EQ(exact.status.code(), drawn.status.code()) << exact.status.text();
+        EXPECT_EQ(exact.intersects, drawn.intersects);
+        ASSERT_EQ(exact.values.size(), drawn.values.size());
+        Report report("values");
+        const double most = drawn.error_bound + exact.error_bound + cpu.rounding();
+        for (std::size_t i = 0; i < exact.values.size(); ++i) {
+            const double difference = std::abs(static_cast<double>(exact.values[i]) -
+                                               static_cast<double>(drawn.values[i]));
+            report.require(difference <= most, "cell ", i, ": ", exact.values[i], " and ",
+                           drawn.values[i]);
+        }
+    }
+
     static void check_penetrations(const PlacedPair& raster, const PlacedPair& cpu) {
         for (const PenetrationPoints points : both_ways) {
             PenetrationQuery query = cpu.penetration(points);
@@ -167,14 +222,18 @@ TEST_F(Techniques, AgreeOnNastyPolygons) {
     }
     ASSERT_GE(shapes.size(), 6U);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
-        check({shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7});
+        const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
+        check(pair);
+        check_dense(pair);
     }
 }
 
 TEST_F(Techniques, AgreeOnOutlines) {
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
     ASSERT_GE(outlines.size(), 2U);
-    check({outlines[0], outlines[1], {}, {{60.0, 30.0}, 0.4}, 2.0});
+    const Pair pair{outlines[0], outlines[1], {}, {{60.0, 30.0}, 0.4}, 2.0};
+    check(pair);
+    check_dense(pair);
 }
 
 TEST_F(Techniques, AgreeAroundTheSizeFromWhichThereIsATree) {
