@@ -135,13 +135,7 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
             around.distances[k] = distances[k];
             around.inside[k] = std::signbit(distances[k]);
         }
-        const exact::NearestPoint nearest = boundary_.nearest(point.position, guess.edge);
-        const double distance = std::sqrt(nearest.on_edge.squared_distance);
-        const bool unique = boundary_.is_unique(point.position, nearest,
-                                                std::max(margin_in_cells * cell, std::ldexp(distance, -18)));
-        const std::uint32_t word = nearest.edge |
-                                   (boundary_.contains(point.position) ? plan::point_inside : 0U) |
-                                   (unique ? plan::point_unique : 0U);
+        const std::uint32_t word = word_at(point.position, guess.edge, cell);
         FieldPoint& found = result.points[i];
         reconstruct(point, around, cell, error,
                     field_feature(b, touching_at(result), point.position, word), found);
@@ -151,6 +145,14 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
         }
     }
     return largest;
+}
+
+std::uint32_t ExactField::word_at(const Vector& point, std::uint32_t guess, double cell) {
+    const exact::NearestPoint nearest = boundary_.nearest(point, guess);
+    const double distance = std::sqrt(nearest.on_edge.squared_distance);
+    const double margin = std::max(margin_in_cells * cell, std::ldexp(distance, -18));
+    return nearest.edge | (boundary_.contains(point) ? plan::point_inside : 0U) |
+           (boundary_.is_unique(point, nearest, margin) ? plan::point_unique : 0U);
 }
 
 }  // namespace nearfield

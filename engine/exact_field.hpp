@@ -26,6 +26,10 @@ private:
     double solve_points(const plan::Plan& plan, const plan::PlannedQuery& planned,
                         DistanceFieldResult& result);
 
+    /// What the device would say of a point (gpu_layout.hpp). `guess`: an edge that may be near.
+    [[nodiscard]] std::uint32_t word_at(const geometry::Vector& point, std::uint32_t guess,
+                                        double cell);
+
     exact::FieldSolver solver_;
     exact::Boundary boundary_;
     std::vector<float> distances_;      // in cells, of the grid and a border of one cell around it
