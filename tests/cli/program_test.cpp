@@ -88,9 +88,9 @@ TEST_F(Device, TheTechniquesOfThisVersionAgree) {
     ASSERT_TRUE(drawn.is_object() && found.is_object());
     EXPECT_EQ(found.at("technique"), "cpu");
     EXPECT_EQ(found.at("samples"), drawn.at("samples"));
-    expect_refused(
-        squares("distance-field", "cpu") + Arguments{"-d", "0.1", "--gradient", "blended"},
-        {"technique cpu", "blended"});
+    expect_refused(squares("distance-field", "cpu") +
+                       Arguments{"-d", "0.1", "--gradient", "blended", "--at", "0.5,0.5"},
+                   {"technique cpu", "blended"});
     expect_refused(squares("penetration", "fast") + Arguments{"-d", "0.1"},
                    {"--technique", "fast", "raster", "cpu", "automatic"});
 }
