@@ -36,9 +36,9 @@ public:
     /// Planning and renderer are shared with other runners and must outlive this one.
     BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer);
 
-    /// Copies the queries, picks their techniques, plans them and submits their rounds; where nothing is to be rendered,
-    /// nothing is submitted. Then answers what the CPU answers, while the device is at work. Does
-    /// not wait, but for a batch that a Failure left on the device.
+    /// Copies the queries, picks their techniques, plans them and submits their rounds; where
+    /// nothing is to be rendered, nothing is submitted. Then answers what the CPU answers, while
+    /// the device is at work. Does not wait, but for a batch that a Failure left on the device.
     void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape);
 
     /// collect() would not wait for what was submitted.

@@ -1,12 +1,13 @@
+#include <engine/exact/field.hpp>
+#include <engine/field_features.hpp>
+#include <engine/field_reconstruction.hpp>
 #include <engine/field_results.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/check_query.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace nearfield {
 namespace {
@@ -14,46 +15,6 @@ namespace {
 using geometry::PlacedPolygon;
 using geometry::Vector;
 using plan::Tile;
-
-/// What the word of a cell or a point stands for.
-struct NearestFeature {
-    Feature feature;
-    Vector gradient;
-    bool unique = true;
-};
-
-/// The unit normal of an edge that points outside at a place of it; zero for an edge of no length.
-Vector outward_normal(const PlacedPolygon& b, std::uint32_t edge, const Vector& place,
-                      double step) {
-    const Vector along = b.vertex(b.polygon().next(edge)) - b.vertex(edge);
-    const double length = along.norm();
-    if (length == 0.0) {
-        return Vector::Zero();
-    }
-    const Vector normal(-along.y() / length, along.x() / length);
-    return geometry::contains(b, place + step * normal) ? Vector(-normal) : normal;
-}
-
-NearestFeature decode(const PlacedPolygon& b, const Tile& tile, const Vector& point,
-                      std::uint32_t word) {
-    const std::uint32_t edge = word & plan::point_edge_mask;
-    const auto nearest = nearest_on_edge(b, edge, point);
-    NearestFeature result;
-    result.feature = feature_at(b, edge, nearest.parameter);
-    result.unique = (word & plan::point_unique) != 0;
-    const Vector away = point - nearest.point;
-    const double distance = std::sqrt(nearest.squared_distance);
-    const double touching = touching_distance(tile);
-    if (distance > touching) {
-        const bool inside = (word & plan::point_inside) != 0;
-        result.gradient = (inside ? -1.0 : 1.0) / distance * away;
-    } else {
-        // On the boundary the way from the nearest point says nothing, but the wall does.
-        result.gradient = outward_normal(b, edge, nearest.point, 2.0 * touching);
-        result.unique = result.unique && !result.gradient.isZero();
-    }
-    return result;
-}
 
 float from_word(std::uint32_t word) {
     return std::bit_cast<float>(word);
@@ -69,51 +30,6 @@ void for_cells(const Tile& tile, std::size_t result_width, Visit&& visit) {
                   (tile.row + row - tile.halo) * result_width + tile.column + column - tile.halo);
         }
     }
-}
-
-/// Of four cells: low left, low right, high left, high right.
-struct Bilinear {
-    std::array<double, 4> weights{};
-
-    Bilinear(double across, double up)
-        : weights{(1.0 - across) * (1.0 - up), across * (1.0 - up), (1.0 - across) * up,
-                  across * up} {}
-
-    template <class Value>
-    [[nodiscard]] auto operator()(Value&& value) const -> decltype(value(0)) {
-        return weights[0] * value(0) + weights[1] * value(1) + weights[2] * value(2) +
-               weights[3] * value(3);
-    }
-};
-
-/// How far the truth may be from a reconstructed distance. It differs from each cell's distance by
-/// no more than the way there and that cell's own error, so it lies between two limits.
-double reconstruction_error(const std::array<double, 4>& values, double distance, double cell_error,
-                            const plan::PlannedFieldPoint& point, double cell) {
-    double low = -std::numeric_limits<double>::infinity();
-    double high = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::size_t right = i % 2;
-        const std::size_t above = i / 2;
-        const double x = point.across - static_cast<double>(right);
-        const double y = point.up - static_cast<double>(above);
-        const double reach = cell * std::hypot(x, y) + cell_error;
-        low = std::max(low, values[i] - reach);
-        high = std::min(high, values[i] + reach);
-    }
-    return std::max(high - distance, distance - low);
-}
-
-/// Central differences at the four cells around a point, from the twelve cells that
-/// resolve_field_points.comp lists.
-Vector difference_at(std::span<const std::uint32_t> values, std::size_t corner) {
-    // By corner: the neighbours to the left, to the right, below and above.
-    constexpr std::array<std::array<std::size_t, 4>, 4> neighbours{
-        {{4, 1, 8, 2}, {0, 5, 9, 3}, {6, 3, 0, 10}, {2, 7, 1, 11}}};
-    const auto value = [&](std::size_t side) {
-        return static_cast<double>(from_word(values[neighbours[corner][side]]));
-    };
-    return {(value(1) - value(0)) / 2.0, (value(3) - value(2)) / 2.0};
 }
 
 /// Single precision at a distance.
@@ -197,56 +113,35 @@ void FieldDecoder::add_features(const plan::PlannedQuery& planned, const Tile& t
                                 std::span<const std::uint32_t> words, DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
     const PlacedPolygon b(*planned.b, planned.pose_b);
-    const bool gradients = query.gradients && query.gradient == GradientMethod::analytic;
+    const double touching = touching_distance(tile);
     for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
-        const std::size_t column = cell % result.width;
-        const std::size_t row = cell / result.width;
-        const Vector center(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-        const NearestFeature nearest =
-            decode(b, tile, tile.grid.origin + tile.grid.cell * center, words[drawn]);
-        result.unique[cell] = nearest.unique ? 1 : 0;
-        if (query.features) {
-            result.features[cell] = nearest.feature;
-        }
-        if (gradients) {
-            result.gradients[2 * cell] = static_cast<float>(nearest.gradient.x());
-            result.gradients[2 * cell + 1] = static_cast<float>(nearest.gradient.y());
-        }
+        write_feature(query, b, touching, cell, words[drawn], result);
     });
 }
 
 void FieldDecoder::add_point(const plan::PlannedQuery& planned, const Tile& tile,
                              const plan::PlannedFieldPoint& point,
                              std::span<const std::uint32_t> words, FieldPoint& result) {
-    const PlacedPolygon b(*planned.b, planned.pose_b);
-    const NearestFeature nearest = decode(b, tile, point.position, words[0]);
     const auto cells = words.subspan(1);
-    std::array<double, 4> values{};
-    std::array<double, 4> signs{};
+    CellsAround around;
     double farthest = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        values[i] = static_cast<double>(in_world(cells[i], tile));
-        signs[i] = std::signbit(from_word(cells[i])) ? 1.0 : 0.0;
-        farthest = std::max(farthest, std::abs(values[i]));
+    for (std::size_t i = 0; i < around.distances.size(); ++i) {
+        around.distances[i] = static_cast<double>(in_world(cells[i], tile));
+        around.inside[i] = std::signbit(from_word(cells[i]));
+        farthest = std::max(farthest, std::abs(around.distances[i]));
     }
-    const Bilinear bilinear(point.across, point.up);
-    result.point = geometry::to_public(point.position);
-    result.distance = bilinear([&](std::size_t i) { return values[i]; });
-    result.inside = bilinear([&](std::size_t i) { return signs[i]; });
-    result.error_bound =
-        reconstruction_error(values, result.distance, planned.budget.bound + rounding_at(farthest),
-                             point, tile.grid.cell);
-    result.feature = nearest.feature;
-    result.unique = nearest.unique;
-    Vector gradient = nearest.gradient;
+    const double error = planned.budget.bound + rounding_at(farthest);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    reconstruct(point, around, tile.grid.cell, error,
+                field_feature(b, touching_distance(tile), point.position, words[0]), result);
     if (planned.field.blended) {
-        gradient = bilinear([&](std::size_t i) {
+        result.gradient = gradient_between(point, [&](std::size_t i) {
             return Vector(from_word(cells[4 + 2 * i]), from_word(cells[5 + 2 * i]));
         });
     } else if (planned.field.cells_per_point > 4) {
-        gradient = bilinear([&](std::size_t i) { return difference_at(cells, i); });
+        result.gradient = difference_between(
+            point, [&](std::size_t i) { return static_cast<double>(from_word(cells[i])); });
     }
-    result.gradient = geometry::to_public(gradient);
 }
 
 void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query,
@@ -254,7 +149,8 @@ void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query
     const auto& asked = std::get<DistanceFieldQuery>(*planned.query);
     // Far from B a float of single precision is coarser than the rest of the bound.
     const auto largest = static_cast<double>(largest_[query]);
-    result.error_bound += rounding_at(largest);
+    result.error_bound +=
+        planned.on_cpu ? exact::FieldSolver::relative_rounding * largest : rounding_at(largest);
     const bool exact = asked.gradient == GradientMethod::analytic;
     if (asked.gradients || !asked.points.empty()) {
         // Two values that are each off by the bound, two cells apart.

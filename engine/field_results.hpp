@@ -24,6 +24,11 @@ public:
     void add(const plan::Plan& plan, const plan::Round& round, std::span<const std::uint32_t> words,
              std::vector<AnyResult>& results);
 
+    /// The largest magnitude of a value of a query that the CPU answered, world units.
+    void set_largest(std::uint32_t query, double largest) {
+        largest_[query] = static_cast<float>(largest);
+    }
+
     /// After the last round: the bounds, which depend on how far the field reaches.
     void finish(const plan::PlannedQuery& planned, std::uint32_t query,
                 DistanceFieldResult& result) const;

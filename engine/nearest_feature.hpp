@@ -14,9 +14,11 @@ namespace nearfield {
 
 /// The device decides on which side of the boundary a point lies in single precision, in cells of a
 /// tile. A point nearer to the boundary than this could lie on either side: it touches.
+[[nodiscard]] inline double touching_distance(double cell, std::uint32_t tile_side) {
+    return cell * std::ldexp(std::max(tile_side, 64U), -21);
+}
 [[nodiscard]] inline double touching_distance(const plan::Tile& tile) {
-    const double side = std::max({tile.width, tile.height, 64U});
-    return tile.grid.cell * std::ldexp(side, -21);
+    return touching_distance(tile.grid.cell, std::max(tile.width, tile.height));
 }
 
 /// The point of an edge nearest to a point.

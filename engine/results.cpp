@@ -1,47 +1,17 @@
-#include <engine/geometry/segment.hpp>
+#include <engine/intersection_samples.hpp>
 #include <engine/localize/overlap.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/results.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <tuple>
 
 namespace nearfield {
 namespace {
 
 using geometry::PlacedPolygon;
-using geometry::Vector;
 using plan::PlannedQuery;
 using plan::Tile;
-
-/// The edge of A nearest to a point, among a run of edges.
-std::uint32_t nearest_edge(const PlannedQuery& query, plan::EdgeRun run, const Vector& point) {
-    if (run.count == 1) {
-        return run.first;
-    }
-    const PlacedPolygon a(*query.a, query.pose_a);
-    std::uint32_t nearest = run.first;
-    double best = std::numeric_limits<double>::infinity();
-    for (std::uint32_t edge = run.first; edge < run.first + run.count; ++edge) {
-        const double squared =
-            geometry::nearest_on_segment(point, a.vertex(edge), a.vertex(a.polygon().next(edge)))
-                .squared_distance;
-        if (squared < best) {
-            best = squared;
-            nearest = edge;
-        }
-    }
-    return nearest;
-}
-
-/// The centre of a cell of a tile, in the world.
-Vector centre_of_cell(const Tile& tile, std::uint32_t column, std::uint32_t row) {
-    return tile.grid.origin +
-           tile.grid.cell * Vector(static_cast<double>(tile.column + column) + 0.5,
-                                   static_cast<double>(tile.row + row) + 0.5);
-}
 
 /// Counts what it takes among the result's statistics.
 bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
@@ -61,6 +31,7 @@ void ResultDecoder::begin_batch(const plan::Plan& plan) {
     samples_.clear();
     instances_.clear();
     vertices_.begin_batch();
+    simplified_.clear();
     fields_.begin_batch(plan);
 }
 
@@ -74,23 +45,10 @@ void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::Round& rou
                                   std::span<const plan::TileSummary> summaries,
                                   std::vector<AnyResult>& results) {
     for (std::size_t i = 0; i < summaries.size(); ++i) {
-        const plan::TileSummary& summary = summaries[i];
         const Tile& tile = plan.tiles[round.tile_index[i]];
-        if (tile.kind != plan::TileKind::overlap || summary.count == 0) {
-            continue;
+        if (tile.kind == plan::TileKind::overlap) {
+            add_summary(tile, summaries[i], std::get<IntersectionResult>(results[tile.query]));
         }
-        auto& result = std::get<IntersectionResult>(results[tile.query]);
-        const Vector2 low =
-            geometry::to_public(centre_of_cell(tile, summary.low_column, summary.low_row));
-        const Vector2 high =
-            geometry::to_public(centre_of_cell(tile, summary.high_column, summary.high_row));
-        Rectangle& box = result.box;
-        if (result.count == 0) {
-            box = {low, high};
-        }
-        box.min = {std::min(box.min.x, low.x), std::min(box.min.y, low.y)};
-        box.max = {std::max(box.max.x, high.x), std::max(box.max.y, high.y)};
-        result.count += summary.count;
     }
 }
 
@@ -99,10 +57,11 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
     for (const plan::SampleData& sample : samples) {
         const std::uint32_t index = round.tile_index[sample.tile];
         const Tile& tile = plan.tiles[index];
-        samples_.push_back({tile.query, tile.region, tile.row + (sample.cell >> 16U),
-                            tile.column + (sample.cell & 0xffffU),
-                            centre_of_cell(tile, sample.cell & 0xffffU, sample.cell >> 16U),
-                            round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run]});
+        samples_.push_back(
+            {tile.query, tile.region, tile.row + (sample.cell >> 16U),
+             tile.column + (sample.cell & 0xffffU),
+             make_sample(plan.queries[tile.query], tile, sample.cell & 0xffffU, sample.cell >> 16U,
+                         round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run])});
     }
 }
 
@@ -136,20 +95,14 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
     result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
 }
 
-void ResultDecoder::finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results) {
+void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
     // The device found them in no particular order; the result has one.
     std::sort(samples_.begin(), samples_.end(), [](const FoundSample& i, const FoundSample& j) {
         return std::tie(i.query, i.region, i.row, i.column) <
                std::tie(j.query, j.region, j.row, j.column);
     });
     for (const FoundSample& sample : samples_) {
-        const auto& query = std::get<IntersectionQuery>(*plan.queries[sample.query].query);
-        auto& result = std::get<IntersectionResult>(results[sample.query]);
-        const bool by_edge = query.kind != IntersectionKind::volume_volume;
-        result.samples.push_back(
-            {geometry::to_public(sample.point),
-             by_edge ? nearest_edge(plan.queries[sample.query], sample.run, sample.point)
-                     : IntersectionSample::no_edge});
+        std::get<IntersectionResult>(results[sample.query]).samples.push_back(sample.sample);
     }
 }
 
@@ -159,7 +112,7 @@ void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>
 }
 
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    finish_intersections(plan, results);
+    write_drawn_samples(results);
     finish_queries(plan, false, results);
 }
 
@@ -176,6 +129,9 @@ void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
             }
         } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
             if (intersection->status.ok()) {
+                if (planned.on_cpu) {
+                    overlaps_.answer(plan, planned, simplified_, *intersection);
+                }
                 intersection->area = static_cast<double>(intersection->count) * intersection->cell *
                                      intersection->cell;
                 intersection->intersects = shapes_intersect(plan, planned, *intersection);
@@ -183,7 +139,12 @@ void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
         } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
             if (field->status.ok()) {
                 field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
-                fields_.finish(planned, static_cast<std::uint32_t>(i), *field);
+                const auto query = static_cast<std::uint32_t>(i);
+                if (planned.on_cpu) {
+                    fields_.set_largest(query,
+                                        exact_fields_.answer(plan, planned, simplified_, *field));
+                }
+                fields_.finish(planned, query, *field);
             }
         } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
             if (contact->status.ok()) {

@@ -3,6 +3,8 @@
 #include <engine/closest.hpp>
 #include <engine/contacts.hpp>
 #include <engine/exact/placed_edges.hpp>
+#include <engine/exact_field.hpp>
+#include <engine/exact_overlap.hpp>
 #include <engine/exact_points.hpp>
 #include <engine/field_results.hpp>
 #include <engine/intersection_test.hpp>
@@ -52,15 +54,14 @@ private:
         std::uint32_t region = 0;
         std::uint64_t row = 0;
         std::uint64_t column = 0;
-        geometry::Vector point = geometry::Vector::Zero();
-        plan::EdgeRun run;  // of A's edges, where A takes part by its boundary
+        IntersectionSample sample;
     };
 
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result);
     /// Of the queries that the CPU answers, or of the others.
     void finish_queries(const plan::Plan& plan, bool on_cpu, std::vector<AnyResult>& results);
-    void finish_intersections(const plan::Plan& plan, std::vector<AnyResult>& results);
+    void write_drawn_samples(std::vector<AnyResult>& results);
 
     std::vector<std::uint32_t> words_;  // by point of the plan
     ExactPoints exact_points_;
@@ -70,6 +71,9 @@ private:
     ContactDecoder contacts_;
     ClosestDecoder closest_;
     IntersectionTest intersection_test_;
+    plan::SimplifiedShapes simplified_;  // of what the CPU answers
+    ExactOverlap overlaps_;
+    ExactField exact_fields_;
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
 };

@@ -1,7 +1,6 @@
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 
-#include <array>
 #include <cstddef>
 
 namespace nearfield::geometry {

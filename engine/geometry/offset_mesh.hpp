@@ -12,6 +12,16 @@ namespace nearfield::geometry {
 /// octagons around half circles, 1 / cos(22.5 degrees).
 inline constexpr double offset_overreach = 1.0823922002923940;
 
+/// Corners of an offset polygon, counter-clockwise, snapped. So snapped they need not be convex:
+/// the polygon is the fan of triangles around the first corner.
+using OffsetPolygon = std::array<Vector, 8>;
+
+/// The offset polygon of an edge as append_offset_polygon() has it. Nothing where the edge cannot
+/// reach the tile.
+[[nodiscard]] std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b,
+                                                          double offset, std::uint32_t width,
+                                                          std::uint32_t height, SubpixelGrid grid);
+
 /// Appends the offset polygon of edge ab (section 2.2.1 of the paper): six triangles of an octagon,
 /// stretched along the edge, with snapped vertices. It covers every sample of the tile within
 /// `offset` of the edge and no point farther from it than
@@ -22,12 +32,5 @@ inline constexpr double offset_overreach = 1.0823922002923940;
 /// the bound above, so no rasteriser has to clip.
 void append_offset_polygon(const Vector& a, const Vector& b, double offset, std::uint32_t width,
                            std::uint32_t height, SubpixelGrid grid, std::uint32_t id, Mesh& mesh);
-
-/// The corners of that octagon; what is covered is the fan of triangles around the first of them.
-/// Nothing where the edge cannot reach the tile.
-using OffsetPolygon = std::array<Vector, 8>;
-[[nodiscard]] std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b,
-                                                          double offset, std::uint32_t width,
-                                                          std::uint32_t height, SubpixelGrid grid);
 
 }  // namespace nearfield::geometry

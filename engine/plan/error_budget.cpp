@@ -1,5 +1,6 @@
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/field_parts.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -78,6 +79,14 @@ ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid
     const double d = query.tolerance;
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
+    if (query.technique == Technique::cpu) {
+        // No mesh and no snapping. Features are those of the shape itself, and so are points.
+        const FieldParts parts = field_parts(query);
+        budget.tessellation = deviations.b;
+        budget.simplification = parts.values && !parts.features ? d / 4.0 : 0.0;
+        budget.bound = budget.simplification + float_rounding * d + budget.tessellation;
+        return budget;
+    }
     // A distance mesh cannot be finer than the raster's snapping lets it be.
     budget.mesh = std::max(field_mesh_error, 10.0 * grid.largest_move()) * budget.cell;
     // The sample itself is a cell's centre, so there is no sampling error: what is left is the

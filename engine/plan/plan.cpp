@@ -5,6 +5,7 @@ namespace nearfield::plan {
 void Plan::clear() {
     queries.clear();
     tiles.clear();
+    cpu_tiles.clear();
     points.clear();
     field_points.clear();
     extent = {};

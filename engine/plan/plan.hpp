@@ -59,9 +59,11 @@ struct PlannedPoint {
 
 /// A point at which a field is reconstructed, between four cells of a tile.
 struct PlannedFieldPoint {
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< of points that the CPU answers
+
     geometry::Vector position;  ///< in the world
     std::uint32_t tile = 0;
-    std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile as drawn
+    std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile, or grid, as drawn
     std::uint32_t row = 0;
     double across = 0.0;  ///< of the way from the centre of that cell to the next, along x
     double up = 0.0;      ///< and along y
@@ -89,6 +91,8 @@ struct PlannedQuery {
     bool by_compute = false;
     /// Where the other direction stands in Plan::queries: points of B in the field of A.
     std::uint32_t reverse = none;
+    std::uint32_t first_cpu_tile = 0;  ///< of an intersection on the CPU
+    std::uint32_t cpu_tile_count = 0;
     FieldParts field;  ///< of a distance field
     std::uint32_t first_field_point = 0;
     std::uint32_t field_point_count = 0;
@@ -131,7 +135,9 @@ struct Plan {
     /// By position in the batch; behind them the other directions of some.
     std::vector<PlannedQuery> queries;
     BoundingVolume bounding_volume{};  ///< what hierarchies are made of
+    geometry::SubpixelGrid subpixel;   ///< that overlaps are snapped to
     std::vector<Tile> tiles;
+    std::vector<Tile> cpu_tiles;                  ///< of overlaps that the CPU finds, by query
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
     std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
     TileSize extent;                              ///< of the atlas

@@ -96,6 +96,7 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
+    plan.subpixel = limits_.subpixel;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
@@ -216,7 +217,7 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     result.kind = query.kind;
     result.strategy = query.strategy;
     const auto& missing = limits_.missing_for_strategy[static_cast<std::size_t>(query.strategy)];
-    if (!missing.empty() && !planned.by_compute) {
+    if (!missing.empty() && !planned.on_cpu && !planned.by_compute) {
         result.status = {StatusCode::unsupported_strategy,
                          std::string("the device lacks what the intersection strategy ") +
                              to_string(query.strategy) + " needs; each reason names one thing",
@@ -274,9 +275,12 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     require_memory(query.records ? bytes_per_sample * cells : bytes_of_tiles(), query.tolerance,
                    2.0);
     require_sides(query.tolerance);
+    planned.first_cpu_tile = static_cast<std::uint32_t>(plan_->cpu_tiles.size());
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
         cut_into_tiles(region, TileKind::overlap, limits_.largest_tile, 0);
     }
+    planned.cpu_tile_count =
+        static_cast<std::uint32_t>(plan_->cpu_tiles.size()) - planned.first_cpu_tile;
 }
 
 /// A side that a Region cannot state is an error.
@@ -306,9 +310,10 @@ double Planner::bytes_of_tiles() const {
 void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,
                              std::uint32_t halo) {
     const Grid& grid = grids_[region];
+    std::vector<Tile>& tiles = plan_->queries[query_].on_cpu ? plan_->cpu_tiles : plan_->tiles;
     for (std::uint64_t row = 0; row < grid.height; row += side) {
         for (std::uint64_t column = 0; column < grid.width; column += side) {
-            Tile& tile = plan_->tiles.emplace_back();
+            Tile& tile = tiles.emplace_back();
             tile.query = query_;
             tile.kind = kind;
             tile.region = region;
@@ -380,8 +385,9 @@ void Planner::pack() {
         const std::uint32_t tile = points[i].tile;
         return tile == PlannedPoint::no_tile ? no_round : tiles[tile].place.round;
     });
-    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds, [&](std::size_t i) {
-        return tiles[field_points[i].tile].place.round;
+    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds + 1, [&](std::size_t i) {
+        const std::uint32_t tile = field_points[i].tile;
+        return tile == PlannedFieldPoint::no_tile ? no_round : tiles[tile].place.round;
     });
 }
 

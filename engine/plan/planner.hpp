@@ -85,7 +85,7 @@ private:
     void join_chain_boxes(const geometry::Box& within, double grow);
     void add_regions(double cell, ResultSummary& result);
     /// Cuts a region into tiles of at most `side` x `side` cells, row by row; each is drawn with a
-    /// halo of cells around it.
+    /// halo of cells around it. Tiles of queries that the CPU answers are kept apart.
     void cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,
                         std::uint32_t halo);
     /// Cells along a side of a field's tiles, without the halo.

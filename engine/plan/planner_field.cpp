@@ -28,10 +28,12 @@ double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, 
         const auto count = static_cast<double>(cells);
         return count + 2.0 * parts.halo * std::ceil(count / side);
     };
+    // The signs of a field on the CPU.
+    const double signs = parts.values || parts.features ? 1.0 / 8.0 : 0.0;
     const double tiles = std::ceil(static_cast<double>(grid.width) / side) *
                          std::ceil(static_cast<double>(grid.height) / side);
     return result * grid.cells() + sizeof(Tile) * tiles +
-           words * sizeof(std::uint32_t) * drawn(grid.width) * drawn(grid.height);
+           (words * sizeof(std::uint32_t) + signs) * drawn(grid.width) * drawn(grid.height);
 }
 
 double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts) {
@@ -82,6 +84,9 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     add_regions(planned.budget.cell, result);
     const Grid& grid = grids_.front();
     planned.field = field_parts(query);
+    if (planned.on_cpu) {
+        require_sides(query.tolerance);
+    }
     const double side = field_tile(planned.field);
     require_memory(
         bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field),
@@ -100,6 +105,9 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.gradients.resize(query.gradients ? 2 * cells : 0);
     result.unique.resize(planned.field.features ? cells : 0);
     result.points.resize(query.points.size());
+    if (planned.on_cpu) {
+        return;
+    }
     cut_into_tiles(0, TileKind::field, field_tile(planned.field), planned.field.halo);
     if (!planned.field.values && !planned.field.features) {
         drop_tiles_without_points(first_tile);
@@ -128,6 +136,9 @@ void Planner::drop_tiles_without_points(std::uint32_t first_tile) {
 }
 
 std::uint32_t Planner::field_tile(const FieldParts& parts) const {
+    if (plan_->queries[query_].on_cpu) {
+        return UINT32_MAX;  // the whole grid
+    }
     const std::uint32_t drawn = parts.features
                                     ? std::min(limits_.features_tile, limits_.largest_tile)
                                     : limits_.largest_tile;
@@ -169,7 +180,9 @@ Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& gr
         PlannedFieldPoint& point = plan_->field_points.emplace_back();
         point.position = position;
         point.tile =
-            first_tile + static_cast<std::uint32_t>(row / side * tiles_along + column / side);
+            planned.on_cpu
+                ? PlannedFieldPoint::no_tile
+                : first_tile + static_cast<std::uint32_t>(row / side * tiles_along + column / side);
         point.column = static_cast<std::uint32_t>(column % side) + halo - (to_the_left ? 1U : 0U);
         point.row = static_cast<std::uint32_t>(row % side) + halo - (below ? 1U : 0U);
         point.across = local.x() - static_cast<double>(column) + (to_the_left ? 0.5 : -0.5);

@@ -218,7 +218,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
     const double cell = tile.grid.cell;
     const ErrorBudget& budget = query.budget;
     const TileBoundary boundary(
-        shapes_.get(*query.b, budget.simplification, longest_run * cell),
+        shapes_.get(*query.b, budget.simplification, longest_tile_run * cell),
         ToCells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell));
     const double simplification = budget.simplification / cell;
     double mesh_error = budget.mesh / cell;
@@ -269,9 +269,7 @@ void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile
 DrawRange RoundBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
                                      bool with_runs, Round& round) const {
     const std::size_t first = round.mesh.size();
-    // Offset polygons reach a little farther than the offset.
-    const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
-    boundary.for_edges_near(tile.centre(), reach, [&](std::uint32_t i) {
+    boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
         const std::size_t before = round.mesh.size();
         const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
         if (run == most_runs) {
@@ -296,7 +294,7 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
     const double simplification = query.budget.simplification;
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
                          bool with_runs) {
-        const TileBoundary boundary(shapes_.get(polygon, simplification, longest_run * cell),
+        const TileBoundary boundary(shapes_.get(polygon, simplification, longest_tile_run * cell),
                                     ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
         if (part == Part::boundary) {
             return add_boundary(boundary, tile, query.budget.offset / cell, with_runs, round);

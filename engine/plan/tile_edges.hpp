@@ -9,6 +9,10 @@
 
 namespace nearfield::plan {
 
+/// Edges longer than this, in cells, stand for themselves in the tiles' simplified boundaries:
+/// their far ends may be cut off, so that what is left has coordinates that a float can tell apart.
+inline constexpr double longest_tile_run = 64.0;
+
 /// An edge as one tile sees it, in cells of the tile.
 struct TileEdge {
     geometry::Vector a;
@@ -55,6 +59,16 @@ public:
                 return to_cells_.cells(box.exteriorDistance(local)) <= reach + rounding_;
             },
             visit);
+    }
+
+    /// Calls `visit(edge)` in order for every edge whose offset polygon may reach a tile, and for
+    /// some others; `offset` in cells.
+    template <class Visit>
+    void for_offset_edges(std::uint32_t width, std::uint32_t height, double offset,
+                          Visit&& visit) const {
+        const geometry::Vector centre(0.5 * width, 0.5 * height);
+        // Offset polygons reach a little farther than the offset.
+        for_edges_near(centre, centre.norm() + 2.0 * offset + 2.0, visit);
     }
 
     /// A box around all of `box`, which is relative to the shape's centre, in cells.

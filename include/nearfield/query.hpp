@@ -21,13 +21,12 @@ inline constexpr double most_deviation = 0.25;
 /// What answers a query (ResultSummary::technique says what did).
 ///
 /// All give the same records: the same points, depths and distances that differ by less than
-/// d/1000, the same sides but for points that touch the other boundary. Raster and compute find the
-/// same samples of an intersection and the same signs of a distance field, bit for bit.
+/// d/1000, the same sides but for points that touch the other boundary. Intersections have the same
+/// samples and edges, bit for bit. Fields have the same grid, and values within both bounds; raster
+/// and compute the same signs, bit for bit.
 enum class Technique {
-    /// Penetration, closest point, separation and intersection tests, and contacts with analytic
-    /// normals: cpu. Fields, intersections and contacts with gradient normals: raster.
-    /// docs/performance.md has the
-    /// measurements behind it.
+    /// Whichever makes the batch take the least time, by what techniques cost on this machine
+    /// (Settings::costs).
     automatic,
     /// The paper's: fields drawn on the device, refined on the CPU.
     raster,
@@ -37,10 +36,11 @@ enum class Technique {
     /// of drawing too, which all give the same answers: whichever is asked for makes no difference
     /// here, and none needs anything of the device.
     compute,
-    /// The hierarchies of localisation driven to single edges, in double precision; the device has
-    /// no part in it. Regions are what localisation found, and no grid
-    /// is sampled in them; closest points have none. Refused
-    /// (invalid_query) for intersections, distance fields and gradient normals of contacts.
+    /// The device has no part in it. Points: the hierarchies of localisation driven to single
+    /// edges, in double precision; regions are what localisation found, and no grid is sampled in
+    /// them; closest points have none. Intersections: bit masks of the raster's samples. Distance
+    /// fields: the near edges of each block of cells. Answers every query but
+    /// GradientMethod::blended (refused, invalid_query), and intersection tests it alone.
     cpu,
 };
 
@@ -77,7 +77,8 @@ enum class IntersectionKind {
 /// in what Vulkan has to offer and in time.
 ///
 /// A query whose strategy the device lacks is refused in its own result
-/// (StatusCode::unsupported_strategy); the reasons name each missing feature or format.
+/// (StatusCode::unsupported_strategy); the reasons name each missing feature or format. The CPU
+/// finds the same samples by none of them, so Technique::cpu takes any.
 enum class IntersectionStrategy {
     /// Stencil: cleared to 0, B increments, A increments where it is 1; found where it is 2. Needs
     /// nothing but the base.
@@ -104,15 +105,15 @@ struct IntersectionQuery {
     Instance b;
     double tolerance = 0.0;  ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;
-    /// False: keep the summary (count, area, box) and leave the samples out. The device then lists
-    /// none, so memory does not grow with the grid.
+    /// False: keep the summary (count, area, box) and leave the samples out. None are listed then,
+    /// so memory does not grow with the grid.
     bool records = true;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;
     Technique technique = Technique::automatic;
 };
 
 /// Which buffer of the device says which cells lie inside (section 2.2.2 lists all three). They
-/// give the same sign everywhere.
+/// give the same sign everywhere. Technique::cpu has no need of any and takes all.
 enum class SignEncoding {
     stencil,      ///< the stencil buffer, set to 1
     color,        ///< a colour buffer of its own, set to white
@@ -128,6 +129,7 @@ enum class GradientMethod {
     /// Half the difference of the signed distances at the two neighbours, along x and along y.
     central_differences,
     /// The same, for the whole image in blended passes on the device, at the precision of a pixel.
+    /// Technique::cpu refuses it.
     blended,
 };
 

@@ -44,6 +44,7 @@ public:
                 s.localization.edges_kept, s.technique);
     }
 
+    void add_rest(const IntersectionTestResult&) {}
     void add_rest(const PenetrationResult& r) {
         add_all(r.count, r.records);
         if (r.count > 0) {

@@ -11,7 +11,7 @@ constexpr std::uint64_t seed = 90210;
 
 class Field : public QueryTest {
 protected:
-    /// The field of a shape over a rectangle, checked.
+    /// The field of a shape over a rectangle by both techniques, checked; the raster's.
     static DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
                                      const Rectangle& rectangle) {
         Expected<ShapeHandle> handle = context().add_shape(rings);
@@ -24,8 +24,34 @@ protected:
         SCOPED_TRACE(to_text(rings) + " d = " + std::to_string(tolerance));
         check_field(oracle::ShapeOracle(rings, pose), tolerance, result);
         check_covers(result, rectangle);
+        query.technique = Technique::cpu;
+        const DistanceFieldResult exact = run_alone(context(), query);
+        EXPECT_EQ(exact.technique, Technique::cpu);
+        check_field(oracle::ShapeOracle(rings, pose), tolerance, exact, 2000);
+        check_agree(result, exact);
         EXPECT_TRUE(context().remove_shape(handle.value()).ok());
         return result;
+    }
+
+    /// The same grid, values within the sum of both bounds, and one sign where neither is near 0.
+    static void check_agree(const DistanceFieldResult& raster, const DistanceFieldResult& exact) {
+        ASSERT_TRUE(raster.status.ok() && exact.status.ok());
+        EXPECT_EQ(raster.origin, exact.origin);
+        EXPECT_EQ(raster.cell, exact.cell);
+        ASSERT_EQ(raster.width, exact.width);
+        ASSERT_EQ(raster.height, exact.height);
+        ASSERT_EQ(raster.values.size(), exact.values.size());
+        EXPECT_LE(exact.error_bound, raster.error_bound);
+        Report report("two techniques");
+        const double most = (raster.error_bound + exact.error_bound) * (1 + 1e-6);
+        for (std::size_t i = 0; i < exact.values.size(); ++i) {
+            const auto drawn = static_cast<double>(raster.values[i]);
+            const auto value = static_cast<double>(exact.values[i]);
+            report.require(std::abs(drawn - value) <= most, "cell ", i, " is ", drawn, " and ",
+                           value);
+            report.require((drawn < 0.0) == (value < 0.0) || std::abs(value) <= most, "cell ", i,
+                           " is ", drawn, " and ", value);
+        }
     }
 
     /// The grid starts at the rectangle's low corner, covers it and has no cell to spare.
@@ -88,6 +114,10 @@ TEST_F(Field, CoversWhatTheBoxesShare) {
             check_field(pair.b(), d, result);
             check_covers(result, {{common.min.x - d, common.min.y - d},
                                   {common.max.x + d, common.max.y + d}});
+            query.technique = Technique::cpu;
+            const DistanceFieldResult exact = run_alone(context(), query);
+            EXPECT_EQ(exact.intersects, result.intersects);
+            check_agree(result, exact);
         }
     }
 }
@@ -108,6 +138,10 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
     const auto one = check(shape, {}, 100.0, {{-1, -1}, {1, 1}});
     EXPECT_EQ(one.values.size(), 1U);
     check(shape, {}, 1e-5, {{0.5, 0.5}, {0.5005, 0.5008}});
+    // Around a vertex of a shape of 10^8 cells.
+    const Vector2 vertex = shape[0][3];
+    check(shape, {}, 1e-8,
+          {{vertex.x - 1e-6, vertex.y - 7e-7}, {vertex.x + 9e-7, vertex.y + 8e-7}});
     check(shape, {}, 0.05, {{30.0, -40.0}, {32.0, -38.0}});  // far outside
     check(scaled_and_moved(shape, 1e-3, {}), {{1e6, 1e6}, 0.3}, 2e-5,
           {{1e6 - 1e-3, 1e6 - 1e-3}, {1e6 + 1e-3, 1e6 + 1e-3}});
@@ -115,6 +149,34 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
         check(scaled_and_moved(shape, factor, {}), {}, 0.01 * factor,
               {{-factor, -factor}, {factor, factor}});
     }
+}
+
+/// What the CPU says does not depend on how it is asked: with features it measures to the shape's
+/// own edges, with differences over a larger grid.
+TEST_F(Field, OfTheCpuSaysTheSameHoweverItIsAsked) {
+    Random random(seed);
+    const Rings rings = coast(random, 2000, 0.5);
+    const oracle::ShapeOracle oracle(rings, {});
+    const ShapeHandle shape = context().add_shape(rings).value();
+    DistanceFieldQuery query;
+    query.b = {shape, {}};
+    query.tolerance = 0.01;
+    query.rectangle = {{-1.3, -1.1}, {1.2, 1.25}};
+    query.technique = Technique::cpu;
+    const DistanceFieldResult values = run_alone(context(), query);
+    check_field(oracle, query.tolerance, values, 5000);
+    query.features = true;
+    const DistanceFieldResult exact = run_alone(context(), query);
+    check_field(oracle, query.tolerance, exact, 5000);
+    EXPECT_LT(exact.error_bound, 0.002 * query.tolerance);
+    check_agree(values, exact);
+    query.features = false;
+    query.gradients = true;
+    query.gradient = GradientMethod::central_differences;
+    const DistanceFieldResult differences = run_alone(context(), query);
+    check_field(oracle, query.tolerance, differences, 5000);
+    EXPECT_NEAR(values.error_bound, differences.error_bound, 1e-3 * query.tolerance);
+    EXPECT_TRUE(context().remove_shape(shape).ok());
 }
 
 TEST_F(Field, FarInsideIsDeepNegative) {

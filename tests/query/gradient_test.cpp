@@ -49,6 +49,8 @@ TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForRandomShapes) {
         query.sign = static_cast<SignEncoding>(i % 3);
         SCOPED_TRACE(field.text());
         check_cells(field.oracle(), query, run_alone(context(), query));
+        query.technique = Technique::cpu;
+        check_cells(field.oracle(), query, run_alone(context(), query), 1000);
     }
 }
 
@@ -62,6 +64,8 @@ TEST_F(Gradients, FeaturesAndAnalyticGradientsHoldForEveryFamily) {
         query.rectangle = {{-1.0, -1.5}, {2.0, 1.0}};
         query.features = query.gradients = true;
         check_cells(shape.oracle(), query, run_alone(context(), query));
+        query.technique = Technique::cpu;
+        check_cells(shape.oracle(), query, run_alone(context(), query), 1000);
     }
 }
 
@@ -80,6 +84,10 @@ TEST_F(Gradients, CentralDifferencesHoldAndBlendingAgrees) {
         const auto blended = run_alone(context(), query);
         check_differences(field.oracle(), differences);
         check_blended(differences, blended);
+        query.technique = Technique::cpu;
+        EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
+        query.gradient = GradientMethod::central_differences;
+        check_differences(field.oracle(), run_alone(context(), query), 1000);
     }
 }
 

@@ -49,6 +49,10 @@ TEST_F(Reconstruction, HoldsForRandomShapesByEveryMethodAndEncoding) {
         query.sign = static_cast<SignEncoding>(i % 3);
         query.gradient = static_cast<GradientMethod>(i / 3 % 3);
         check_points(field.oracle(), query, run_alone(context(), query));
+        if (query.gradient != GradientMethod::blended) {
+            query.technique = Technique::cpu;
+            check_points(field.oracle(), query, run_alone(context(), query));
+        }
     }
 }
 
@@ -63,6 +67,8 @@ TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
         query.values = false;
         const auto points = any_points(random, box, 200);
         query.points = points;
+        check_points(shape.oracle(), query, run_alone(context(), query));
+        query.technique = Technique::cpu;
         check_points(shape.oracle(), query, run_alone(context(), query));
     };
     for (const auto& [name, rings] : every_family(seed)) {
@@ -209,6 +215,35 @@ TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
             EXPECT_NEAR(whole.points[k].distance, expected,
                         1e-9 * (std::abs(expected) + whole.cell + std::abs(points[k].x) +
                                 std::abs(points[k].y)));
+        }
+    }
+}
+
+/// Both techniques look at the same cells, in the image and around its rim.
+TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
+    const int cases = random_cases(20);
+    for (int i = 0; i < cases; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
+        Random random(seed + 1200 + static_cast<std::uint64_t>(i));
+        const AnyField field(context(), random);
+        SCOPED_TRACE(field.text());
+        DistanceFieldQuery query = field.query();
+        query.gradient = GradientMethod::central_differences;
+        const auto points = any_points(random, field.rectangle(), 60);
+        query.points = points;
+        query.values = i % 2 == 0;
+        const auto drawn = run_alone(context(), query);
+        query.technique = Technique::cpu;
+        const auto exact = run_alone(context(), query);
+        ASSERT_TRUE(drawn.status.ok() && exact.status.ok());
+        EXPECT_LE(exact.error_bound, drawn.error_bound);
+        const double most = drawn.error_bound + exact.error_bound;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            SCOPED_TRACE(k);
+            EXPECT_NEAR(exact.points[k].distance, drawn.points[k].distance, most);
+            EXPECT_NEAR(exact.points[k].gradient.x, drawn.points[k].gradient.x, most / drawn.cell);
+            EXPECT_NEAR(exact.points[k].gradient.y, drawn.points[k].gradient.y, most / drawn.cell);
+            EXPECT_LE(exact.points[k].error_bound, exact.error_bound + query.tolerance);
         }
     }
 }

@@ -43,7 +43,7 @@ protected:
         return std::move(*made);
     }
 
-    /// All strategies and kinds in one batch and alone: the same samples as the CPU's.
+    /// All strategies and kinds, on the device and on the CPU: the same samples as the scanline's.
     static void check(const PlacedPair& pair, Context& context, const Settings& settings = {});
 
     static test_support::VulkanHost* host_;
@@ -120,18 +120,23 @@ void Strategies::check(const PlacedPair& pair, Context& context, const Settings&
             EXPECT_EQ(counted.box.max, result.box.max);
             EXPECT_TRUE(counted.samples.empty());
         }
-        query.technique = Technique::compute;
-        query.records = true;
-        const IntersectionResult computed = run_alone(context, query);
-        EXPECT_EQ(computed.technique, Technique::compute);
-        expect_same(expected, computed);
-        expect_same_edges(first, computed);
-        query.records = false;
-        const IntersectionResult counted = run_alone(context, query);
-        EXPECT_EQ(counted.count, first.count);
-        EXPECT_EQ(counted.box.min, first.box.min);
-        EXPECT_EQ(counted.box.max, first.box.max);
-        EXPECT_TRUE(counted.samples.empty());
+        for (const Technique technique : {Technique::compute, Technique::cpu}) {
+            SCOPED_TRACE(to_string(technique));
+            query.technique = technique;
+            query.records = true;
+            const IntersectionResult other = run_alone(context, query);
+            EXPECT_EQ(other.technique, technique);
+            expect_same(expected, other);
+            expect_same_edges(first, other);
+            EXPECT_EQ(first.intersects, other.intersects);
+            query.records = false;
+            const IntersectionResult counted = run_alone(context, query);
+            EXPECT_EQ(counted.count, other.count);
+            EXPECT_EQ(counted.area, other.area);
+            EXPECT_EQ(counted.box.min, other.box.min);
+            EXPECT_EQ(counted.box.max, other.box.max);
+            EXPECT_TRUE(counted.samples.empty());
+        }
     }
 }
 
@@ -303,6 +308,18 @@ TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
     const IntersectionResult computed = run_alone(context(), query);
     EXPECT_TRUE(computed.status.ok()) << computed.status.text();
     EXPECT_EQ(computed.count, results[before].count);
+}
+
+TEST_F(MissingStrategies, TheCpuNeedsNone) {
+    Random random(seed);
+    const PlacedPair pair(context(), any_pair(random), Technique::cpu);
+    IntersectionQuery query = pair.intersection(IntersectionKind::boundary_volume);
+    const IntersectionResult by_stencil = run_alone(context(), query);
+    query.strategy = IntersectionStrategy::logic_op;
+    const IntersectionResult result = run_alone(context(), query);
+    ASSERT_TRUE(result.status.ok()) << result.status.text();
+    EXPECT_GT(result.count, 0U);
+    expect_same_edges(by_stencil, result);
 }
 
 TEST_F(MissingStrategies, AreNoEnumerators) {

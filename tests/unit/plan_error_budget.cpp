@@ -20,7 +20,12 @@ TEST(ErrorBudget, NeverStatesMoreThanTheTolerance) {
             }
             DistanceFieldQuery field;
             field.tolerance = d;
-            EXPECT_LE(field_budget(field, grid).bound, d);
+            const double drawn = field_budget(field, grid).bound;
+            EXPECT_LE(drawn, d);
+            field.technique = Technique::cpu;
+            EXPECT_LE(field_budget(field, grid).bound, drawn);
+            field.features = true;
+            EXPECT_LE(field_budget(field, grid).bound, 0.002 * d);
         }
     }
 }

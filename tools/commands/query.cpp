@@ -345,9 +345,10 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
     command->add_option("--pose-b", arguments.pose_b, "Where B stands; default 0,0,0")
         ->type_name("X,Y,DEGREES");
     command
-        ->add_option("--technique", arguments.technique,
-                     "raster, compute, cpu or automatic; default automatic: whatever is quickest for "
-                     "the query on this device, see nearfield calibrate")
+        ->add_option(
+            "--technique", arguments.technique,
+            "raster, compute, cpu (only raster has blended gradients) or automatic; default "
+            "automatic: whichever is quickest here, by what --costs says")
         ->type_name("NAME");
     command
         ->add_option("--strategy", arguments.strategy,

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <engine/geometry/mesh.hpp>
+#include <engine/geometry/offset_mesh.hpp>
+#include <engine/geometry/vector.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::exact {
+
+/// Samples first, ..., end - 1 of a row of a tile; none where end is not greater.
+struct RowSpan {
+    std::uint32_t row = 0;
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+};
+
+/// Fills a row by parity: where a bit says that an edge passes right after its sample, a sample is
+/// inside where the bits from its own on are odd.
+void fill_from_crossings(std::span<std::uint64_t> row);
+
+/// The samples of a tile that something covers, a bit each: what a rasteriser covers whose vertices
+/// are on the sub-pixel grid, exact in integers and by the same fill rule. Coordinates are in cells
+/// of the tile and of that grid. Keeps its memory.
+class Coverage {
+public:
+    /// Starts anew with nothing covered.
+    void reset(std::uint32_t width, std::uint32_t height, geometry::SubpixelGrid grid);
+
+    [[nodiscard]] std::uint32_t height() const { return height_; }
+    /// Row by row, each from a word of its own on; the lowest bit of a row's first word is column
+    /// 0. Bits beyond the width are 0.
+    [[nodiscard]] std::span<std::uint64_t> words() { return words_; }
+    [[nodiscard]] std::span<const std::uint64_t> words() const { return words_; }
+    [[nodiscard]] std::size_t words_per_row() const { return words_per_row_; }
+
+    /// Inverts the samples to the left of an edge that goes up, in the rows it crosses. They count
+    /// only once fill() is called.
+    void invert_left_of(const geometry::Vector& from, const geometry::Vector& to);
+    /// Closes a fill by parity, after all edges were given to invert_left_of().
+    void fill();
+
+    /// Appends what the fan of triangles of an offset polygon covers, as rows. A sample may be in
+    /// several of them.
+    void append_fan(const geometry::OffsetPolygon& polygon, std::vector<RowSpan>& spans) const;
+
+    /// Keeps only the samples that the other covers as well; of the same size.
+    void keep_common(const Coverage& other);
+
+private:
+    struct GridPoint {
+        std::int64_t x = 0;
+        std::int64_t y = 0;
+    };
+
+    [[nodiscard]] GridPoint to_grid(const geometry::Vector& point) const;
+    /// Calls `cross(row, count)` for each row of the tile whose samples' height lies between the
+    /// two ends, the lower one included: so many of its samples lie left of the edge.
+    template <class Cross>
+    void for_crossings(GridPoint low, GridPoint high, const Cross& cross) const;
+    [[nodiscard]] static bool is_convex(std::span<const GridPoint> corners);
+    void append_convex(std::span<const GridPoint> corners, std::vector<RowSpan>& spans) const;
+
+    std::uint32_t width_ = 0;
+    std::uint32_t height_ = 0;
+    std::size_t words_per_row_ = 0;
+    std::int64_t steps_ = 0;  // of the sub-pixel grid, per cell
+    std::vector<std::uint64_t> words_;
+};
+
+/// Calls `use(bit)` for the bits of a word that are set, the lowest first.
+template <class Use>
+void for_bits(std::uint64_t word, const Use& use) {
+    for (; word != 0; word &= word - 1) {
+        use(static_cast<std::uint32_t>(std::countr_zero(word)));
+    }
+}
+
+/// Ones at the bits first, ..., end - 1 of the word that holds the bits 64 * word, ....
+[[nodiscard]] std::uint64_t bits_between(std::uint32_t first, std::uint32_t end,
+                                         std::uint32_t word);
+
+}  // namespace nearfield::exact

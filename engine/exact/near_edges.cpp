@@ -1,0 +1,276 @@
+#include <engine/exact/near_edges.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+// Compiled once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/exact/near_edges.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::exact::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A block is 64 cells: no vector is longer than that.
+using Floats = hn::CappedTag<float, 16>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Vector = hn::Vec<Floats>;
+
+constexpr std::size_t cells = std::size_t{block_side} * block_side;
+
+/// From the point of an edge that is nearest to a point, to that point.
+struct Away {
+    Vector x;
+    Vector y;
+
+    [[nodiscard]] HWY_INLINE Vector squared() const { return hn::MulAdd(x, x, hn::Mul(y, y)); }
+};
+
+HWY_INLINE Away away_from(Vector to_x, Vector to_y, Vector along_x, Vector along_y,
+                          Vector inverse_x, Vector inverse_y) {
+    const Floats d;
+    Vector parameter = hn::MulAdd(to_x, inverse_x, hn::Mul(to_y, inverse_y));
+    parameter = hn::Min(hn::Max(parameter, hn::Zero(d)), hn::Set(d, 1.0F));
+    return {hn::NegMulAdd(parameter, along_x, to_x), hn::NegMulAdd(parameter, along_y, to_y)};
+}
+
+/// From one edge to several points.
+HWY_INLINE Away away_from_edge(const EdgeList& edges, std::size_t i, Vector x, Vector y) {
+    const Floats d;
+    const auto number = [&](std::size_t which) { return hn::Set(d, edges.number(which)[i]); };
+    return away_from(hn::Sub(x, number(EdgeList::start_x)), hn::Sub(y, number(EdgeList::start_y)),
+                     number(EdgeList::along_x), number(EdgeList::along_y),
+                     number(EdgeList::inverse_x), number(EdgeList::inverse_y));
+}
+
+/// Writes the squared distance of every edge from a point and returns the least.
+float squared_distances(const EdgeList& edges, float x, float y, float* squared) {
+    const Floats d;
+    const Vector infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    Vector least = infinity;
+    for (std::size_t i = 0; i < edges.size(); i += hn::Lanes(d)) {
+        const auto number = [&](std::size_t which) {
+            return hn::LoadU(d, edges.number(which) + i);
+        };
+        Vector distance = away_from(hn::Sub(hn::Set(d, x), number(EdgeList::start_x)),
+                                    hn::Sub(hn::Set(d, y), number(EdgeList::start_y)),
+                                    number(EdgeList::along_x), number(EdgeList::along_y),
+                                    number(EdgeList::inverse_x), number(EdgeList::inverse_y))
+                              .squared();
+        // Behind the last edge stands anything.
+        distance = hn::IfThenElse(hn::FirstN(d, edges.size() - i), distance, infinity);
+        hn::StoreU(distance, d, squared + i);
+        least = hn::Min(least, distance);
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+float SelectNear(const EdgeList& from, const Disc& disc, float slack, float* squared,
+                 EdgeList& to) {
+    const Floats d;
+    const Words words;
+    const float least = std::sqrt(squared_distances(from, disc.x, disc.y, squared));
+    // The nearest edge of the centre is no farther from any point than its radius more; what is
+    // nearer to some point is no farther from the centre than another radius more.
+    const float reach = least + 2.0F * disc.radius + slack + least * 0x1p-17F;
+    const Vector limit = hn::Set(d, reach * reach);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < from.size(); i += hn::Lanes(d)) {
+        const auto near = hn::Le(hn::LoadU(d, squared + i), limit);
+        if (hn::AllFalse(d, near)) {
+            continue;
+        }
+        for (std::size_t number = 0; number < EdgeList::numbers; ++number) {
+            hn::CompressStore(hn::LoadU(d, from.number(number) + i), near, d,
+                              to.number(number) + count);
+        }
+        count += hn::CompressStore(hn::LoadU(words, from.indices() + i),
+                                   hn::RebindMask(words, near), words, to.indices() + count);
+    }
+    to.resize(static_cast<std::uint32_t>(count));
+    return least;
+}
+
+/// The columns and rows of a block's cells, row by row.
+struct Offsets {
+    alignas(64) std::array<float, cells> x{};
+    alignas(64) std::array<float, cells> y{};
+
+    constexpr Offsets() {
+        for (std::size_t i = 0; i < cells; ++i) {
+            x[i] = static_cast<float>(i % block_side);
+            y[i] = static_cast<float>(i / block_side);
+        }
+    }
+};
+constexpr Offsets offsets;
+
+/// Writes the squared distance of each cell of a block from the nearest edge. Four vectors of cells
+/// go through the edges together, so that one need not wait for the other.
+void least_squared(const EdgeList& edges, const Block& block, float* squared) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto x_of = [&](std::size_t i) {
+        return hn::Add(hn::Set(d, block.x), hn::LoadU(d, offsets.x.data() + i));
+    };
+    const auto y_of = [&](std::size_t i) {
+        return hn::Add(hn::Set(d, block.y), hn::LoadU(d, offsets.y.data() + i));
+    };
+    for (std::size_t first = 0; first < cells; first += 4 * lanes) {
+        const Vector x0 = x_of(first);
+        const Vector x1 = x_of(first + lanes);
+        const Vector x2 = x_of(first + 2 * lanes);
+        const Vector x3 = x_of(first + 3 * lanes);
+        const Vector y0 = y_of(first);
+        const Vector y1 = y_of(first + lanes);
+        const Vector y2 = y_of(first + 2 * lanes);
+        const Vector y3 = y_of(first + 3 * lanes);
+        Vector least0 = hn::Set(d, std::numeric_limits<float>::infinity());
+        Vector least1 = least0;
+        Vector least2 = least0;
+        Vector least3 = least0;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            least0 = hn::Min(least0, away_from_edge(edges, i, x0, y0).squared());
+            least1 = hn::Min(least1, away_from_edge(edges, i, x1, y1).squared());
+            least2 = hn::Min(least2, away_from_edge(edges, i, x2, y2).squared());
+            least3 = hn::Min(least3, away_from_edge(edges, i, x3, y3).squared());
+        }
+        hn::StoreU(least0, d, squared + first);
+        hn::StoreU(least1, d, squared + first + lanes);
+        hn::StoreU(least2, d, squared + first + 2 * lanes);
+        hn::StoreU(least3, d, squared + first + 3 * lanes);
+    }
+}
+
+/// The same, and the edge that is nearest to each cell, flagged where no other is as near.
+void find_nearest(const EdgeList& edges, const Block& block, float* squared,
+                  std::uint32_t* nearest) {
+    const Floats d;
+    const Words words;
+    for (std::size_t first = 0; first < cells; first += hn::Lanes(d)) {
+        const Vector x = hn::Add(hn::Set(d, block.x), hn::LoadU(d, offsets.x.data() + first));
+        const Vector y = hn::Add(hn::Set(d, block.y), hn::LoadU(d, offsets.y.data() + first));
+        Vector least = hn::Set(d, std::numeric_limits<float>::infinity());
+        Away best{hn::Zero(d), hn::Zero(d)};
+        auto edge = hn::Zero(words);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Away away = away_from_edge(edges, i, x, y);
+            const Vector distance = away.squared();
+            const auto nearer = hn::Lt(distance, least);
+            least = hn::Min(least, distance);
+            best.x = hn::IfThenElse(nearer, away.x, best.x);
+            best.y = hn::IfThenElse(nearer, away.y, best.y);
+            edge = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, edges.indices()[i]),
+                                  edge);
+        }
+        // A second point as near up to the margin is a rival where it lies farther from the first
+        // than the same straight wall explains (PenetrationRecord::unique); far from the boundary
+        // the margin is what single precision can tell.
+        const Vector distance = hn::Sqrt(least);
+        const Vector margin =
+            hn::Max(hn::Set(d, block.margin), hn::Mul(distance, hn::Set(d, 0x1p-18F)));
+        const Vector limit = hn::Add(distance, margin);
+        const Vector along_wall = hn::Mul(margin, hn::Add(limit, distance));
+        const Vector most_apart = hn::Mul(hn::Set(d, 4.0F), along_wall);
+        const Vector squared_limit = hn::Mul(limit, limit);
+        auto rival = hn::Lt(least, hn::Zero(d));  // none
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Away away = away_from_edge(edges, i, x, y);
+            const Away apart{hn::Sub(away.x, best.x), hn::Sub(away.y, best.y)};
+            rival = hn::Or(rival, hn::And(hn::Le(away.squared(), squared_limit),
+                                          hn::Gt(apart.squared(), most_apart)));
+        }
+        const auto flag =
+            hn::IfThenZeroElse(hn::RebindMask(words, rival), hn::Set(words, nearest_unique));
+        hn::StoreU(least, d, squared + first);
+        hn::StoreU(hn::Or(edge, flag), words, nearest + first);
+    }
+}
+
+float SolveBlock(const EdgeList& edges, const Block& block) {
+    alignas(64) std::array<float, cells> squared;
+    alignas(64) std::array<std::uint32_t, cells> nearest;
+    if (block.nearest == nullptr) {
+        least_squared(edges, block, squared.data());
+    } else {
+        find_nearest(edges, block, squared.data(), nearest.data());
+        for (std::size_t row = 0; row < block.rows; ++row) {
+            for (std::size_t column = 0; column < block.columns; ++column) {
+                const std::size_t cell = row * block_side + column;
+                const bool inside = (block.inside >> cell & 1U) != 0;
+                block.nearest[row * block.stride + column] =
+                    nearest[cell] | (inside ? nearest_inside : 0U);
+            }
+        }
+    }
+    if (block.distances == nullptr) {
+        return 0.0F;
+    }
+    const Floats d;
+    const Vector scale = hn::Set(d, block.scale);
+    for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
+        hn::StoreU(hn::Mul(hn::Sqrt(hn::LoadU(d, squared.data() + i)), scale), d,
+                   squared.data() + i);
+    }
+    float largest = 0.0F;
+    for (std::size_t row = 0; row < block.rows; ++row) {
+        for (std::size_t column = 0; column < block.columns; ++column) {
+            const std::size_t cell = row * block_side + column;
+            const float distance = squared[cell];
+            const bool inside = (block.inside >> cell & 1U) != 0;
+            largest = std::max(largest, distance);
+            block.distances[row * block.stride + column] = inside ? -distance : distance;
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+}  // namespace nearfield::exact::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::exact {
+
+HWY_EXPORT(SelectNear);
+HWY_EXPORT(SolveBlock);
+
+void EdgeList::reserve(std::size_t count) {
+    constexpr std::size_t longest_vector = 16;
+    if (count + longest_vector > capacity_) {
+        capacity_ = count + count / 2 + longest_vector;
+        numbers_.resize(numbers * capacity_);
+        indices_.resize(capacity_);
+        count_ = 0;
+    }
+}
+
+void EdgeList::add(const std::array<float, numbers>& edge, std::uint32_t index) {
+    for (std::size_t i = 0; i < numbers; ++i) {
+        number(i)[count_] = edge[i];
+    }
+    indices_[count_] = index;
+    ++count_;
+}
+
+float select_near(const EdgeList& from, const Disc& disc, float slack, std::vector<float>& squared,
+                  EdgeList& to) {
+    to.reserve(from.size());
+    if (squared.size() < from.capacity()) {
+        squared.resize(from.capacity());
+    }
+    return HWY_DYNAMIC_DISPATCH(SelectNear)(from, disc, slack, squared.data(), to);
+}
+
+float solve_block(const EdgeList& edges, const Block& block) {
+    return HWY_DYNAMIC_DISPATCH(SolveBlock)(edges, block);
+}
+
+}  // namespace nearfield::exact
+#endif

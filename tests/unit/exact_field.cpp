@@ -1,0 +1,108 @@
+#include <engine/exact/boundary.hpp>
+#include <engine/exact/field.hpp>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tests/support/polygons.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace nearfield::exact {
+namespace {
+
+constexpr std::uint64_t field_seed = 271;
+
+/// Restores what the machine has.
+class Targets : public testing::Test {
+protected:
+    void TearDown() override {
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
+
+    /// Calls `check()` with every instruction set that the machine has and the code was compiled
+    /// for.
+    template <class Check>
+    static void for_each(const Check& check) {
+        hwy::SetSupportedTargetsForTest(0);
+        const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+        EXPECT_FALSE(targets.empty());
+        for (const std::int64_t target : targets) {
+            SCOPED_TRACE(hwy::TargetName(target));
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(target);
+            check();
+        }
+    }
+};
+
+struct Solved {
+    std::vector<float> distances;
+    std::vector<std::uint32_t> nearest;
+};
+
+Solved solve(const geometry::PlacedPolygon& polygon, const FieldGrid& grid) {
+    const std::size_t cells = std::size_t{grid.width} * grid.height;
+    Solved solved{std::vector<float>(cells), std::vector<std::uint32_t>(cells)};
+    FieldSolver solver;
+    solver.solve(polygon, {}, grid, {solved.distances, solved.nearest, 1.0, 7e-4});
+    return solved;
+}
+
+TEST_F(Targets, AllGiveTheDistancesOfTheExactBoundary) {
+    test::Random random(field_seed);
+    geometry::Polygon shape;
+    ASSERT_TRUE(shape.assign(test::star(random, 300, 0.5)).ok());
+    const geometry::PlacedPolygon polygon(shape, {{3e5, -2e5}, 0.7});
+    // No whole number of blocks or squares, and part of it outside.
+    const FieldGrid grid{polygon.translation() - geometry::Vector(1.3, 0.9), 0.02, 133, 71};
+    Boundary boundary;
+    boundary.set(polygon);
+    for_each([&] {
+        const Solved solved = solve(polygon, grid);
+        for (std::uint32_t i = 0; i < solved.distances.size(); ++i) {
+            const std::uint32_t row = i / grid.width;
+            const geometry::Vector centre =
+                grid.origin + grid.cell * geometry::Vector(i % grid.width + 0.5, row + 0.5);
+            const double exact =
+                std::sqrt(boundary.nearest(centre).on_edge.squared_distance) / grid.cell;
+            const double bound = 0x1p-12 + FieldSolver::relative_rounding * exact;
+            ASSERT_NEAR(static_cast<double>(std::abs(solved.distances[i])), exact, bound) << i;
+            const bool inside = (solved.nearest[i] & nearest_inside) != 0;
+            ASSERT_EQ(std::signbit(solved.distances[i]), inside) << i;
+            ASSERT_TRUE(inside == boundary.contains(centre) || exact < bound) << i;
+            const std::uint32_t edge = solved.nearest[i] & ~(nearest_inside | nearest_unique);
+            ASSERT_LT(edge, shape.size());
+            const double named =
+                std::sqrt(geometry::nearest_on_segment(centre, polygon.vertex(edge),
+                                                       polygon.vertex(shape.next(edge)))
+                              .squared_distance) /
+                grid.cell;
+            ASSERT_NEAR(named, exact, 2.0 * bound) << i;
+        }
+    });
+}
+
+TEST_F(Targets, AllFlagWhatIsNotUnique) {
+    geometry::Polygon square;
+    ASSERT_TRUE(square.assign(std::vector<Ring>{{{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}).ok());
+    const geometry::PlacedPolygon polygon(square, {});
+    const FieldGrid grid{{-12.5, -12.5}, 1.0, 25, 25};
+    for_each([&] {
+        const Solved solved = solve(polygon, grid);
+        for (int row = 0; row < 25; ++row) {
+            for (int column = 0; column < 25; ++column) {
+                const int x = column - 12;
+                const int y = row - 12;
+                // Inside, on the diagonals, two walls are as near; at a corner both are one place.
+                const bool two = std::abs(x) == std::abs(y) && std::abs(x) < 8;
+                const auto word = solved.nearest[static_cast<std::size_t>(25 * row + column)];
+                ASSERT_EQ((word & nearest_unique) == 0, two) << x << ", " << y;
+            }
+        }
+    });
+}
+
+}  // namespace
+}  // namespace nearfield::exact
