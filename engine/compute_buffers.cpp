@@ -25,17 +25,21 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch") {}
 
+void ComputeBuffers::require_range(std::uint64_t bytes, const char* what) const {
+    const std::uint64_t most = device_->limits().maxStorageBufferRange;
+    if (bytes > most) {
+        throw Failure({StatusCode::too_large, std::string(what) + " of one round take " +
+                                                  std::to_string(bytes) +
+                                                  " bytes; a storage buffer of this device holds " +
+                                                  std::to_string(most)});
+    }
+}
+
 template <class... Vectors>
 BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
     const std::uint64_t step = device_->limits().minStorageBufferOffsetAlignment;
     BufferPart part{input_.handle(), (end_ + step - 1) / step * step, (bytes_of(vectors) + ...)};
-    const std::uint64_t most = device_->limits().maxStorageBufferRange;
-    if (part.bytes > most) {
-        throw Failure({StatusCode::too_large, std::string(what) + " of one round take " +
-                                                  std::to_string(part.bytes) +
-                                                  " bytes; a storage buffer of this device holds " +
-                                                  std::to_string(most)});
-    }
+    require_range(part.bytes, what);
     std::byte* target = input_.data() + part.offset;
     const auto copy = [&](const auto& vector) {
         if (!vector.empty()) {
@@ -57,7 +61,9 @@ void ComputeBuffers::upload(const plan::Round& round) {
     input_.reserve(between + bytes_of(round.tiles) + bytes_of(round.points) + bytes_of(work.parts) +
                    bytes_of(round.lists.geometry()) + bytes_of(work.blocks) +
                    bytes_of(work.points) + work.ranges().words * sizeof(std::uint32_t));
-    scratch_.reserve(work.scratch_words() * sizeof(std::uint32_t) + smallest_part);
+    scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
+    require_range(scratch_bytes_, "the masks and lists of blocks");
+    scratch_.reserve(std::max(scratch_bytes_, smallest_part));
     end_ = 0;
     tiles_ = append("the tiles", round.tiles);
     points_ = append("the points", round.points);
@@ -75,7 +81,7 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Fra
         layout.write_buffer(set, binding, part.buffer, part.offset,
                             std::max(part.bytes, smallest_part));
     };
-    const BufferPart scratch{scratch_.handle(), 0, scratch_.capacity()};
+    const BufferPart scratch{scratch_.handle(), 0, scratch_bytes_};
     write(frame.points, Layout::tiles, tiles_);
     write(frame.points, Layout::geometry, geometry_);
     write(frame.points, Layout::points, points_);

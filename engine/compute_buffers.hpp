@@ -39,6 +39,7 @@ public:
               const Output& output) const;
 
 private:
+    void require_range(std::uint64_t bytes, const char* what) const;
     /// Copies what vectors hold, one after the other, into the next part of the input.
     template <class... Vectors>
     BufferPart append(const char* what, const Vectors&... vectors);
@@ -47,6 +48,7 @@ private:
     gpu::MappedBuffer input_;
     gpu::MappedBuffer scratch_;
     std::uint64_t end_ = 0;  // of what is in the input
+    std::uint64_t scratch_bytes_ = 0;
     BufferPart tiles_, points_, parts_, geometry_, work_;
 };
 

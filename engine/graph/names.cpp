@@ -21,6 +21,7 @@ constexpr std::array stage_bits = {
     Bit{VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT, "late-tests"},
     Bit{VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, "color-output"},
     Bit{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, "compute"},
+    Bit{VK_PIPELINE_STAGE_TRANSFER_BIT, "transfer"},
     Bit{VK_PIPELINE_STAGE_HOST_BIT, "host"},
 };
 
@@ -32,6 +33,7 @@ constexpr std::array access_bits = {
     Bit{VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, "color-write"},
     Bit{VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT, "depth-stencil-read"},
     Bit{VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, "depth-stencil-write"},
+    Bit{VK_ACCESS_TRANSFER_WRITE_BIT, "transfer-write"},
     Bit{VK_ACCESS_HOST_READ_BIT, "host-read"},
 };
 

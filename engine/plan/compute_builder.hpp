@@ -15,7 +15,6 @@ namespace nearfield::plan {
 
 struct Round;
 struct TileDraw;
-enum class Part : std::uint8_t;
 
 /// Turns the tiles of a round of the compute technique into its work: masks, lists of near edges,
 /// blocks. Keeps its scratch memory.

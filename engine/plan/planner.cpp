@@ -1,5 +1,6 @@
 #include <engine/failure.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
@@ -336,17 +337,18 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
 }
 
 /// A round of the compute technique takes as many cells as an atlas image has, which bounds what
-/// its masks and lists take. Of a tile with points nothing is kept by cell.
+/// its masks and lists take: whole words and blocks count.
 void Planner::add_compute_rounds() {
-    constexpr double points_share = 1.0 / 16.0;
+    const auto whole = [](std::uint32_t cells, std::uint32_t step) {
+        return static_cast<double>((cells + step - 1) / step * step);
+    };
     const double most = static_cast<double>(limits_.largest_atlas) * limits_.largest_atlas;
     double cells = most;
     for (Tile& tile : plan_->tiles) {
         if (!plan_->queries[tile.query].by_compute) {
             continue;
         }
-        const double own = static_cast<double>(tile.width) * tile.height *
-                           (tile.kind == TileKind::points ? points_share : 1.0);
+        const double own = whole(tile.width, 32) * whole(tile.height, block_side);
         cells += own;
         if (cells > most) {
             ++plan_->rounds;

@@ -128,9 +128,10 @@ TEST_F(Refused, NamesThatAreNotKnown) {
     expect_refused({}, {"subcommand"});
 }
 
-TEST_F(Refused, WhatLaterVersionsAnswer) {
-    const Arguments asked{"query", "penetration", a_, b_, "-d", "1", "--technique", "compute"};
-    expect_refused(asked, {"--technique", "this version", "compute"});
+TEST_F(Refused, GradientsByBlendingOfTheComputeTechnique) {
+    const Arguments asked{"query", "distance-field", a_, b_, "-d", "1", "--technique", "compute"};
+    const Arguments blended{"--at", "0.5,0.5", "--gradient", "blended"};
+    expect_refused(asked + blended, {"compute", "blending"});
 }
 
 TEST_F(Refused, OptionsThatBelongToAnotherQuery) {

@@ -1,4 +1,5 @@
 #include <tests/query/field_laws.hpp>
+#include <tests/support/nasty_polygons.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <array>
@@ -91,6 +92,29 @@ TEST_F(ComputeFields, HoldForEveryFamilyAndARealOutline) {
     }
     const Rings iceland = read_outline(NEARFIELD_TEST_DATA "/iceland_10m.geojson").rings;
     check(iceland, 2.0, oracle::ShapeOracle(iceland, {}).box(), false);
+}
+
+/// Vertices on samples and on rows of samples, slivers, folds: signs have to be the raster's.
+TEST_F(ComputeFields, HoldForNastyPolygons) {
+    constexpr std::uint32_t cells = 40;
+    int checked = 0;
+    for (const support::NastyPolygon& nasty : support::nasty_polygons(cells, cells, seed)) {
+        SCOPED_TRACE(nasty.name);
+        std::vector<Ring> rings;
+        for (const auto& ring : nasty.rings) {
+            Ring& plain = rings.emplace_back();
+            for (const auto& vertex : ring) {
+                plain.push_back({vertex.x(), vertex.y()});
+            }
+        }
+        // Some are no shapes at all.
+        if (const auto shape = context().add_shape(rings); shape.ok()) {
+            EXPECT_TRUE(context().remove_shape(*shape).ok());
+            check(rings, 1.0 / std::numbers::sqrt2, {{0, 0}, {cells, cells}}, false);
+            ++checked;
+        }
+    }
+    EXPECT_GE(checked, 6);
 }
 
 TEST_F(ComputeFields, HoldWhereABlockCannotListAllItsEdges) {
