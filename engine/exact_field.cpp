@@ -74,15 +74,24 @@ double ExactField::solve_cells(const PlannedQuery& planned, plan::SimplifiedShap
     }
     const double largest = solver_.solve(b, edges, grid, output);
     if (planned.field.features) {
-        for (std::size_t i = 0; i < words_.size(); ++i) {
-            write_feature(query, b, touching_at(result), i, words_[i], result);
-        }
+        write_features(query, b, differences ? 1 : 0, result);
     }
     if (!differences) {
         return largest;
     }
     take_differences(query, result);
     return largest * cell;
+}
+
+void ExactField::write_features(const DistanceFieldQuery& query, const PlacedPolygon& b,
+                                std::size_t border, DistanceFieldResult& result) const {
+    const std::size_t stride = result.width + 2 * border;
+    for (std::size_t row = 0; row < result.height; ++row) {
+        for (std::size_t column = 0; column < result.width; ++column) {
+            write_feature(query, b, touching_at(result), row * result.width + column,
+                          words_[(row + border) * stride + column + border], result);
+        }
+    }
 }
 
 void ExactField::take_differences(const DistanceFieldQuery& query,

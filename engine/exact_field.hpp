@@ -22,6 +22,9 @@ public:
 private:
     double solve_cells(const plan::PlannedQuery& planned, plan::SimplifiedShapes& shapes,
                        DistanceFieldResult& result);
+    /// `border`: cells around the grid that were solved too.
+    void write_features(const DistanceFieldQuery& query, const geometry::PlacedPolygon& b,
+                        std::size_t border, DistanceFieldResult& result) const;
     void take_differences(const DistanceFieldQuery& query, DistanceFieldResult& result) const;
     double solve_points(const plan::Plan& plan, const plan::PlannedQuery& planned,
                         DistanceFieldResult& result);

@@ -131,7 +131,7 @@ TEST_F(Refused, NamesThatAreNotKnown) {
 TEST_F(Refused, GradientsByBlendingOfTheComputeTechnique) {
     const Arguments asked{"query", "distance-field", a_, b_, "-d", "1", "--technique", "compute"};
     const Arguments blended{"--at", "0.5,0.5", "--gradient", "blended"};
-    expect_refused(asked + blended, {"compute", "blending"});
+    expect_refused(asked + blended, {"compute", "blended"});
 }
 
 TEST_F(Refused, OptionsThatBelongToAnotherQuery) {

@@ -144,7 +144,7 @@ TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
 
 TEST_F(ComputeFields, HoldOverManyRounds) {
     // So little memory that a round has 256 x 256 cells.
-    Expected<Context> small = Context::create(host_device(), {.memory_limit = 24U << 20U});
+    Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 24U << 20U}));
     ASSERT_TRUE(small.ok()) << small.status().text();
     Random random(seed);
     const PlacedShape shape(*small, star(random, 60, 0.4), {});
@@ -214,8 +214,7 @@ TEST_F(ComputeFields, BlendedGradientsAreRefusedByName) {
     query.technique = Technique::compute;
     const Status status = run_alone(context(), query).status;
     EXPECT_EQ(status.code(), StatusCode::invalid_query);
-    EXPECT_NE(status.message().find("compute does not answer gradients by blending"),
-              std::string::npos)
+    EXPECT_NE(status.message().find("compute does not answer blended gradients"), std::string::npos)
         << status.message();
 }
 

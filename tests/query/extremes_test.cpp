@@ -96,7 +96,7 @@ TEST_F(Extremes, ALongEdgeOfAIsSampledOnlyNearB) {
 TEST_F(Extremes, ManyOverlapTilesFillABufferToItsEnd) {
     // Tiles and nothing else in the input buffer, of about the size it grows to.
     for (const int count : {1360, 1365, 4092, 4096}) {
-        auto fresh = Context::create(host_device());
+        auto fresh = Context::create(host_device(), drawing());
         ASSERT_TRUE(fresh.ok());
         const auto square = fresh->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
         ASSERT_TRUE(square.ok());

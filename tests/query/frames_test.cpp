@@ -64,7 +64,7 @@ protected:
         watched_.reset();
         loader_.reset();
         loader_ = std::make_unique<test_support::FakeLoader>(host_device(), counting());
-        Expected<Context> made = Context::create(loader_->host(), settings);
+        Expected<Context> made = Context::create(loader_->host(), drawing(settings));
         ASSERT_TRUE(made.ok()) << made.status().text();
         watched_ = std::make_unique<Context>(std::move(*made));
         Random random(seed);
@@ -195,8 +195,13 @@ TEST_F(Frames, TakeOneSubmissionAndOneWaitEach) {
 TEST_F(Frames, ThatNeedNoDeviceSubmitNothing) {
     make(2);
     Batch batch;
-    batch.add(PenetrationQuery{{a_, {}}, {b_, {{0.7, 0.0}, 0.0}}, 0.04});
-    batch.add(SeparationQuery{{a_, {}}, {b_, {{3.0, 0.0}, 0.0}}, 0.04});
+    batch.add(PenetrationQuery{{a_, {}},
+                               {b_, {{0.7, 0.0}, 0.0}},
+                               0.04,
+                               PenetrationPoints::boundary,
+                               true,
+                               Technique::cpu});
+    batch.add(SeparationQuery{{a_, {}}, {b_, {{3.0, 0.0}, 0.0}}, 0.04, Technique::cpu});
     const Ticket ticket = submit(batch);
     EXPECT_TRUE(watched().is_ready(ticket));
     EXPECT_GT(collect(ticket).size(), 20U);
@@ -243,7 +248,7 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
     for (const std::uint32_t frames : {0U, 9U}) {
         Settings settings;
         settings.frames_in_flight = frames;
-        const Expected<Context> made = Context::create(host_device(), settings);
+        const Expected<Context> made = Context::create(host_device(), drawing(settings));
         ASSERT_FALSE(made.ok());
         EXPECT_EQ(made.status().code(), StatusCode::invalid_settings);
         EXPECT_NE(made.status().message().find("frames_in_flight is " + std::to_string(frames)),
@@ -472,7 +477,7 @@ TEST_F(Frames, OfTwoContextsDoNotMeet) {
     make(2);
     Settings settings;
     settings.frames_in_flight = 1;
-    Expected<Context> second = Context::create(host_device(), settings);
+    Expected<Context> second = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(second.ok()) << second.status().text();
     ASSERT_TRUE(second->add_shape(rings_a_).ok() && second->add_shape(rings_b_).ok());
     const std::vector<double> expected = run(batch(0));

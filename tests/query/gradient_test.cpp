@@ -101,7 +101,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
         }
     };
     const test_support::FakeLoader loader(host_device(), std::move(lies));
-    Expected<Context> half = Context::create(loader.host());
+    Expected<Context> half = Context::create(loader.host(), drawing());
     ASSERT_TRUE(half.ok()) << half.status().text();
     Random random(seed);
     const Rings rings = star(random, 30, 0.4);
@@ -151,7 +151,7 @@ TEST_F(Gradients, HoldAcrossTilesAndRounds) {
     Random random(seed + 7);
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
-    Expected<Context> small = Context::create(host_device(), settings);
+    Expected<Context> small = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(small.ok()) << small.status().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
     DistanceFieldQuery query;

@@ -91,7 +91,7 @@ TEST_F(Lifetime, AHeadlessContextNamesTheDeviceItCannotFind) {
 }
 
 TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
-    Expected<Context> second = Context::create(host_device());
+    Expected<Context> second = Context::create(host_device(), drawing());
     ASSERT_TRUE(second.ok()) << second.status().text();
     const std::vector<Pair> pairs = family_pairs(seed + 1);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -103,7 +103,7 @@ TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
 }
 
 TEST_F(Lifetime, TheGraphDescribesItself) {
-    Expected<Context> fresh = Context::create(host_device());
+    Expected<Context> fresh = Context::create(host_device(), drawing());
     ASSERT_TRUE(fresh.ok()) << fresh.status().text();
     EXPECT_TRUE(fresh->describe_graph(GraphFormat::text).empty());
     const PlacedPair pair(fresh.value(), family_pairs(seed)[3]);

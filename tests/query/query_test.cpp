@@ -14,7 +14,7 @@ class Device : public testing::Environment {
 public:
     void SetUp() override {
         host_.emplace();
-        Expected<Context> made = Context::create(host_->device());
+        Expected<Context> made = Context::create(host_->device(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();
         context_.emplace(std::move(made.value()));
     }
@@ -38,6 +38,13 @@ Device& device() {
 const testing::Environment* const registered = testing::AddGlobalTestEnvironment(&device());
 
 }  // namespace
+
+Settings drawing(Settings settings) {
+    constexpr WorkCost dear{1.0, 1.0, 1.0};
+    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
+    settings.costs = CostModel{{}, too_dear, too_dear};
+    return settings;
+}
 
 int random_cases(int usual) {
     const char* const asked = std::getenv("NEARFIELD_TEST_CASES");

@@ -30,6 +30,10 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
     }
 }
 
+/// Settings with which Technique::automatic draws whatever can be drawn, so that a query that says
+/// nothing tests the raster.
+[[nodiscard]] Settings drawing(Settings settings = {});
+
 /// Tests that share one context on one bare, validated host device. A test fails where the
 /// validation layers had something to say.
 class QueryTest : public testing::Test {

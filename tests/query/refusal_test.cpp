@@ -105,7 +105,7 @@ TEST_F(Refusal, OfPointsOutsideTheField) {
 TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
-    Expected<Context> small = Context::create(host_device(), settings);
+    Expected<Context> small = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(small.ok()) << small.status().text();
     const Expected<ShapeHandle> shape = small->add_shape(rectangle({0, 0}, {1, 1}));
     ASSERT_TRUE(shape.ok());
@@ -177,7 +177,7 @@ std::vector<double> numbers_in(const std::string& text) {
 TEST_F(Refusal, OfTolerancesTooSmallNamesTheSmallestPossible) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
-    Expected<Context> small = Context::create(host_device(), settings);
+    Expected<Context> small = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(small.ok()) << small.status().text();
     Random random(1);
     const PlacedPair pair(

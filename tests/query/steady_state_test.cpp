@@ -78,7 +78,7 @@ protected:
     void SetUp() override {
         QueryTest::SetUp();
         loader_.emplace(host_device(), between(host_device()));
-        Expected<Context> made = Context::create(loader_->host());
+        Expected<Context> made = Context::create(loader_->host(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();
         watched_.emplace(std::move(*made));
         EXPECT_FALSE(created.empty()) << "nothing is counted";

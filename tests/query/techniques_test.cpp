@@ -278,23 +278,52 @@ TEST_F(Techniques, CrossingWithoutAVertexInside) {
     }
 }
 
-TEST_F(Techniques, AutomaticIsWhatTheHeaderSays) {
-    Random random(seed);
-    const PlacedPair pair(
-        context(),
-        {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
-        Technique::automatic);
-    EXPECT_EQ(run_alone(context(), pair.penetration()).technique, Technique::cpu);
-    EXPECT_EQ(run_alone(context(), pair.separation()).technique, Technique::cpu);
-    EXPECT_EQ(run_alone(context(), pair.closest_point()).technique, Technique::cpu);
-    ContactQuery contacts = pair.contacts(0.1);
-    EXPECT_EQ(run_alone(context(), contacts).technique, Technique::cpu);
-    contacts.normals = ContactNormals::gradient;
-    EXPECT_EQ(run_alone(context(), contacts).technique, Technique::raster);
-    EXPECT_EQ(run_alone(context(), pair.intersection(IntersectionKind::volume_volume)).technique,
-              Technique::raster);
-    DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
-    EXPECT_EQ(run_alone(context(), field).technique, Technique::raster);
+/// Costs that make one technique free and the others dear.
+CostModel favouring(TechniqueCost CostModel::*technique) {
+    constexpr WorkCost dear{1.0, 1.0, 1.0};
+    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
+    CostModel costs{too_dear, too_dear, too_dear};
+    costs.*technique = {};
+    return costs;
+}
+
+TEST_F(Techniques, AutomaticIsWhatCostsLeast) {
+    for (const auto& [member, favourite] : {std::pair(&CostModel::raster, Technique::raster),
+                                            std::pair(&CostModel::compute, Technique::compute),
+                                            std::pair(&CostModel::cpu, Technique::cpu)}) {
+        SCOPED_TRACE(to_string(favourite));
+        Settings settings;
+        settings.costs = favouring(member);
+        Expected<Context> made = Context::create(host_device(), settings);
+        ASSERT_TRUE(made.ok()) << made.status().text();
+        Random random(seed);
+        const PlacedPair pair(
+            *made,
+            {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+            Technique::automatic);
+        const auto expect = [&](const auto& query, Technique technique) {
+            const auto result = run_alone(*made, query);
+            EXPECT_TRUE(result.status.ok()) << result.status.text();
+            EXPECT_EQ(result.technique, technique);
+        };
+        expect(pair.penetration(), favourite);
+        expect(pair.penetration(PenetrationPoints::vertices), favourite);
+        expect(pair.separation(), favourite);
+        expect(pair.closest_point(), favourite);
+        ContactQuery contacts = pair.contacts(0.1);
+        expect(contacts, favourite);
+        contacts.normals = ContactNormals::gradient;
+        expect(contacts, favourite);
+        expect(pair.intersection(IntersectionKind::volume_volume), favourite);
+        DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+        expect(field, favourite);
+        field.gradients = true;
+        expect(field, favourite);
+        // What only one technique answers, that one answers, whatever it costs.
+        field.gradient = GradientMethod::blended;
+        expect(field, Technique::raster);
+        expect(IntersectionTestQuery{pair.instance_a(), pair.instance_b()}, Technique::cpu);
+    }
 }
 
 TEST_F(Techniques, WhatTheCpuDoesNotAnswerIsRefusedByName) {
