@@ -222,12 +222,14 @@ Calibration::KindTimes Calibration::measure(Technique technique, const Kind& kin
 
 TechniqueCost Calibration::measure(Technique technique) {
     std::array<KindTimes, kinds.size()> times;
-    double submission = times.front().submission;
+    std::array<double, kinds.size()> submissions{};
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         times[i] = measure(technique, kinds[i]);
-        // Kinds differ in their passes; what each pays is at least this.
-        submission = i == 0 ? times[i].submission : std::min(submission, times[i].submission);
+        submissions[i] = times[i].submission;
     }
+    // Kinds differ in their passes, and this is a difference of two times that noise is in.
+    std::sort(submissions.begin(), submissions.end());
+    const double submission = submissions[kinds.size() / 2];
     TechniqueCost cost;
     cost.submission = submission;
     for (std::size_t i = 0; i < kinds.size(); ++i) {

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <tools/commands/bench.hpp>
+#include <tools/commands/calibrate.hpp>
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/query.hpp>
@@ -30,9 +31,11 @@ int run(int count, char** arguments) {
     tools::QueryArguments query_arguments;
     tools::SceneArguments scene_arguments;
     tools::BenchArguments bench_arguments;
+    tools::CalibrateArguments calibrate_arguments;
     const CLI::App* const query = tools::add_query_command(program, query_arguments);
     const CLI::App* const scene = tools::add_scene_command(program, scene_arguments);
     const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
+    const CLI::App* const calibrate = tools::add_calibrate_command(program, calibrate_arguments);
     tools::add_info_command(program);
     try {
         program.parse(count, arguments);
@@ -42,7 +45,7 @@ int run(int count, char** arguments) {
         }
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
-                                    "\" is none of query, scene, bench, info");
+                                    "\" is none of query, scene, bench, calibrate, info");
         }
         return fail(error, exit_status::bad_input);
     }
@@ -56,6 +59,10 @@ int run(int count, char** arguments) {
     }
     if (bench->parsed()) {
         tools::run_bench(bench_arguments);
+        return exit_status::done;
+    }
+    if (calibrate->parsed()) {
+        tools::run_calibrate(calibrate_arguments);
         return exit_status::done;
     }
     return tools::run_info();

@@ -109,10 +109,6 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
                      {"query 3", "the smallest tolerance that fits"});
 }
 
-TEST_F(Bench, RefusesWhatLaterVersionsAnswer) {
-    expect_bad_scene("\"raster\"", "\"cpu\"", {"queries[2]", "technique cpu", "intersections"});
-}
-
 /// One row, small: two bars of 100 vertices.
 constexpr auto small_row = "wavy x1, vertices";
 

@@ -42,7 +42,8 @@ TEST_F(IntersectionTestCommand, AsksForEachPairOfASceneOnce) {
 }
 
 TEST_F(IntersectionTestCommand, RefusesTheRaster) {
-    expect_refused(squares("intersection-test", "raster"), {"raster", "intersection tests", "cpu"});
+    expect_refused(squares("intersection-test", "raster"),
+                   {"raster", "intersection tests", "automatic"});
     expect_refused(squares("intersection-test", "cpu") + Arguments{"--points", "vertices"},
                    {"--points", "penetration"});
 }

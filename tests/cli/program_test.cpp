@@ -65,18 +65,29 @@ TEST_F(Device, WithoutADriverTheExitStatusIs3AndNothingIsWritten) {
 }
 
 TEST_F(Device, TheTechniquesOfThisVersionAgree) {
-    for (const auto& [type, chosen] :
-         {std::pair{"penetration", "cpu"}, std::pair{"contacts", "cpu"},
-          std::pair{"intersection", "raster"}}) {
-        const Arguments more{"-d", "0.1", "--pose-b", "0.6,0,5"};
-        const Json raster = answer(squares(type, "raster") + more);
-        const Json automatic = answer(squares(type, "automatic") + more);
-        ASSERT_TRUE(raster.is_object() && automatic.is_object());
-        EXPECT_EQ(raster.at("technique"), "raster");
-        EXPECT_EQ(automatic.at("technique"), chosen);
-        EXPECT_EQ(automatic.at("intersects"), raster.at("intersects"));
-    }
     const Arguments more{"-d", "0.1", "--pose-b", "0.6,0,5"};
+    for (const char* type : {"penetration", "contacts", "intersection", "separation",
+                             "closest-point", "distance-field"}) {
+        const Json raster = answer(squares(type, "raster") + more);
+        ASSERT_TRUE(raster.is_object());
+        EXPECT_EQ(raster.at("technique"), "raster");
+        for (const char* technique : {"compute", "cpu", "automatic"}) {
+            const Json other = answer(squares(type, technique) + more);
+            ASSERT_TRUE(other.is_object());
+            EXPECT_EQ(other.at("intersects"), raster.at("intersects"));
+            if (std::string(technique) == "automatic") {
+                EXPECT_NE(other.at("technique"), "automatic") << "the result says what answered";
+            } else {
+                EXPECT_EQ(other.at("technique"), technique);
+            }
+        }
+    }
+    // A strategy is a way of drawing: naming one asks for the raster.
+    Arguments unnamed = squares("intersection", "raster") + more + Arguments{"--strategy", "depth"};
+    const auto technique = std::find(unnamed.begin(), unnamed.end(), "--technique");
+    ASSERT_NE(technique, unnamed.end());
+    unnamed.erase(technique, technique + 2);
+    EXPECT_EQ(answer(unnamed).at("technique"), "raster");
     const Json raster = answer(squares("penetration", "raster") + more);
     const Json cpu = answer(squares("penetration", "cpu") + more);
     ASSERT_TRUE(raster.is_object() && cpu.is_object());

@@ -105,7 +105,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME")
         ->needs(scene);
-    add_localization_options(*command, arguments.localization);
+    add_settings_options(*command, arguments.settings);
     command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
         ->type_name("COUNT")
         ->check(CLI::Range(1U, 1'000'000U))
@@ -126,12 +126,11 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 
 void run_bench(const BenchArguments& arguments) {
     if (arguments.scene.empty()) {
-        run_standard_table(arguments.filter, parse_settings(arguments.localization),
-                           arguments.json);
+        run_standard_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
         return;
     }
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
-    const Settings settings = parse_settings(arguments.localization);
+    const Settings settings = parse_settings(arguments.settings);
     Scene scene = read_scene(arguments.scene);
     set_technique(scene, technique);
     if (scene.queries.empty()) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <tools/commands/localization_options.hpp>
+#include <tools/commands/settings_options.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ struct BenchArguments {
     std::string scene;   ///< empty: the standard table
     std::string filter;  ///< of the standard table's rows
     std::optional<std::string> technique;
-    LocalizationArguments localization;
+    SettingsArguments settings;
     std::optional<std::string> json;
     std::uint32_t frames = 50;
     std::uint32_t warm_up = 5;

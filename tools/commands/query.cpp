@@ -102,6 +102,12 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     if (arguments.strategy) {
         request.strategy = parse_strategy(*arguments.strategy, "--strategy");
     }
+    const bool names_a_way_of_drawing =
+        (request.type == QueryType::intersection && arguments.strategy) ||
+        (request.type == QueryType::distance_field && arguments.sign);
+    if (names_a_way_of_drawing && !arguments.technique) {
+        request.technique = Technique::raster;
+    }
     if (arguments.points) {
         request.points = parse_points(*arguments.points, "--points");
     }
@@ -221,43 +227,6 @@ std::string draw_answer(Context& context, const Answer& answer, const PlacedOutl
     return draw_figure(figure);
 }
 
-void add_field_options(CLI::App& command, QueryArguments& arguments) {
-    command
-        .add_option("--sign", arguments.sign,
-                    "Of distance-field: which buffer says what lies inside: stencil, color (set to "
-                    "white) or feature-bit (the top bit of the feature id); default stencil")
-        ->type_name("NAME");
-    command
-        .add_option("--gradient", arguments.gradient,
-                    "Of distance-field: how gradients are found: analytic (from the nearest "
-                    "feature), central-differences, or blended (the whole image on the device); "
-                    "default analytic")
-        ->type_name("NAME");
-    command
-        .add_option("--gradient-field", arguments.gradient_field,
-                    "Of distance-field: write the gradient at every cell as float32 (height, "
-                    "width, 2); it points to where the signed distance grows; default none")
-        ->type_name("FILE.npy");
-    command
-        .add_option("--features", arguments.features,
-                    "Of distance-field: write the nearest feature of B at every cell (the Voronoi "
-                    "diagram) as uint32 (height, width): the index of an edge or, with bit 31 set, "
-                    "of a vertex; default none")
-        ->type_name("FILE.npy");
-    command
-        .add_option("--at", arguments.at,
-                    "Of distance-field: reconstruct distance, sign and gradient at a place of the "
-                    "grid; once a place, the JSON lists them as points; default none")
-        ->type_name("X,Y")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command
-        .add_option("--show", arguments.show,
-                    "Of distance-field: what the picture shows: field, voronoi (the nearest "
-                    "features in false colour) or gradient; default field")
-        ->type_name("NAME");
-}
-
 /// Features as the file has them.
 std::vector<std::uint32_t> encoded(const std::vector<Feature>& features) {
     constexpr std::uint32_t vertex_bit = 1U << 31U;
@@ -308,101 +277,9 @@ struct FieldFiles {
 
 }  // namespace
 
-CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
-    CLI::App* command = program.add_subcommand("query", "Answer one query between two outlines");
-    command
-        ->add_option("query", arguments.type,
-                     "penetration: how deep the boundary of A is inside B, and the way out;\n"
-                     "intersection: the samples of a grid that lie in both;\n"
-                     "distance-field: the signed distance to B over a grid, negative inside;\n"
-                     "contacts: the points of either boundary that are close to the other, and "
-                     "the normals of B there;\n"
-                     "closest-point: the point of A that is closest to B;\n"
-                     "separation: the least distance between A and B, and where it is;\n"
-                     "intersection-test: whether A and B share a point")
-        ->required()
-        ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
-    command->add_option("A", arguments.file_a, "Outline A: GeoJSON, WKT, SVG or SVG path data file")
-        ->required();
-    command->add_option("B", arguments.file_b, "Outline B: GeoJSON, WKT, SVG or SVG path data file")
-        ->required();
-    command
-        ->add_option("-d", arguments.tolerance,
-                     "Tolerance, world units, > 0: half the diagonal of a grid cell; required but "
-                     "for intersection-test, which is exact")
-        ->type_name("TOLERANCE");
-    command
-        ->add_option("--deviation", arguments.deviation,
-                     "Of SVG: how far the polygons that stand for curves may be from them, world "
-                     "units; A's and B's together at most a quarter of the tolerance; default a "
-                     "sixteenth of it each")
-        ->type_name("DEVIATION");
-    command
-        ->add_option("--pose-a", arguments.pose_a,
-                     "Where A stands: turned counter-clockwise by degrees about its origin, then "
-                     "moved by world units; default 0,0,0")
-        ->type_name("X,Y,DEGREES");
-    command->add_option("--pose-b", arguments.pose_b, "Where B stands; default 0,0,0")
-        ->type_name("X,Y,DEGREES");
-    command
-        ->add_option(
-            "--technique", arguments.technique,
-            "raster, compute, cpu (only raster has blended gradients) or automatic; default "
-            "automatic: whichever is quickest here, by what --costs says")
-        ->type_name("NAME");
-    command
-        ->add_option("--strategy", arguments.strategy,
-                     "Of intersection: the buffer that finds the samples, stencil, blend, logic-op "
-                     "or depth; all find the same; nearfield info says which the device has; "
-                     "default stencil")
-        ->type_name("NAME");
-    command
-        ->add_option("--kind", arguments.kind,
-                     "Of intersection: boundary-boundary, boundary-volume or volume-volume (of A "
-                     "and of B); default volume-volume")
-        ->type_name("NAME");
-    command
-        ->add_option("--points", arguments.points,
-                     "Of penetration: boundary (samples along A's boundary, no gap wider than a "
-                     "grid cell) or vertices (A's own); default boundary")
-        ->type_name("NAME");
-    command
-        ->add_option("--contact-distance", arguments.contact_distance,
-                     "Of contacts: how close counts as contact, world units, > 0; default the "
-                     "tolerance")
-        ->type_name("D");
-    command
-        ->add_option("--normals", arguments.normals,
-                     "Of contacts: analytic (from the nearest feature) or gradient (from the "
-                     "differences of the signed field); default analytic")
-        ->type_name("NAME");
-    command
-        ->add_option("--rect", arguments.rectangle,
-                     "Of distance-field: what the grid covers, world units; default the common box "
-                     "of A and B grown by the tolerance")
-        ->type_name("X0,Y0,X1,Y1");
-    add_localization_options(*command, arguments.localization);
-    command
-        ->add_option("--json", arguments.json,
-                     "Write the answer as JSON; - for the standard output, the summary then goes "
-                     "to the standard error; default none")
-        ->type_name("FILE|-");
-    command
-        ->add_option("--image", arguments.image,
-                     "Draw the answer, 1600 x 1200 pixels; default none")
-        ->type_name("FILE.png");
-    command
-        ->add_option("--field", arguments.field,
-                     "Of distance-field: write the values, world units, as a NumPy array of "
-                     "float32 (height, width), row 0 at the lowest y; default none")
-        ->type_name("FILE.npy");
-    add_field_options(*command, arguments);
-    return command;
-}
-
 void run_query(const QueryArguments& arguments) {
     const QueryRequest request = parse_request(arguments);
-    const Settings settings = parse_settings(arguments.localization);
+    const Settings settings = parse_settings(arguments.settings);
     const Outline outline_a = read_outline(arguments.file_a);
     const Outline outline_b = read_outline(arguments.file_b);
     const double deviation = parse_deviation(arguments, request, outline_a, outline_b);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <tools/commands/localization_options.hpp>
+#include <tools/commands/settings_options.hpp>
 
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ struct QueryArguments {
     std::optional<std::string> kind;
     std::optional<std::string> points;
     std::optional<std::string> rectangle;
-    LocalizationArguments localization;
+    SettingsArguments settings;
     std::optional<std::string> json;
     std::optional<std::string> image;
     std::optional<std::string> field;

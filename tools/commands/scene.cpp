@@ -23,6 +23,7 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         ->add_option("--technique", arguments.technique,
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME");
+    add_settings_options(*command, arguments.settings);
     command
         ->add_option("--json", arguments.json,
                      "Write the answers as JSON; - for the standard output, the summary then goes "
@@ -33,10 +34,11 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
 
 void run_scene(const SceneArguments& arguments) {
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
+    const Settings settings = parse_settings(arguments.settings);
     Scene scene = read_scene(arguments.scene);
     set_technique(scene, technique);
     ReportTarget report(arguments.json);
-    Context context = take(Context::create_headless());
+    Context context = take(Context::create_headless({}, settings));
     SceneRunner runner(scene, arguments.scene, context);
     runner.run_frame();
     runner.require_results();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <tools/commands/settings_options.hpp>
 
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@ namespace nearfield::tools {
 struct SceneArguments {
     std::string scene;
     std::optional<std::string> technique;
+    SettingsArguments settings;
     std::optional<std::string> json;
 };
 

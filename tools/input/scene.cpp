@@ -169,6 +169,12 @@ QueryRequest read_request(const JsonPlace& place) {
     if (place.has("strategy")) {
         request.strategy = parse_member(place, "strategy", parse_strategy);
     }
+    const bool names_a_way_of_drawing =
+        (request.type == QueryType::intersection && place.has("strategy")) ||
+        (request.type == QueryType::distance_field && place.has("sign"));
+    if (names_a_way_of_drawing && !place.has("technique")) {
+        request.technique = Technique::raster;
+    }
     if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
         place.member("reach").fail("belongs to the separation of all pairs");
     }

@@ -1,9 +1,10 @@
-#include <tools/commands/localization_options.hpp>
+#include <tools/commands/settings_options.hpp>
+#include <tools/input/cost_model.hpp>
 #include <tools/input/input_error.hpp>
 
 namespace nearfield::tools {
 
-void add_localization_options(CLI::App& command, LocalizationArguments& arguments) {
+void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
     command
         .add_option("--boxes", arguments.boxes,
                     "Bounding boxes that localise: axis-aligned or oriented; default axis-aligned")
@@ -14,9 +15,14 @@ void add_localization_options(CLI::App& command, LocalizationArguments& argument
                     "the device; default 12")
         ->type_name("LEVELS")
         ->check(CLI::Range(0U, 32U));
+    command
+        .add_option("--costs", arguments.costs,
+                    "What the techniques cost here, as nearfield calibrate has measured it: what "
+                    "the technique automatic goes by; default what is usual for such a device")
+        ->type_name("FILE.json");
 }
 
-Settings parse_settings(const LocalizationArguments& arguments) {
+Settings parse_settings(const SettingsArguments& arguments) {
     Settings settings;
     if (arguments.boxes == "oriented") {
         settings.bounding_volume = BoundingVolume::oriented;
@@ -24,6 +30,9 @@ Settings parse_settings(const LocalizationArguments& arguments) {
         throw InputError("--boxes: \"" + *arguments.boxes + "\" is none of axis-aligned, oriented");
     }
     settings.hierarchy_height = arguments.height.value_or(settings.hierarchy_height);
+    if (arguments.costs) {
+        settings.costs = read_cost_model(*arguments.costs);
+    }
     return settings;
 }
 

@@ -1,0 +1,54 @@
+#include "cli_test.hpp"
+
+#include <gtest/gtest.h>
+
+namespace nearfield::test {
+namespace {
+
+class Calibrate : public CliTest {};
+
+TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
+    const std::string file = folder_.path("costs.json");
+    const Outcome outcome = run_program({"calibrate", file});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    Json costs = Json::parse(folder_.read("costs.json"));
+    EXPECT_FALSE(costs.at("device").get<std::string>().empty());
+    for (auto& [technique, cost] : costs.at("microseconds").items()) {
+        EXPECT_GE(cost.at("submission").get<double>(), 0.0) << technique;
+        double all = 0.0;
+        for (const char* kind : {"points", "closest", "intersection", "field", "features"}) {
+            for (const char* part : {"query", "edge", "sample"}) {
+                const double microseconds = cost.at(kind).at(part);
+                EXPECT_GE(microseconds, 0.0) << technique << ' ' << kind << ' ' << part;
+                all += microseconds;
+            }
+        }
+        EXPECT_GT(all, 0.0) << technique;
+    }
+    const Arguments query = squares("penetration", "automatic") +
+                            Arguments{"-d", "0.1", "--pose-b", "0.6,0,5", "--costs"};
+    EXPECT_TRUE(answer(query + Arguments{file}).is_object());
+    // Whatever was measured: where one technique is free and the others are not, that one answers.
+    for (auto& [favourite, cost] : costs.at("microseconds").items()) {
+        Json changed = costs;
+        for (auto& [technique, other] : changed.at("microseconds").items()) {
+            const double microseconds = technique == favourite ? 0.0 : 1.0;
+            other.at("submission") = microseconds;
+            other.at("points") = {
+                {"query", microseconds}, {"edge", microseconds}, {"sample", microseconds}};
+        }
+        const std::string file_of_favourite = folder_.write("favourite.json", changed.dump());
+        EXPECT_EQ(answer(query + Arguments{file_of_favourite}).at("technique"), favourite);
+    }
+}
+
+TEST_F(Calibrate, RefusesBadFilesBeforeAnyWork) {
+    expect_refused({"calibrate"}, {"file"});
+    expect_refused({"calibrate", folder_.path("no folder/costs.json")}, {"no folder"});
+    expect_refused(squares("penetration", "automatic") +
+                       Arguments{"-d", "0.1", "--costs", folder_.path("none.json")},
+                   {"none.json"});
+}
+
+}  // namespace
+}  // namespace nearfield::test
