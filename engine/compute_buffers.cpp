@@ -1,23 +1,10 @@
+#include <engine/buffer_parts.hpp>
 #include <engine/compute_buffers.hpp>
-#include <engine/failure.hpp>
 
 #include <algorithm>
 #include <cstring>
-#include <string>
 
 namespace nearfield {
-namespace {
-
-// Every part of a buffer that is bound has at least these bytes, its last one too.
-constexpr std::uint64_t smallest_part = 16;
-
-template <class Element>
-std::uint64_t bytes_of(const std::vector<Element>& elements) {
-    return elements.size() * sizeof(Element);
-}
-
-}  // namespace
-
 ComputeBuffers::ComputeBuffers(const gpu::Device& device)
     : device_(&device),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
@@ -25,21 +12,11 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch") {}
 
-void ComputeBuffers::require_range(std::uint64_t bytes, const char* what) const {
-    const std::uint64_t most = device_->limits().maxStorageBufferRange;
-    if (bytes > most) {
-        throw Failure({StatusCode::too_large, std::string(what) + " of one round take " +
-                                                  std::to_string(bytes) +
-                                                  " bytes; a storage buffer of this device holds " +
-                                                  std::to_string(most)});
-    }
-}
-
 template <class... Vectors>
 BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
     const std::uint64_t step = device_->limits().minStorageBufferOffsetAlignment;
     BufferPart part{input_.handle(), (end_ + step - 1) / step * step, (bytes_of(vectors) + ...)};
-    require_range(part.bytes, what);
+    require_range(*device_, part.bytes, what);
     std::byte* target = input_.data() + part.offset;
     const auto copy = [&](const auto& vector) {
         if (!vector.empty()) {
@@ -62,7 +39,7 @@ void ComputeBuffers::upload(const plan::Round& round) {
                    bytes_of(round.lists.geometry()) + bytes_of(work.blocks) +
                    bytes_of(work.points) + work.ranges().words * sizeof(std::uint32_t));
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
-    require_range(scratch_bytes_, "the masks and lists of blocks");
+    require_range(*device_, scratch_bytes_, "the masks and lists of blocks");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
     end_ = 0;
     tiles_ = append("the tiles", round.tiles);

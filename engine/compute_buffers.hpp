@@ -39,7 +39,6 @@ public:
               const Output& output) const;
 
 private:
-    void require_range(std::uint64_t bytes, const char* what) const;
     /// Copies what vectors hold, one after the other, into the next part of the input.
     template <class... Vectors>
     BufferPart append(const char* what, const Vectors&... vectors);

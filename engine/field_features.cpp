@@ -46,8 +46,9 @@ FieldFeature field_feature(const PlacedPolygon& b, double touching, const Vector
 
 void write_feature(const DistanceFieldQuery& query, const PlacedPolygon& b, double touching,
                    std::size_t cell, std::uint32_t word, DistanceFieldResult& result) {
+    const std::size_t row = cell / result.width;
     const Vector centre(static_cast<double>(cell % result.width) + 0.5,
-                        static_cast<double>(cell / result.width) + 0.5);
+                        static_cast<double>(row) + 0.5);
     const FieldFeature nearest =
         field_feature(b, touching, geometry::to_vector(result.origin) + result.cell * centre, word);
     result.unique[cell] = nearest.unique ? 1 : 0;

@@ -1,3 +1,4 @@
+#include <engine/buffer_parts.hpp>
 #include <engine/failure.hpp>
 #include <engine/render_slot.hpp>
 
@@ -9,14 +10,6 @@ namespace {
 
 // All of points and fields, and three for each strategy.
 constexpr std::uint32_t most_passes = 16 + 3 * intersection_strategies;
-
-// Every part of a buffer that is bound has at least these bytes, its last one too.
-constexpr std::uint64_t smallest_range = 16;
-
-template <class Element>
-std::uint64_t bytes_of(const std::vector<Element>& elements) {
-    return elements.size() * sizeof(Element);
-}
 
 template <class Element>
 void copy_to(std::byte* target, const std::vector<Element>& elements) {
@@ -65,17 +58,8 @@ void RenderSlot::make_room_for(std::size_t rounds) {
 
 std::uint64_t RenderSlot::align(std::uint64_t offset) const {
     const std::uint64_t step =
-        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_range);
+        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
     return (offset + step - 1) / step * step;
-}
-
-void RenderSlot::require_range(std::uint64_t bytes, const char* what) const {
-    const std::uint64_t most = device_->limits().maxStorageBufferRange;
-    if (bytes > most) {
-        throw Failure({StatusCode::too_large, std::string(what) + " take " + std::to_string(bytes) +
-                                                  " bytes; a storage buffer of this device holds " +
-                                                  std::to_string(most)});
-    }
 }
 
 void RenderSlot::upload(std::span<const plan::Round> rounds) {
@@ -113,16 +97,16 @@ void RenderSlot::lay_out_input(RoundOnDevice& on_device, std::uint64_t& input_en
                                std::uint64_t& mesh_end) const {
     const plan::Round& round = *on_device.frame.round;
     const auto& geometry = round.lists.geometry();
-    require_range(bytes_of(geometry), "the edges of one round");
-    require_range(std::max(bytes_of(round.points), bytes_of(round.field_points)),
-                  "the points of one round");
+    require_range(*device_, bytes_of(geometry), "the edges");
+    require_range(*device_, std::max(bytes_of(round.points), bytes_of(round.field_points)),
+                  "the points");
     InputParts& parts = on_device.input;
     parts.tiles = align(input_end);
     parts.geometry = align(parts.tiles + bytes_of(round.tiles));
     parts.points = align(parts.geometry + bytes_of(geometry));
     parts.field_points = align(parts.points + bytes_of(round.points));
     parts.end = parts.field_points + bytes_of(round.field_points);
-    input_end = parts.end + smallest_range;
+    input_end = parts.end + smallest_part;
     on_device.frame.mesh_offset = mesh_end;
     mesh_end = align(mesh_end + bytes_of(round.mesh));
 }
@@ -161,15 +145,15 @@ void RenderSlot::lay_out_output() {
         const std::uint64_t summary_bytes = round.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =
             sizeof(std::uint32_t) + on_device.frame.sample_capacity * sizeof(plan::SampleData);
-        require_range(std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
-                      "the results of one round");
+        require_range(*device_, std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
+                      "the results");
         OutputParts& parts = on_device.output;
         parts.points = align(end);
         parts.field = align(parts.points + point_bytes);
         parts.summaries = align(parts.field + field_bytes);
         parts.samples = align(parts.summaries + summary_bytes);
         parts.end = parts.samples + sample_bytes;
-        end = parts.end + smallest_range;
+        end = parts.end + smallest_part;
     }
     read_back_.reserve(end);
     for (const std::uint32_t number : running_) {
@@ -207,7 +191,7 @@ void RenderSlot::bind(const RoundOnDevice& on_device) const {
     const auto write = [&](VkDescriptorSet set, Layout::Binding binding,
                            const gpu::MappedBuffer& buffer, std::uint64_t from, std::uint64_t to) {
         layout_->write_buffer(set, binding, buffer.handle(), from,
-                              std::max(to - from, smallest_range));
+                              std::max(to - from, smallest_part));
     };
     const auto write_tiles = [&](VkDescriptorSet set) {
         write(set, Layout::tiles, input_, input.tiles, input.tiles + bytes_of(round.tiles));

@@ -92,7 +92,6 @@ private:
     void bind(const RoundOnDevice& on_device) const;
     void bind_compute(std::uint32_t number) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
-    void require_range(std::uint64_t bytes, const char* what) const;
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;

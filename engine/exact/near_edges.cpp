@@ -71,8 +71,8 @@ float squared_distances(const EdgeList& edges, float x, float y, float* squared)
     return hn::GetLane(hn::MinOfLanes(d, least));
 }
 
-float SelectNear(const EdgeList& from, const Disc& disc, float slack, float* squared,
-                 EdgeList& to) {
+float select_near(const EdgeList& from, const Disc& disc, float slack, float* squared,
+                  EdgeList& to) {
     const Floats d;
     const Words words;
     const float least = std::sqrt(squared_distances(from, disc.x, disc.y, squared));
@@ -105,7 +105,8 @@ struct Offsets {
     constexpr Offsets() {
         for (std::size_t i = 0; i < cells; ++i) {
             x[i] = static_cast<float>(i % block_side);
-            y[i] = static_cast<float>(i / block_side);
+            const std::size_t row = i / block_side;
+            y[i] = static_cast<float>(row);
         }
     }
 };
@@ -193,7 +194,7 @@ void find_nearest(const EdgeList& edges, const Block& block, float* squared,
     }
 }
 
-float SolveBlock(const EdgeList& edges, const Block& block) {
+float solve_block(const EdgeList& edges, const Block& block) {
     alignas(64) std::array<float, cells> squared;
     alignas(64) std::array<std::uint32_t, cells> nearest;
     if (block.nearest == nullptr) {
@@ -238,8 +239,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nearfield::exact {
 
-HWY_EXPORT(SelectNear);
-HWY_EXPORT(SolveBlock);
+HWY_EXPORT(select_near);
+HWY_EXPORT(solve_block);
 
 void EdgeList::reserve(std::size_t count) {
     constexpr std::size_t longest_vector = 16;
@@ -265,11 +266,11 @@ float select_near(const EdgeList& from, const Disc& disc, float slack, std::vect
     if (squared.size() < from.capacity()) {
         squared.resize(from.capacity());
     }
-    return HWY_DYNAMIC_DISPATCH(SelectNear)(from, disc, slack, squared.data(), to);
+    return HWY_DYNAMIC_DISPATCH(select_near)(from, disc, slack, squared.data(), to);
 }
 
 float solve_block(const EdgeList& edges, const Block& block) {
-    return HWY_DYNAMIC_DISPATCH(SolveBlock)(edges, block);
+    return HWY_DYNAMIC_DISPATCH(solve_block)(edges, block);
 }
 
 }  // namespace nearfield::exact

@@ -98,10 +98,10 @@ Status check_technique(const Query& query) {
                            std::to_string(static_cast<int>(query.technique)));
     }
     const char* const what = unanswered(query.technique, query);
-    return what == nullptr ? Status()
-                           : invalid(std::string("the technique ") + to_string(query.technique) +
-                                     " does not answer " + what +
-                                     "; ask for another, or for automatic");
+    return what == nullptr
+               ? Status()
+               : invalid(std::string("the technique ") + to_string(query.technique) +
+                         " does not answer " + what + "; ask for another, or for automatic");
 }
 
 template <class Query>

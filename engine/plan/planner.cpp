@@ -340,7 +340,8 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
 /// its masks and lists take: whole words and blocks count.
 void Planner::add_compute_rounds() {
     const auto whole = [](std::uint32_t cells, std::uint32_t step) {
-        return static_cast<double>((cells + step - 1) / step * step);
+        const std::uint32_t steps = (cells + step - 1) / step;
+        return static_cast<double>(steps) * step;
     };
     const double most = static_cast<double>(limits_.largest_atlas) * limits_.largest_atlas;
     double cells = most;
