@@ -90,8 +90,8 @@ struct IntersectionSample {
 struct IntersectionResult : ResultSummary {
     IntersectionKind kind = IntersectionKind::volume_volume;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< as asked
-    std::uint64_t count = 0;  ///< samples found
-    double area = 0.0;        ///< count times the area of a cell
+    std::uint64_t count = 0;                                        ///< samples found
+    double area = 0.0;  ///< count times the area of a cell
     Rectangle box;  ///< the smallest that holds every sample's point; meaningful where count > 0
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
