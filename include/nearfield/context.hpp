@@ -150,7 +150,8 @@ public:
     /// Two kinds of batches go to the device again here, and wait: samples of intersections that
     /// were more than there was room for (more than an eighth of the cells and more than ever
     /// before in this context; the next batch has room), and contacts with gradient normals
-    /// (ContactNormals::gradient), whose field can be drawn only where they are.
+    /// (ContactNormals::gradient), whose field can be asked for only where they are. Neither is so
+    /// of what Technique::cpu answers.
     ///
     /// Fails as run() does; the ticket is used up all the same. Once the device is lost, every
     /// ticket in flight gives device_lost.

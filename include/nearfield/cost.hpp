@@ -17,10 +17,10 @@ struct WorkCost {
 struct TechniqueCost {
     double submission = 0.0;  ///< once a batch that uses the technique at all
     WorkCost points;          ///< penetration and contacts; a sample is a point of a boundary
-    WorkCost closest;         ///< closest point and separation; samples do not count
+    WorkCost closest;         ///< closest point, separation, intersection test; without samples
     WorkCost intersection;    ///< a sample is a cell
-    WorkCost field;           ///< distance fields with values alone; a sample is a cell
-    WorkCost features;        ///< distance fields with features or gradients; a sample is a cell
+    WorkCost field;           ///< distance fields but those below; a sample is a cell
+    WorkCost features;        ///< fields with features, analytic gradients or points; likewise
 };
 
 /// What each technique costs on one machine. Few numbers, since it only has to tell apart what

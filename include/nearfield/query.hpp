@@ -77,8 +77,8 @@ enum class IntersectionKind {
 /// in what Vulkan has to offer and in time.
 ///
 /// A query whose strategy the device lacks is refused in its own result
-/// (StatusCode::unsupported_strategy); the reasons name each missing feature or format. The CPU
-/// finds the same samples by none of them, so Technique::cpu takes any.
+/// (StatusCode::unsupported_strategy); the reasons name each missing feature or format. The other
+/// techniques find the same samples by none of them, so they take any.
 enum class IntersectionStrategy {
     /// Stencil: cleared to 0, B increments, A increments where it is 1; found where it is 2. Needs
     /// nothing but the base.
@@ -112,8 +112,8 @@ struct IntersectionQuery {
     Technique technique = Technique::automatic;
 };
 
-/// Which buffer of the device says which cells lie inside (section 2.2.2 lists all three). They
-/// give the same sign everywhere. Technique::cpu has no need of any and takes all.
+/// Which buffer of the raster says which cells lie inside (section 2.2.2 lists all three). They
+/// give the same sign everywhere. The other techniques have no need of any and take all.
 enum class SignEncoding {
     stencil,      ///< the stencil buffer, set to 1
     color,        ///< a colour buffer of its own, set to white
@@ -129,7 +129,7 @@ enum class GradientMethod {
     /// Half the difference of the signed distances at the two neighbours, along x and along y.
     central_differences,
     /// The same, for the whole image in blended passes on the device, at the precision of a pixel.
-    /// Technique::cpu refuses it.
+    /// Only Technique::raster answers it; the others refuse it (invalid_query).
     blended,
 };
 
@@ -198,7 +198,8 @@ struct SeparationQuery {
 
 /// Whether the closed shapes A and B share a point: the answer is ResultSummary::intersects and
 /// nothing else. Exact up to the rounding of placed vertices, so no tolerance is asked for. Always
-/// answered on the CPU (Technique::automatic or cpu): raster is refused (invalid_query).
+/// answered on the CPU (Technique::automatic or cpu): raster and compute are refused
+/// (invalid_query).
 struct IntersectionTestQuery {
     Instance a;
     Instance b;

@@ -89,9 +89,9 @@ struct IntersectionSample {
 /// in both (or, by its boundary, lies on it) has a sample within it.
 struct IntersectionResult : ResultSummary {
     IntersectionKind kind = IntersectionKind::volume_volume;
-    IntersectionStrategy strategy = IntersectionStrategy::stencil;
-    std::uint64_t count = 0;  ///< samples found
-    double area = 0.0;        ///< count times the area of a cell
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< as asked
+    std::uint64_t count = 0;                                        ///< samples found
+    double area = 0.0;  ///< count times the area of a cell
     Rectangle box;  ///< the smallest that holds every sample's point; meaningful where count > 0
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
@@ -231,7 +231,7 @@ struct PassTime {
 /// may add up to more than the total.
 struct Timings {
     double localize = 0.0;  ///< hierarchies on the CPU
-    double plan = 0.0;      ///< simplification, meshes, atlas, upload
+    double plan = 0.0;      ///< choice of techniques, simplification, meshes, atlas, upload
     double record = 0.0;    ///< commands
     /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
     /// in collect(): with other frames in between it holds what the caller did meanwhile.
