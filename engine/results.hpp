@@ -63,19 +63,19 @@ private:
     void finish_queries(const plan::Plan& plan, bool on_cpu, std::vector<AnyResult>& results);
     void write_drawn_samples(std::vector<AnyResult>& results);
 
-    std::vector<std::uint32_t> words_;  // by point of the plan
-    ExactPoints exact_points_;
     PointResolver resolver_;
-    exact::PlacedInstances instances_;  // of the batch, as far as the CPU alone answers
-    VertexPenetration vertices_;
-    ContactDecoder contacts_;
-    ClosestDecoder closest_;
-    IntersectionTest intersection_test_;
-    plan::SimplifiedShapes simplified_;  // of what the CPU answers
-    ExactOverlap overlaps_;
     ExactField exact_fields_;
+    ContactDecoder contacts_;
+    std::vector<std::uint32_t> words_;  // by point of the plan
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
+    exact::PlacedInstances instances_;  // of the batch, as far as the CPU alone answers
+    ExactPoints exact_points_;
+    plan::SimplifiedShapes simplified_;  // of what the CPU answers
+    ExactOverlap overlaps_;
+    IntersectionTest intersection_test_;
+    VertexPenetration vertices_;
+    ClosestDecoder closest_;
 };
 
 }  // namespace nearfield

@@ -122,7 +122,7 @@ struct Estimate {
         if (!query.values && !query.features && !query.gradients) {
             cells = static_cast<double>(query.points.size() * parts.cells_per_point);
         }
-        return {parts.small_tiles ? &TechniqueCost::features : &TechniqueCost::field,
+        return {parts.features ? &TechniqueCost::features : &TechniqueCost::field,
                 static_cast<double>(b.size()), cells};
     }
 };

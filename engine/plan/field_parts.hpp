@@ -20,7 +20,6 @@ struct FieldParts {
     /// Cells drawn around the grid, and around each of its tiles, because reconstruction and
     /// differences look beyond.
     std::uint32_t halo = 0;
-    bool small_tiles = false;  ///< features at cells or points; whatever else is asked for
 };
 
 [[nodiscard]] FieldParts field_parts(const DistanceFieldQuery& query);
