@@ -1,7 +1,7 @@
 #include <engine/choose/chooser.hpp>
-#include <engine/choose/work.hpp>
 #include <engine/plan/technique.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace nearfield::choose {
@@ -14,23 +14,33 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void Chooser::add_candidate(std::uint32_t index, const AnyQuery& query,
-                            const plan::FindShape& find_shape) {
-    Candidate& candidate = candidates_.emplace_back();
-    candidate.query = index;
-    const auto [a, b] = std::visit(
-        [&](const auto& asked) {
-            return std::pair(find_shape(asked.a.shape), find_shape(asked.b.shape));
-        },
-        query);
-    const bool known =
-        b != nullptr && (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
-    const Work work = known ? work_of(query, a, *b) : Work{};
-    for (std::uint32_t i = 0; i < count; ++i) {
+Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
+                                     std::span<const plan::QueryShapes> shapes) {
+    candidates_.clear();
+    Set others = 0;
+    for (std::size_t index = 0; index < queries.size(); ++index) {
+        AnyQuery& query = queries[index];
+        const Technique asked =
+            std::visit([](const auto& any) { return any.technique; }, query);
+        if (asked == Technique::automatic) {
+            const auto [a, b] = shapes[index];
+            const bool known = b != nullptr &&
+                               (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
+            candidates_.push_back({&query, known ? work_of(query, a, *b) : Work{}, {}});
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            others |= asked == by_position[i] ? 1U << i : 0U;
+        }
+    }
+    return others;
+}
+
+void Chooser::find_times(std::uint32_t technique) {
+    for (Candidate& candidate : candidates_) {
         // Of numbers that are none, which a bad query may bring, no time comes.
-        const double time = work.time(costs_[i]);
-        const bool can = plan::answers(by_position[i], query);
-        candidate.times[i] = can ? (time < never ? time : 0.0) : never;
+        const double time = candidate.work.time(costs_[technique]);
+        const bool can = plan::answers(by_position[technique], *candidate.query);
+        candidate.times[technique] = can ? (time < never ? time : 0.0) : never;
     }
 }
 
@@ -59,21 +69,20 @@ double Chooser::time_by(Set allowed, Set paid) const {
     return time;
 }
 
-void Chooser::choose(std::span<AnyQuery> queries, const plan::FindShape& find_shape) {
-    candidates_.clear();
-    Set paid = 0;
-    for (std::uint32_t index = 0; index < queries.size(); ++index) {
-        const Technique asked =
-            std::visit([](const auto& query) { return query.technique; }, queries[index]);
-        if (asked == Technique::automatic) {
-            add_candidate(index, queries[index], find_shape);
-        }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            paid |= asked == by_position[i] ? 1U << i : 0U;
-        }
-    }
+Chooser::Set Chooser::best_set(Set paid) {
+    find_times(cpu);
     Set best = 1U << cpu;
     double least = time_by(best, paid);
+    // Nothing of the device takes less than its submission: a batch of little work, where being
+    // quick counts, needs no closer look.
+    const auto at_least = [&](std::uint32_t technique) {
+        return (paid >> technique & 1U) != 0 ? 0.0 : costs_[technique].submission;
+    };
+    if (least <= std::min(at_least(raster), at_least(compute))) {
+        return best;
+    }
+    find_times(raster);
+    find_times(compute);
     for (Set allowed = 1; allowed < every_set; ++allowed) {
         const double time = time_by(allowed, paid);
         if (time < least) {
@@ -81,9 +90,14 @@ void Chooser::choose(std::span<AnyQuery> queries, const plan::FindShape& find_sh
             best = allowed;
         }
     }
+    return best;
+}
+
+void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
+    const Set best = best_set(add_candidates(queries, shapes));
     for (const Candidate& candidate : candidates_) {
         const Technique technique = by_position[fastest(candidate, best)];
-        std::visit([&](auto& query) { query.technique = technique; }, queries[candidate.query]);
+        std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);
     }
 }
 

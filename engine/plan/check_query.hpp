@@ -11,7 +11,13 @@
 namespace nearfield::plan {
 
 /// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
-[[nodiscard]] Status check_query(const AnyQuery& query);
+[[nodiscard]] Status check_query(const PenetrationQuery& query);
+[[nodiscard]] Status check_query(const IntersectionQuery& query);
+[[nodiscard]] Status check_query(const DistanceFieldQuery& query);
+[[nodiscard]] Status check_query(const ContactQuery& query);
+[[nodiscard]] Status check_query(const ClosestPointQuery& query);
+[[nodiscard]] Status check_query(const SeparationQuery& query);
+[[nodiscard]] Status check_query(const IntersectionTestQuery& query);
 
 /// A pose that can be used, or an error; `whose` it is, for the message.
 [[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);

@@ -92,8 +92,8 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
     memory_for_results_ = static_cast<double>(limits_.memory) - images();
 }
 
-void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
-                   std::vector<AnyResult>& results) {
+void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
+                   Plan& plan, std::vector<AnyResult>& results) {
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
@@ -116,11 +116,11 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                 planned.on_cpu = result.technique == Technique::cpu;
                 planned.by_compute = result.technique == Technique::compute;
                 // Success is not copied: it is what thousands of queries have in common.
-                if (Status status = check_query(queries[query_]); !status.ok()) {
+                if (Status status = check_query(query); !status.ok()) {
                     result.status = std::move(status);
                 }
-                planned.a = find_shape(query.a.shape);
-                planned.b = find_shape(query.b.shape);
+                planned.a = shapes[query_].a;
+                planned.b = shapes[query_].b;
                 planned.pose_a = query.a.pose;
                 planned.pose_b = query.b.pose;
                 const bool a_left_out =
