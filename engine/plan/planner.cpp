@@ -1,8 +1,8 @@
 #include <engine/failure.hpp>
+#include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
-#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -100,7 +100,7 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
     plan.subpixel = limits_.subpixel;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
-    plan.queries.resize(queries.size());
+    plan.queries.assign(queries.size(), PlannedQuery());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         PlannedQuery& planned = plan.queries[query_];
         query_bytes_ = 0.0;
@@ -231,8 +231,8 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     if (!result.status.ok()) {
         return;
     }
-    result.status = check_resolution(query.tolerance,
-                                     std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
+    result.status = check_resolution(query.tolerance, std::max(geometry::largest_magnitude(box_a),
+                                                               geometry::largest_magnitude(box_b)));
     if (!result.status.ok()) {
         return;
     }
