@@ -20,12 +20,11 @@ Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
     Set others = 0;
     for (std::size_t index = 0; index < queries.size(); ++index) {
         AnyQuery& query = queries[index];
-        const Technique asked =
-            std::visit([](const auto& any) { return any.technique; }, query);
+        const Technique asked = std::visit([](const auto& any) { return any.technique; }, query);
         if (asked == Technique::automatic) {
             const auto [a, b] = shapes[index];
-            const bool known = b != nullptr &&
-                               (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
+            const bool known =
+                b != nullptr && (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
             candidates_.push_back({&query, known ? work_of(query, a, *b) : Work{}, {}});
         }
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -35,13 +34,16 @@ Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
     return others;
 }
 
-void Chooser::find_times(std::uint32_t technique) {
+double Chooser::find_times(std::uint32_t technique) {
+    double sum = 0.0;
     for (Candidate& candidate : candidates_) {
         // Of numbers that are none, which a bad query may bring, no time comes.
         const double time = candidate.work.time(costs_[technique]);
         const bool can = plan::answers(by_position[technique], *candidate.query);
         candidate.times[technique] = can ? (time < never ? time : 0.0) : never;
+        sum += candidate.times[technique];
     }
+    return sum;
 }
 
 std::uint32_t Chooser::fastest(const Candidate& candidate, Set allowed) {
@@ -70,15 +72,14 @@ double Chooser::time_by(Set allowed, Set paid) const {
 }
 
 Chooser::Set Chooser::best_set(Set paid) {
-    find_times(cpu);
-    Set best = 1U << cpu;
-    double least = time_by(best, paid);
-    // Nothing of the device takes less than its submission: a batch of little work, where being
-    // quick counts, needs no closer look.
-    const auto at_least = [&](std::uint32_t technique) {
+    const auto submission = [&](std::uint32_t technique) {
         return (paid >> technique & 1U) != 0 ? 0.0 : costs_[technique].submission;
     };
-    if (least <= std::min(at_least(raster), at_least(compute))) {
+    Set best = 1U << cpu;
+    double least = submission(cpu) + find_times(cpu);
+    // Nothing of the device takes less than its submission: a batch of little work, where being
+    // quick counts, needs no closer look.
+    if (least <= std::min(submission(raster), submission(compute))) {
         return best;
     }
     find_times(raster);
@@ -94,7 +95,11 @@ Chooser::Set Chooser::best_set(Set paid) {
 }
 
 void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
-    const Set best = best_set(add_candidates(queries, shapes));
+    const Set others = add_candidates(queries, shapes);
+    if (candidates_.empty()) {
+        return;
+    }
+    const Set best = best_set(others);
     for (const Candidate& candidate : candidates_) {
         const Technique technique = by_position[fastest(candidate, best)];
         std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);

@@ -42,7 +42,9 @@ private:
                                      std::span<const plan::QueryShapes> shapes);
     /// The techniques that may be used for the batch to take the least time.
     [[nodiscard]] Set best_set(Set paid);
-    void find_times(std::uint32_t technique);
+    /// Fills in the times by one technique. Returns what all candidates take together, the
+    /// submission left out.
+    double find_times(std::uint32_t technique);
     [[nodiscard]] static std::uint32_t fastest(const Candidate& candidate, Set allowed);
     /// Microseconds that all candidates take where only these techniques may be used, and `paid`
     /// ones are used anyway.

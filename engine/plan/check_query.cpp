@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -17,13 +16,14 @@ Status invalid(const std::string& message) {
 // What is wrong is put into words only where something is: a frame without errors allocates
 // nothing.
 
-Status check_length(double length, const char* what) {
-    if (!(length > 0.0 && length <= largest_coordinate)) {
-        return invalid(std::string(what) + " is " + number(length) +
-                       "; it must be a finite number above 0 and at most " +
-                       number(largest_coordinate));
-    }
-    return {};
+bool is_length(double length) {
+    return length > 0.0 && length <= largest_coordinate;
+}
+
+Status no_length(double length, const char* what) {
+    return invalid(std::string(what) + " is " + number(length) +
+                   "; it must be a finite number above 0 and at most " +
+                   number(largest_coordinate));
 }
 
 bool is_usable(double coordinate) {
@@ -104,10 +104,10 @@ Status check_technique(const Query& query) {
                            std::to_string(static_cast<int>(query.technique)));
     }
     const char* const what = unanswered(query.technique, query);
-    return what == nullptr ? Status()
-                           : invalid(std::string("the technique ") + to_string(query.technique) +
-                                     " does not answer " + what +
-                                     "; ask for another, or for automatic");
+    return what == nullptr
+               ? Status()
+               : invalid(std::string("the technique ") + to_string(query.technique) +
+                         " does not answer " + what + "; ask for another, or for automatic");
 }
 
 template <class Query>
@@ -116,8 +116,8 @@ Status check_pair(const Query& query) {
         return status;
     }
     if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
-        if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
-            return status;
+        if (!is_length(query.tolerance)) {
+            return no_length(query.tolerance, "the tolerance");
         }
     }
     if (!is_usable(query.a.pose)) {
@@ -155,7 +155,9 @@ Status check_query(const ContactQuery& query) {
         return invalid("the normals are no enumerator: " +
                        std::to_string(static_cast<int>(query.normals)));
     }
-    return check_length(query.contact_distance, "the contact distance");
+    return is_length(query.contact_distance)
+               ? Status()
+               : no_length(query.contact_distance, "the contact distance");
 }
 
 Status check_query(const ClosestPointQuery& query) {
@@ -170,22 +172,14 @@ Status check_query(const IntersectionTestQuery& query) {
     return check_pair(query);
 }
 
-Status check_resolution(double tolerance, double largest_magnitude) {
-    // Placing a vertex rounds a few times; this leaves that far below a thousandth of d.
-    const double resolution = 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
-    if (tolerance < resolution) {
-        return invalid("the tolerance " + number(tolerance) +
-                       " is below what double precision resolves at coordinates of " +
-                       number(largest_magnitude) + "; the smallest is " + number(resolution));
-    }
-    return {};
+Status unresolved(double tolerance, double largest_magnitude, double smallest) {
+    return invalid("the tolerance " + number(tolerance) +
+                   " is below what double precision resolves at coordinates of " +
+                   number(largest_magnitude) + "; the smallest is " + number(smallest));
 }
 
-Status check_deviations(double tolerance, const Deviations& deviations, double bound) {
+Status too_deviant(double tolerance, const Deviations& deviations, double bound) {
     const double together = deviations.a + deviations.b;
-    if (together <= most_deviation * tolerance && bound <= tolerance) {
-        return {};
-    }
     const std::string shapes = "the shapes' rings may be off by " + number(deviations.a) +
                                " (A) and " + number(deviations.b) + " (B), ";
     if (together > most_deviation * tolerance) {
