@@ -1,4 +1,5 @@
 #include <engine/choose/chooser.hpp>
+#include <engine/choose/work.hpp>
 #include <engine/plan/technique.hpp>
 
 #include <algorithm>
@@ -14,36 +15,36 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
+    const auto [a, b] = shapes;
+    const bool known =
+        b != nullptr && (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
+    const Work work = known ? work_of(query, a, *b) : Work{};
+    Candidate& candidate = candidates_.emplace_back();
+    candidate.query = &query;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        // Of numbers that are none, which a bad query may bring, no time comes.
+        const double time = work.time(costs_[i]);
+        const bool can = plan::answers(by_position[i], query);
+        candidate.times[i] = can ? (time < never ? time : 0.0) : never;
+    }
+}
+
 Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
     Set others = 0;
     for (std::size_t index = 0; index < queries.size(); ++index) {
-        AnyQuery& query = queries[index];
-        const Technique asked = std::visit([](const auto& any) { return any.technique; }, query);
+        const Technique asked =
+            std::visit([](const auto& query) { return query.technique; }, queries[index]);
         if (asked == Technique::automatic) {
-            const auto [a, b] = shapes[index];
-            const bool known =
-                b != nullptr && (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
-            candidates_.push_back({&query, known ? work_of(query, a, *b) : Work{}, {}});
+            add_candidate(queries[index], shapes[index]);
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             others |= asked == by_position[i] ? 1U << i : 0U;
         }
     }
     return others;
-}
-
-double Chooser::find_times(std::uint32_t technique) {
-    double sum = 0.0;
-    for (Candidate& candidate : candidates_) {
-        // Of numbers that are none, which a bad query may bring, no time comes.
-        const double time = candidate.work.time(costs_[technique]);
-        const bool can = plan::answers(by_position[technique], *candidate.query);
-        candidate.times[technique] = can ? (time < never ? time : 0.0) : never;
-        sum += candidate.times[technique];
-    }
-    return sum;
 }
 
 std::uint32_t Chooser::fastest(const Candidate& candidate, Set allowed) {
@@ -66,24 +67,25 @@ double Chooser::time_by(Set allowed, Set paid) const {
         used |= 1U << best;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
-        time += (used & ~paid) >> i & 1U ? costs_[i].submission : 0.0;
+        time += (used >> i & 1U) != 0 ? submission(i, paid) : 0.0;
     }
     return time;
 }
 
-Chooser::Set Chooser::best_set(Set paid) {
-    const auto submission = [&](std::uint32_t technique) {
-        return (paid >> technique & 1U) != 0 ? 0.0 : costs_[technique].submission;
-    };
+Chooser::Set Chooser::best_set(Set paid) const {
+    double by_cpu = submission(cpu, paid);
+    double at_best = std::min(submission(raster, paid), submission(compute, paid));
+    for (const Candidate& candidate : candidates_) {
+        by_cpu += candidate.times[cpu];
+        at_best += *std::min_element(candidate.times.begin(), candidate.times.end());
+    }
     Set best = 1U << cpu;
-    double least = submission(cpu) + find_times(cpu);
-    // Nothing of the device takes less than its submission: a batch of little work, where being
-    // quick counts, needs no closer look.
-    if (least <= std::min(submission(raster), submission(compute))) {
+    // With a device in it nothing takes less than each query at its best and a submission. Mostly
+    // that settles it where there is little work, and picking is a part of it that counts.
+    if (by_cpu <= at_best) {
         return best;
     }
-    find_times(raster);
-    find_times(compute);
+    double least = by_cpu;
     for (Set allowed = 1; allowed < every_set; ++allowed) {
         const double time = time_by(allowed, paid);
         if (time < least) {

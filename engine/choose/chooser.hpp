@@ -1,6 +1,5 @@
 #pragma once
 
-#include <engine/choose/work.hpp>
 #include <engine/plan/query_shapes.hpp>
 #include <nearfield/cost.hpp>
 #include <nearfield/query.hpp>
@@ -33,18 +32,19 @@ private:
     /// for the others.
     struct Candidate {
         AnyQuery* query = nullptr;
-        Work work;
         std::array<double, count> times{};
     };
 
     /// Notes the queries that leave the technique open. Returns the techniques that others ask for.
     [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes);
+    void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
     /// The techniques that may be used for the batch to take the least time.
-    [[nodiscard]] Set best_set(Set paid);
-    /// Fills in the times by one technique. Returns what all candidates take together, the
-    /// submission left out.
-    double find_times(std::uint32_t technique);
+    [[nodiscard]] Set best_set(Set paid) const;
+    /// Microseconds of a technique's submission, where it is not paid.
+    [[nodiscard]] double submission(std::uint32_t technique, Set paid) const {
+        return (paid >> technique & 1U) != 0 ? 0.0 : costs_[technique].submission;
+    }
     [[nodiscard]] static std::uint32_t fastest(const Candidate& candidate, Set allowed);
     /// Microseconds that all candidates take where only these techniques may be used, and `paid`
     /// ones are used anyway.
