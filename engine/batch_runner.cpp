@@ -71,9 +71,10 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
     const Stopwatch start;
     begin_timings();
     copy(queries);
-    planning_->chooser.choose(queries_, find_shape);
+    plan::find_shapes(queries_, find_shape, shapes_);
+    planning_->chooser.choose(queries_, shapes_);
     plan::Planner& planner = planning_->planner;
-    planner.plan(queries_, find_shape, plan_, results_.results);
+    planner.plan(queries_, shapes_, plan_, results_.results);
     timings.localize += planner.localize_milliseconds();
     timings.plan += start.milliseconds() - planner.localize_milliseconds();
     decoder_.begin_batch(plan_);

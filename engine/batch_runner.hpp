@@ -67,6 +67,7 @@ private:
     std::unique_ptr<RenderSlot> slot_;
     std::vector<AnyQuery> queries_;
     std::vector<Vector2> points_;  // of the queries
+    std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::Round> rounds_;  // the first Plan::rounds of them
     ResultDecoder decoder_;

@@ -2,7 +2,6 @@
 
 #include <engine/exact/placed_edges.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/magnitude.hpp>
 #include <engine/plan/plan.hpp>
 
 #include <algorithm>
@@ -35,9 +34,7 @@ struct InstancePairIndex {
         !status.ok()) {
         return status;
     }
-    return plan::check_resolution(tolerance,
-                                  std::max(plan::largest_magnitude(a.placed, query.pose_a, a.box),
-                                           plan::largest_magnitude(b.placed, query.pose_b, b.box)));
+    return plan::check_resolution(tolerance, std::max(a.magnitude, b.magnitude));
 }
 
 }  // namespace nearfield

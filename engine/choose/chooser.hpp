@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/planner.hpp>
+#include <engine/plan/query_shapes.hpp>
 #include <nearfield/cost.hpp>
 #include <nearfield/query.hpp>
 
@@ -18,9 +18,9 @@ class Chooser {
 public:
     explicit Chooser(const CostModel& costs) : costs_({costs.raster, costs.compute, costs.cpu}) {}
 
-    /// Replaces Technique::automatic by what was picked. A query that will be refused gets a
-    /// technique too.
-    void choose(std::span<AnyQuery> queries, const plan::FindShape& find_shape);
+    /// Replaces Technique::automatic by what was picked; `shapes`: of each query. A query that will
+    /// be refused gets a technique too.
+    void choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
 
 private:
     /// Techniques as positions of costs_, and sets of them as bits.
@@ -31,12 +31,20 @@ private:
     /// A query that leaves the technique open: what it takes by each that has an answer, infinite
     /// for the others.
     struct Candidate {
-        std::uint32_t query = 0;
+        AnyQuery* query = nullptr;
         std::array<double, count> times{};
     };
 
-    void add_candidate(std::uint32_t index, const AnyQuery& query,
-                       const plan::FindShape& find_shape);
+    /// Notes the queries that leave the technique open. Returns the techniques that others ask for.
+    [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
+                                     std::span<const plan::QueryShapes> shapes);
+    void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
+    /// The techniques that may be used for the batch to take the least time.
+    [[nodiscard]] Set best_set(Set paid) const;
+    /// Microseconds of a technique's submission, where it is not paid.
+    [[nodiscard]] double submission(std::uint32_t technique, Set paid) const {
+        return (paid >> technique & 1U) != 0 ? 0.0 : costs_[technique].submission;
+    }
     [[nodiscard]] static std::uint32_t fastest(const Candidate& candidate, Set allowed);
     /// Microseconds that all candidates take where only these techniques may be used, and `paid`
     /// ones are used anyway.

@@ -151,25 +151,33 @@ std::uint32_t FindPointsIn(const PointArrays& points, const Extent& box, std::ui
     return count;
 }
 
+/// By the sign bit, whatever the rest.
+HWY_INLINE LaneMask are_negative(Lanes lanes) {
+    const Tag tag;
+    const hn::RebindToSigned<Tag> whole;
+    return hn::RebindMask(tag, hn::Lt(hn::BitCast(whole, lanes), hn::Zero(whole)));
+}
+
 bool Contain(const EdgeArrays& edges, double point_x, double point_y) {
     const Tag tag;
     const Lanes x = hn::Set(tag, point_x);
     const Lanes y = hn::Set(tag, point_y);
-    LaneMask odd = hn::FirstN(tag, 0);
+    // Only signs count; a difference is negative just where the comparison holds.
+    Lanes odd = hn::Zero(tag);
     for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
         const Lanes start_x = hn::LoadU(tag, edges.start_x + i);
         const Lanes start_y = hn::LoadU(tag, edges.start_y + i);
         const Lanes end_x = hn::LoadU(tag, edges.end_x + i);
         const Lanes end_y = hn::LoadU(tag, edges.end_y + i);
-        const LaneMask left = hn::Gt(hn::Mul(hn::Sub(end_x, start_x), hn::Sub(y, start_y)),
-                                     hn::Mul(hn::Sub(end_y, start_y), hn::Sub(x, start_x)));
-        const LaneMask start_above = hn::Gt(start_y, y);
-        const LaneMask end_above = hn::Gt(end_y, y);
+        const Lanes start_above = hn::Sub(y, start_y);
+        const Lanes end_above = hn::Sub(y, end_y);
+        const Lanes left = hn::Sub(hn::Mul(hn::Sub(end_y, start_y), hn::Sub(x, start_x)),
+                                   hn::Mul(hn::Sub(end_x, start_x), start_above));
         // Left of an edge that goes up, right of one that goes down: the ray to the right hits it.
-        const LaneMask hit = hn::AndNot(hn::Xor(left, end_above), hn::Xor(start_above, end_above));
+        const Lanes hit = hn::AndNot(hn::Xor(left, end_above), hn::Xor(start_above, end_above));
         odd = hn::Xor(odd, hit);
     }
-    return (std::popcount(bits_of(odd)) & 1) != 0;
+    return (std::popcount(bits_of(are_negative(odd))) & 1) != 0;
 }
 
 std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,

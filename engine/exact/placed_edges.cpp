@@ -1,9 +1,11 @@
 #include <engine/exact/placed_edges.hpp>
+#include <engine/geometry/magnitude.hpp>
 #include <engine/localize/hierarchy.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 namespace nearfield::exact {
 namespace {
@@ -46,7 +48,7 @@ void copy_ends(const Polygon& polygon, const double* start, double* end) {
 
 void PlacedInstances::clear() {
     entries_.clear();
-    coordinates_.clear();
+    used_ = 0;
     std::fill(slots_.begin(), slots_.end(), empty_slot);
 }
 
@@ -104,22 +106,22 @@ EdgeArrays PlacedInstances::arrays_at(std::size_t first, std::uint32_t count) co
     return {count, array(0), array(1), array(2), array(3), array(4)};
 }
 
-void PlacedInstances::grow(std::size_t by) {
-    const bool moves = coordinates_.size() + by > coordinates_.capacity();
-    coordinates_.resize(coordinates_.size() + by);
-    if (moves) {
+std::size_t PlacedInstances::grow(std::size_t by) {
+    const std::size_t first = std::exchange(used_, used_ + by);
+    if (used_ > coordinates_.size()) {
+        coordinates_.resize(std::max(used_, 2 * coordinates_.size()));
         for (Entry& entry : entries_) {
             static_cast<EdgeArrays&>(entry.edges) = arrays_at(entry.first, entry.edges.count);
         }
     }
+    return first;
 }
 
 void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
     const PlacedPolygon placed(polygon, pose);
     const std::uint32_t count = polygon.size();
     const std::size_t length = padded(count);
-    const std::size_t first = coordinates_.size();
-    grow(arrays * length / most_lanes);
+    const std::size_t first = grow(arrays * length / most_lanes);
     double* const start_x = coordinates_[first].values;
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;
@@ -137,8 +139,10 @@ void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
     const EdgeArrays edges = arrays_at(first, count);
     kernels::find_inverse_lengths(edges, inverse_length);
     const Box box(Vector(extent.low_x, extent.low_y), Vector(extent.high_x, extent.high_y));
-    entries_.push_back(
-        {pose, first, {edges, placed, box, localize::placement_rounding(placed, box)}});
+    entries_.push_back({pose,
+                        first,
+                        {edges, placed, box, localize::placement_rounding(placed, box),
+                         geometry::largest_magnitude(placed, pose, box)}});
 }
 
 }  // namespace nearfield::exact

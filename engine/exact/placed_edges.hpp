@@ -16,7 +16,8 @@ namespace nearfield::exact {
 struct PlacedEdges : EdgeArrays {
     geometry::PlacedPolygon placed;
     geometry::Box box;
-    double rounding = 0.0;  ///< of the vertices: localize::placement_rounding
+    double rounding = 0.0;   ///< of the vertices: localize::placement_rounding
+    double magnitude = 0.0;  ///< geometry::largest_magnitude
 
     [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
         return {start_x[edge], start_y[edge]};
@@ -66,11 +67,12 @@ private:
     void add(const geometry::Polygon& polygon, const Pose& pose);
     void rehash();
     [[nodiscard]] EdgeArrays arrays_at(std::size_t first, std::uint32_t count) const;
-    /// Makes room for so many coordinates more.
-    void grow(std::size_t by);
+    /// Makes room for so many coordinates more; returns where.
+    [[nodiscard]] std::size_t grow(std::size_t by);
 
     std::vector<Entry> entries_;
-    std::vector<Coordinates> coordinates_;
+    std::vector<Coordinates> coordinates_;  // the first used_ of them; the others wait for more
+    std::size_t used_ = 0;
     std::array<std::uint32_t, 2> recent_{};  // asked for last: pairs come in both orders
     std::vector<std::uint32_t> slots_;       // a hash table of entries, a power of two
 };

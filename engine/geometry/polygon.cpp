@@ -52,23 +52,20 @@ struct Range {
     Vector sum;  ///< no number where a coordinate is none
 
     explicit Range(std::span<const Vector2> vertices) {
-        double low_x = vertices.front().x;
-        double low_y = vertices.front().y;
-        double high_x = low_x;
-        double high_y = low_y;
-        double sum_x = 0.0;
-        double sum_y = 0.0;
-        for (const auto& [x, y] : vertices) {
-            low_x = x < low_x ? x : low_x;
-            low_y = y < low_y ? y : low_y;
-            high_x = x > high_x ? x : high_x;
-            high_y = y > high_y ? y : high_y;
-            sum_x += x;
-            sum_y += y;
+        // Two by turns: extending a box waits for the extension before.
+        Part even(vertices.front());
+        Part odd(vertices.back());
+        std::size_t i = 0;
+        for (; i + 1 < vertices.size(); i += 2) {
+            even.extend(vertices[i]);
+            odd.extend(vertices[i + 1]);
         }
-        low = {low_x, low_y};
-        high = {high_x, high_y};
-        sum = {sum_x, sum_y};
+        if (i < vertices.size()) {
+            even.extend(vertices[i]);
+        }
+        low = even.low.cwiseMin(odd.low);
+        high = even.high.cwiseMax(odd.high);
+        sum = even.sum + odd.sum;
     }
 
     [[nodiscard]] bool usable() const {
@@ -82,6 +79,21 @@ struct Range {
     [[nodiscard]] double reach_from(const Vector& vertex) const {
         return (high - vertex).cwiseMax(vertex - low).maxCoeff();
     }
+
+private:
+    struct Part {
+        Vector low;
+        Vector high;
+        Vector sum = Vector::Zero();
+
+        explicit Part(const Vector2& vertex) : low(to_vector(vertex)), high(low) {}
+        void extend(const Vector2& vertex) {
+            const Vector v = to_vector(vertex);
+            low = low.cwiseMin(v).eval();
+            high = high.cwiseMax(v).eval();
+            sum += v;
+        }
+    };
 };
 
 /// Says which vertex of a ring cannot be used; there is one.
@@ -191,12 +203,13 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     deviation_ = deviation;
     vertices_.resize(total);
     ring_ends_.clear();
-    std::uint32_t end = 0;
+    auto vertex = vertices_.begin();
     for (const Ring& ring : rings) {
-        for (const Vector2& v : open_ring(ring)) {
-            vertices_[end++] = to_vector(v) - centre_;
-        }
-        ring_ends_.push_back(end);
+        const std::span<const Vector2> open = open_ring(ring);
+        vertex = std::transform(
+            open.begin(), open.end(), vertex,
+            [centre = centre_](const Vector2& v) -> Vector { return to_vector(v) - centre; });
+        ring_ends_.push_back(static_cast<std::uint32_t>(vertex - vertices_.begin()));
     }
     return {};
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -17,17 +16,18 @@ Status invalid(const std::string& message) {
 // What is wrong is put into words only where something is: a frame without errors allocates
 // nothing.
 
-Status check_length(double length, const char* what) {
-    if (!(length > 0.0 && length <= largest_coordinate)) {
-        return invalid(std::string(what) + " is " + number(length) +
-                       "; it must be a finite number above 0 and at most " +
-                       number(largest_coordinate));
-    }
-    return {};
+bool is_length(double length) {
+    return length > 0.0 && length <= largest_coordinate;
+}
+
+Status no_length(double length, const char* what) {
+    return invalid(std::string(what) + " is " + number(length) +
+                   "; it must be a finite number above 0 and at most " +
+                   number(largest_coordinate));
 }
 
 bool is_usable(double coordinate) {
-    return std::isfinite(coordinate) && std::abs(coordinate) <= largest_coordinate;
+    return std::abs(coordinate) <= largest_coordinate;  // false for NaN too
 }
 
 Status unusable(double coordinate, const std::string& what) {
@@ -50,18 +50,24 @@ Status check_rectangle(const Rectangle& rectangle) {
     return {};
 }
 
-}  // namespace
+bool is_usable(const Pose& pose) {
+    return std::isfinite(pose.angle) && is_usable(pose.translation.x) &&
+           is_usable(pose.translation.y);
+}
 
-Status check_pose(const Pose& pose, std::string_view whose) {
+Status unusable(const Pose& pose, std::string_view whose) {
     if (!std::isfinite(pose.angle)) {
         return invalid("the angle of " + std::string(whose) + "'s pose is " + number(pose.angle));
     }
     const auto& [x, y] = pose.translation;
-    if (!is_usable(x) || !is_usable(y)) {
-        return unusable(is_usable(x) ? y : x, std::string("the ") + (is_usable(x) ? "y" : "x") +
-                                                  " of " + std::string(whose) + "'s pose");
-    }
-    return {};
+    return unusable(is_usable(x) ? y : x, std::string("the ") + (is_usable(x) ? "y" : "x") +
+                                              " of " + std::string(whose) + "'s pose");
+}
+
+}  // namespace
+
+Status check_pose(const Pose& pose, std::string_view whose) {
+    return is_usable(pose) ? Status() : unusable(pose, whose);
 }
 
 namespace {
@@ -110,57 +116,70 @@ Status check_pair(const Query& query) {
         return status;
     }
     if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
-        if (Status status = check_length(query.tolerance, "the tolerance"); !status.ok()) {
-            return status;
+        if (!is_length(query.tolerance)) {
+            return no_length(query.tolerance, "the tolerance");
         }
     }
-    if (Status status = check_pose(query.a.pose, "A"); !status.ok()) {
-        return status;
+    if (!is_usable(query.a.pose)) {
+        return unusable(query.a.pose, "A");
     }
     return check_pose(query.b.pose, "B");
 }
 
 }  // namespace
 
-Status check_query(const AnyQuery& query) {
-    Status status = std::visit([](const auto& any) { return check_pair(any); }, query);
-    if (const auto* field = std::get_if<DistanceFieldQuery>(&query); field && status.ok()) {
-        return check_field(*field);
-    }
-    if (const auto* contact = std::get_if<ContactQuery>(&query); contact && status.ok()) {
-        if (contact->normals != ContactNormals::analytic &&
-            contact->normals != ContactNormals::gradient) {
-            return invalid("the normals are no enumerator: " +
-                           std::to_string(static_cast<int>(contact->normals)));
-        }
-        return check_length(contact->contact_distance, "the contact distance");
-    }
-    if (const auto* intersection = std::get_if<IntersectionQuery>(&query);
-        intersection && status.ok()) {
-        const auto strategy = static_cast<std::size_t>(intersection->strategy);
-        if (strategy >= intersection_strategies) {
-            return invalid("the strategy is no enumerator: " + std::to_string(strategy));
-        }
+Status check_query(const PenetrationQuery& query) {
+    return check_pair(query);
+}
+
+Status check_query(const IntersectionQuery& query) {
+    Status status = check_pair(query);
+    const auto strategy = static_cast<std::size_t>(query.strategy);
+    if (status.ok() && strategy >= intersection_strategies) {
+        return invalid("the strategy is no enumerator: " + std::to_string(strategy));
     }
     return status;
 }
 
-Status check_resolution(double tolerance, double largest_magnitude) {
-    // Placing a vertex rounds a few times; this leaves that far below a thousandth of d.
-    const double resolution = 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
-    if (tolerance < resolution) {
-        return invalid("the tolerance " + number(tolerance) +
-                       " is below what double precision resolves at coordinates of " +
-                       number(largest_magnitude) + "; the smallest is " + number(resolution));
-    }
-    return {};
+Status check_query(const DistanceFieldQuery& query) {
+    Status status = check_pair(query);
+    return status.ok() ? check_field(query) : status;
 }
 
-Status check_deviations(double tolerance, const Deviations& deviations, double bound) {
-    const double together = deviations.a + deviations.b;
-    if (together <= most_deviation * tolerance && bound <= tolerance) {
-        return {};
+Status check_query(const ContactQuery& query) {
+    Status status = check_pair(query);
+    if (!status.ok()) {
+        return status;
     }
+    if (query.normals != ContactNormals::analytic && query.normals != ContactNormals::gradient) {
+        return invalid("the normals are no enumerator: " +
+                       std::to_string(static_cast<int>(query.normals)));
+    }
+    return is_length(query.contact_distance)
+               ? Status()
+               : no_length(query.contact_distance, "the contact distance");
+}
+
+Status check_query(const ClosestPointQuery& query) {
+    return check_pair(query);
+}
+
+Status check_query(const SeparationQuery& query) {
+    return check_pair(query);
+}
+
+Status check_query(const IntersectionTestQuery& query) {
+    return check_pair(query);
+}
+
+Status unresolved(double tolerance, double largest_magnitude, double smallest) {
+    return invalid("the tolerance " + number(tolerance) +
+                   " is below what double precision resolves at coordinates of " +
+                   number(largest_magnitude) + "; the smallest is " + number(smallest));
+}
+
+Status too_deviant(double tolerance, const Deviations& deviations, double bound) {
+    const double together = deviations.a + deviations.b;
     const std::string shapes = "the shapes' rings may be off by " + number(deviations.a) +
                                " (A) and " + number(deviations.b) + " (B), ";
     if (together > most_deviation * tolerance) {

@@ -6,22 +6,43 @@
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
 
+#include <limits>
 #include <string_view>
 
 namespace nearfield::plan {
 
 /// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
-[[nodiscard]] Status check_query(const AnyQuery& query);
+[[nodiscard]] Status check_query(const PenetrationQuery& query);
+[[nodiscard]] Status check_query(const IntersectionQuery& query);
+[[nodiscard]] Status check_query(const DistanceFieldQuery& query);
+[[nodiscard]] Status check_query(const ContactQuery& query);
+[[nodiscard]] Status check_query(const ClosestPointQuery& query);
+[[nodiscard]] Status check_query(const SeparationQuery& query);
+[[nodiscard]] Status check_query(const IntersectionTestQuery& query);
 
 /// A pose that can be used, or an error; `whose` it is, for the message.
 [[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);
 
+/// What is wrong with a tolerance that check_resolution() or check_deviations() refuses.
+[[nodiscard]] Status unresolved(double tolerance, double largest_magnitude, double smallest);
+[[nodiscard]] Status too_deviant(double tolerance, const Deviations& deviations, double bound);
+
 /// A tolerance that double precision can resolve at these coordinates, or an error.
-[[nodiscard]] Status check_resolution(double tolerance, double largest_magnitude);
+[[nodiscard]] inline Status check_resolution(double tolerance, double largest_magnitude) {
+    // Placing a vertex rounds a few times; this leaves that far below a thousandth of d.
+    const double smallest = 4096.0 * std::numeric_limits<double>::epsilon() * largest_magnitude;
+    return tolerance < smallest ? unresolved(tolerance, largest_magnitude, smallest) : Status();
+}
 
 /// Shapes whose deviations leave enough of the tolerance to the query, or an error. `bound`: what
 /// the query's budget comes to.
-[[nodiscard]] Status check_deviations(double tolerance, const Deviations& deviations, double bound);
+[[nodiscard]] inline Status check_deviations(double tolerance, const Deviations& deviations,
+                                             double bound) {
+    const double together = deviations.a + deviations.b;
+    return together <= most_deviation * tolerance && bound <= tolerance
+               ? Status()
+               : too_deviant(tolerance, deviations, bound);
+}
 
 using geometry::number;
 

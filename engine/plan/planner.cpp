@@ -1,8 +1,8 @@
 #include <engine/failure.hpp>
+#include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
-#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -92,15 +92,15 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
     memory_for_results_ = static_cast<double>(limits_.memory) - images();
 }
 
-void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
-                   std::vector<AnyResult>& results) {
+void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
+                   Plan& plan, std::vector<AnyResult>& results) {
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
     plan.subpixel = limits_.subpixel;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
-    plan.queries.resize(queries.size());
+    plan.queries.assign(queries.size(), PlannedQuery());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         PlannedQuery& planned = plan.queries[query_];
         query_bytes_ = 0.0;
@@ -116,11 +116,11 @@ void Planner::plan(std::span<const AnyQuery> queries, const FindShape& find_shap
                 planned.on_cpu = result.technique == Technique::cpu;
                 planned.by_compute = result.technique == Technique::compute;
                 // Success is not copied: it is what thousands of queries have in common.
-                if (Status status = check_query(queries[query_]); !status.ok()) {
+                if (Status status = check_query(query); !status.ok()) {
                     result.status = std::move(status);
                 }
-                planned.a = find_shape(query.a.shape);
-                planned.b = find_shape(query.b.shape);
+                planned.a = shapes[query_].a;
+                planned.b = shapes[query_].b;
                 planned.pose_a = query.a.pose;
                 planned.pose_b = query.b.pose;
                 const bool a_left_out =
@@ -231,8 +231,8 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     if (!result.status.ok()) {
         return;
     }
-    result.status = check_resolution(query.tolerance,
-                                     std::max(largest_magnitude(box_a), largest_magnitude(box_b)));
+    result.status = check_resolution(query.tolerance, std::max(geometry::largest_magnitude(box_a),
+                                                               geometry::largest_magnitude(box_b)));
     if (!result.status.ok()) {
         return;
     }

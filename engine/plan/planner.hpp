@@ -4,11 +4,12 @@
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/point_tiles.hpp>
+#include <engine/plan/query_shapes.hpp>
 #include <nearfield/result.hpp>
 
 #include <array>
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,6 @@ struct PlanLimits {
     std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
 };
 
-/// Finds a shape's polygon, or null.
-using FindShape = std::function<const geometry::Polygon*(ShapeHandle)>;
-
 /// From queries to tiles: checks each query, localises it, cuts its regions into tiles, spreads
 /// points over them and packs all tiles of the batch. Keeps its scratch memory from batch to batch.
 class Planner {
@@ -43,9 +41,10 @@ public:
 
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
     /// regions. What is wrong with one query stands in its result and leaves it without tiles. No
-    /// query has Technique::automatic any more: that was replaced by what was chosen.
+    /// query has Technique::automatic any more: that was replaced by what was chosen. `shapes`: of
+    /// each query.
     /// Throws Failure (too_large) where the batch needs more memory than the limit.
-    void plan(std::span<const AnyQuery> queries, const FindShape& find_shape, Plan& plan,
+    void plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes, Plan& plan,
               std::vector<AnyResult>& results);
 
     /// Milliseconds of the last plan() spent in hierarchies.

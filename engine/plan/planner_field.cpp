@@ -1,6 +1,6 @@
+#include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/gpu_layout.hpp>
-#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 
 #include <algorithm>
@@ -74,9 +74,9 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
         return;
     }
     result.status = check_resolution(
-        query.tolerance,
-        std::max(largest_magnitude(box),
-                 largest_magnitude(PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
+        query.tolerance, std::max(geometry::largest_magnitude(box),
+                                  geometry::largest_magnitude(
+                                      PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
     if (!result.status.ok()) {
         return;
     }

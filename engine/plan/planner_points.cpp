@@ -1,5 +1,5 @@
+#include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/magnitude.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -38,9 +38,9 @@ bool Planner::check_numbers(ResultSummary& result) const {
     const PlacedPolygon b(*planned.b, planned.pose_b);
     result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
     if (result.status.ok()) {
-        result.status = check_resolution(
-            result.tolerance,
-            std::max(largest_magnitude(a, planned.pose_a), largest_magnitude(b, planned.pose_b)));
+        result.status = check_resolution(result.tolerance,
+                                         std::max(geometry::largest_magnitude(a, planned.pose_a),
+                                                  geometry::largest_magnitude(b, planned.pose_b)));
     }
     return result.status.ok();
 }

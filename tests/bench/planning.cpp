@@ -116,18 +116,20 @@ void measure(const Scene& scene, int frames) {
     plan::RoundBuilder builder(limits.subpixel);
     plan::Plan plan;
     plan::Round round;
+    std::vector<plan::QueryShapes> shapes;
     std::vector<AnyResult> results;
     double planned = HUGE_VAL;
     double built = HUGE_VAL;
     std::size_t vertices = 0;
     for (int frame = 0; frame < frames; ++frame) {
         const double start = processor_milliseconds();
-        planner.plan(
+        plan::find_shapes(
             scene.queries,
             [&](ShapeHandle shape) {
                 return shape.index < scene.shapes.size() ? &scene.shapes[shape.index] : nullptr;
             },
-            plan, results);
+            shapes);
+        planner.plan(scene.queries, shapes, plan, results);
         const double middle = processor_milliseconds();
         builder.begin_batch();
         vertices = 0;

@@ -88,8 +88,8 @@ std::vector<ReferenceSample> scan_intersection(const HostDevice& host, const Pla
     plan::Planner planner(limits);
     plan::Plan plan;
     std::vector<AnyResult> results;
-    planner.plan(
-        queries, [&](ShapeHandle handle) { return handle.index == 0 ? &a : &b; }, plan, results);
+    const std::vector<plan::QueryShapes> shapes{{&a, &b}};
+    planner.plan(queries, shapes, plan, results);
     plan::RoundBuilder builder(limits.subpixel);
     plan::Round round;
     std::vector<Placed> found;

@@ -51,7 +51,9 @@ protected:
     }
 
     std::vector<AnyQuery> choose(const CostModel& costs, std::vector<AnyQuery> queries) const {
-        Chooser(costs).choose(queries, find());
+        std::vector<plan::QueryShapes> shapes;
+        plan::find_shapes(queries, find(), shapes);
+        Chooser(costs).choose(queries, shapes);
         return queries;
     }
 

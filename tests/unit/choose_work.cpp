@@ -26,10 +26,8 @@ Planned planned(AnyQuery query, const Polygon& a, const Polygon& b) {
     plan::Planner planner(limits);
     plan::Plan plan;
     std::vector<AnyResult> results;
-    planner.plan(
-        std::span(&query, 1),
-        [&](ShapeHandle handle) -> const Polygon* { return handle.index == 0 ? &a : &b; }, plan,
-        results);
+    const plan::QueryShapes shapes{&a, &b};
+    planner.plan(std::span(&query, 1), std::span(&shapes, 1), plan, results);
     Planned planned{static_cast<double>(plan.points.size()), 0.0};
     for (const plan::Tile& tile : plan.tiles) {
         planned.cells += static_cast<double>(tile.width) * tile.height;

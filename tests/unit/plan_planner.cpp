@@ -30,13 +30,14 @@ protected:
 
     void run(std::vector<AnyQuery> queries) {
         queries_ = std::move(queries);
-        Planner planner(limits_);
-        planner.plan(
+        std::vector<QueryShapes> shapes;
+        find_shapes(
             queries_,
             [this](ShapeHandle handle) -> const Polygon* {
                 return handle.index == 0 ? &a_ : handle.index == 1 ? &b_ : nullptr;
             },
-            plan_, results_);
+            shapes);
+        Planner(limits_).plan(queries_, shapes, plan_, results_);
     }
 
     Polygon a_;

@@ -27,8 +27,8 @@ Round round_of(const std::vector<std::pair<IntersectionStrategy, double>>& asked
     Planner planner(limits);
     Plan plan;
     std::vector<AnyResult> results;
-    planner.plan(
-        queries, [&](ShapeHandle) { return &square; }, plan, results);
+    const std::vector<QueryShapes> shapes(queries.size(), {&square, &square});
+    planner.plan(queries, shapes, plan, results);
     RoundBuilder builder(limits.subpixel);
     Round round;
     builder.build(plan, 0, round);
