@@ -59,10 +59,10 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Fra
                             std::max(part.bytes, smallest_part));
     };
     const BufferPart scratch{scratch_.handle(), 0, scratch_bytes_};
-    write(frame.points, Layout::tiles, tiles_);
-    write(frame.points, Layout::geometry, geometry_);
-    write(frame.points, Layout::points, points_);
-    write(frame.points, Layout::output, output.points);
+    write(frame.points_by_lists, Layout::tiles, tiles_);
+    write(frame.points_by_lists, Layout::geometry, geometry_);
+    write(frame.points_by_lists, Layout::points, points_);
+    write(frame.points_by_lists, Layout::output, output.points);
     write(frame.masks, Layout::work, work_);
     write(frame.masks, Layout::scratch_of_masks, scratch);
     write(frame.masks, Layout::summaries, output.summaries);

@@ -19,6 +19,7 @@ using plan::PlannedQuery;
 
 // Cells say the same as they do on the device.
 static_assert(exact::nearest_inside == plan::point_inside);
+static_assert(exact::FieldSolver::relative_rounding == plan::far_rounding);
 static_assert(exact::nearest_unique == plan::point_unique);
 
 /// In cells: two distances closer than this count as equal.

@@ -1,4 +1,3 @@
-#include <engine/exact/field.hpp>
 #include <engine/field_features.hpp>
 #include <engine/field_reconstruction.hpp>
 #include <engine/field_results.hpp>
@@ -30,11 +29,6 @@ void for_cells(const Tile& tile, std::size_t result_width, Visit&& visit) {
                   (tile.row + row - tile.halo) * result_width + tile.column + column - tile.halo);
         }
     }
-}
-
-/// Single precision at a distance.
-double rounding_at(double distance) {
-    return std::ldexp(distance, -21);
 }
 
 /// What one rounding in the format of blended gradients may change of a number, in parts of it; a
@@ -130,7 +124,7 @@ void FieldDecoder::add_point(const plan::PlannedQuery& planned, const Tile& tile
         around.inside[i] = std::signbit(from_word(cells[i]));
         farthest = std::max(farthest, std::abs(around.distances[i]));
     }
-    const double error = planned.budget.bound + rounding_at(farthest);
+    const double error = planned.budget.bound + plan::far_rounding * farthest;
     const PlacedPolygon b(*planned.b, planned.pose_b);
     reconstruct(point, around, tile.grid.cell, error,
                 field_feature(b, touching_distance(tile), point.position, words[0]), result);
@@ -149,27 +143,23 @@ void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query
     const auto& asked = std::get<DistanceFieldQuery>(*planned.query);
     // Far from B a float of single precision is coarser than the rest of the bound.
     const auto largest = static_cast<double>(largest_[query]);
-    result.error_bound +=
-        planned.on_cpu ? exact::FieldSolver::relative_rounding * largest : rounding_at(largest);
+    result.error_bound += plan::far_rounding * largest;
     const bool exact = asked.gradient == GradientMethod::analytic;
     if (asked.gradients || !asked.points.empty()) {
         // Two values that are each off by the bound, two cells apart.
         result.gradient_error_bound = exact ? 1e-6 : result.error_bound / result.cell;
     }
-    const auto refuse = [&](const std::string& why) {
+    const auto clear = [&] {
         result.values.clear();
         result.features.clear();
         result.gradients.clear();
         result.unique.clear();
         result.points.clear();
-        result.status = {StatusCode::invalid_query, "the field reaches to a distance of " +
-                                                        plan::number(largest) + " from B, where " +
-                                                        why};
     };
-    if (!(result.error_bound <= result.tolerance)) {
-        refuse("single precision cannot tell apart what differs by the tolerance " +
-               plan::number(result.tolerance) +
-               "; take a rectangle nearer to B or a larger tolerance");
+    if (Status status = plan::check_distance(result.tolerance, result.error_bound, largest);
+        !status.ok()) {
+        clear();
+        result.status = std::move(status);
         return;
     }
     if (planned.field.blended) {
@@ -179,9 +169,14 @@ void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query
         const double precision = blending_precision(gradient_format_);
         result.gradient_error_bound += precision * (largest / result.cell + 5.0);
         if (!(result.gradient_error_bound < 1.0)) {
-            refuse("a blended gradient in the format " + std::string(gradient_format_) +
-                   " is off by up to " + plan::number(result.gradient_error_bound) +
-                   "; take analytic or central_differences, or a rectangle nearer to B");
+            clear();
+            result.status = {
+                StatusCode::invalid_query,
+                "the field reaches to a distance of " + plan::number(largest) +
+                    " from B, where a blended gradient in the format " +
+                    std::string(gradient_format_) + " is off by up to " +
+                    plan::number(result.gradient_error_bound) +
+                    "; take analytic or central_differences, or a rectangle nearer to B"};
         }
     }
 }

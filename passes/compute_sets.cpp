@@ -43,7 +43,8 @@ ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
                                                    "nearfield collect set, logic op",
                                                    "nearfield collect set, depth",
                                                    "nearfield masks set",
-                                                   "nearfield blocks set"};
+                                                   "nearfield blocks set",
+                                                   "nearfield points by lists set"};
     for (std::size_t i = 0; i < count; ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }
@@ -61,6 +62,7 @@ void ComputeSets::hand_to(Frame& frame) const {
     }
     frame.masks = sets_[next++];
     frame.blocks = sets_[next++];
+    frame.points_by_lists = sets_[next++];
 }
 
 }  // namespace nearfield::passes

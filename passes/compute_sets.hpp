@@ -20,7 +20,7 @@ public:
     void hand_to(Frame& frame) const;
 
 private:
-    static constexpr std::size_t count = 4 + sign_encodings + intersection_strategies;
+    static constexpr std::size_t count = 5 + sign_encodings + intersection_strategies;
 
     gpu::Owned<VkDescriptorPool> pool_;
     std::array<VkDescriptorSet, count> sets_{};  // owned by the pool

@@ -17,8 +17,11 @@ inline constexpr std::size_t sign_encodings = 3;
 struct Frame {
     const plan::Round* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;
-    VkDeviceSize mesh_offset = 0;  ///< where the round's mesh starts, in bytes
-    VkDescriptorSet points = VK_NULL_HANDLE;
+    VkDeviceSize mesh_offset = 0;             ///< where the round's mesh starts, in bytes
+    VkDescriptorSet points = VK_NULL_HANDLE;  ///< of the raster: with images
+    /// Points of the compute technique. Not the raster's set: that names images of whichever recipe
+    /// was last, and a driver may look at all that a set names.
+    VkDescriptorSet points_by_lists = VK_NULL_HANDLE;
     VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
     VkDescriptorSet gradients = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy

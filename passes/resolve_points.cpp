@@ -26,7 +26,7 @@ void ResolvePoints::declare(graph::Graph& graph, graph::Handle input, graph::Han
             pass.read(sign, graph::Access::sampled_in_compute);
             static_cast<void>(pass.write(results, graph::Access::storage_write_in_compute));
         },
-        [this](VkCommandBuffer commands) { record(commands, by_images_); });
+        [this](VkCommandBuffer commands) { record(commands, by_images_, frame_->points); });
 }
 
 void ResolvePoints::declare_by_lists(graph::Graph& graph, graph::Handle input,
@@ -37,14 +37,15 @@ void ResolvePoints::declare_by_lists(graph::Graph& graph, graph::Handle input,
             pass.read(input, graph::Access::storage_read_in_compute);
             static_cast<void>(pass.write(results, graph::Access::storage_write_in_compute));
         },
-        [this](VkCommandBuffer commands) { record(commands, by_lists_); });
+        [this](VkCommandBuffer commands) { record(commands, by_lists_, frame_->points_by_lists); });
 }
 
-void ResolvePoints::record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const {
+void ResolvePoints::record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
+                           VkDescriptorSet set) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->points, 0, nullptr);
+    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set,
+                                      0, nullptr);
     const auto count = static_cast<std::uint32_t>(frame_->round->points.size());
     dispatch_points(functions, commands, 0, count, [&](std::uint32_t first) {
         const std::uint32_t push[2] = {first, count};

@@ -24,7 +24,8 @@ public:
     void declare_by_lists(graph::Graph& graph, graph::Handle input, graph::Handle results) const;
 
 private:
-    void record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const;
+    void record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
+                VkDescriptorSet set) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;

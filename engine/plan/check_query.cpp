@@ -192,4 +192,14 @@ Status too_deviant(double tolerance, const Deviations& deviations, double bound)
                    ", more than the tolerance " + number(tolerance) + "; tessellate finer");
 }
 
+Status check_distance(double tolerance, double bound, double distance) {
+    return bound <= tolerance
+               ? Status()
+               : invalid("the field reaches to a distance of " + number(distance) +
+                         " from B, where single precision cannot tell apart what differs by the "
+                         "tolerance " +
+                         number(tolerance) +
+                         "; take a rectangle nearer to B or a larger tolerance");
+}
+
 }  // namespace nearfield::plan

@@ -44,6 +44,10 @@ namespace nearfield::plan {
                : too_deviant(tolerance, deviations, bound);
 }
 
+/// A field whose bound at a distance from B still is within the tolerance, or an error. `bound`:
+/// what the budget comes to there.
+[[nodiscard]] Status check_distance(double tolerance, double bound, double distance);
+
 using geometry::number;
 
 }  // namespace nearfield::plan

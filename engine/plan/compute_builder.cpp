@@ -31,7 +31,7 @@ std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
 
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;
-    return {shapes.get(*query.b, query.budget.simplification, longest_run * cell),
+    return {shapes.get(*query.b, query.budget.simplification, longest_tile_run * cell),
             ToCells(PlacedPolygon(*query.b, query.pose_b), tile.origin(), cell)};
 }
 
@@ -222,7 +222,7 @@ void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& til
     }
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part, bool of_a) {
         const std::uint32_t mask = add_mask(tile, work);
-        const TileBoundary boundary(shapes.get(polygon, simplification, longest_run * cell),
+        const TileBoundary boundary(shapes.get(polygon, simplification, longest_tile_run * cell),
                                     ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
         if (part == Part::boundary) {
             add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, round);

@@ -8,6 +8,9 @@ namespace nearfield::plan {
 /// Two distances closer than this part of d count as equal (PenetrationRecord::unique).
 inline constexpr double uniqueness_margin = 1e-3;
 
+/// What single precision may change of the distance of a field, in parts of it, by any technique.
+inline constexpr double far_rounding = 0x1p-19;
+
 /// How a query spends its tolerance d. Lengths in world units; derivations in docs/error_budget.md.
 struct ErrorBudget {
     double tessellation = 0.0;    ///< what the deviations of the shapes add to the bound

@@ -273,8 +273,9 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     for (const Grid& grid : grids_) {
         cells += grid.cells();
     }
-    require_memory(query.records ? bytes_per_sample * cells : bytes_of_tiles(), query.tolerance,
-                   2.0);
+    require_memory((query.records ? bytes_per_sample * cells : bytes_of_tiles()) +
+                       (planned.by_compute ? bytes_of_masks(2) : 0.0),
+                   query.tolerance, 2.0);
     require_sides(query.tolerance);
     planned.first_cpu_tile = static_cast<std::uint32_t>(plan_->cpu_tiles.size());
     for (std::uint32_t region = 0; region < grids_.size(); ++region) {
@@ -306,6 +307,19 @@ double Planner::bytes_of_tiles() const {
                  std::ceil(static_cast<double>(grid.height) / side);
     }
     return tiles * bytes_per_tile;
+}
+
+/// What bit masks of the query's grids take by the compute technique, each with a bit a cell: the
+/// masks themselves on the device, and their rows on both sides.
+double Planner::bytes_of_masks(int masks) const {
+    constexpr double bytes_per_row = 4.0 * (sizeof(MaskRowData) + sizeof(OverlapRowData));
+    double bytes = 0.0;
+    for (const Grid& grid : grids_) {
+        const double across = std::ceil(static_cast<double>(grid.width) / limits_.largest_tile);
+        const double rows = across * static_cast<double>(grid.height);
+        bytes += masks * (grid.cells() / 8.0 + sizeof(std::uint32_t) * rows) + bytes_per_row * rows;
+    }
+    return bytes;
 }
 
 void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t side,

@@ -79,6 +79,7 @@ private:
     void count(const localize::Effort& effort, ResultSummary& result) const;
     void require_sides(double tolerance) const;
     [[nodiscard]] double bytes_of_tiles() const;
+    [[nodiscard]] double bytes_of_masks(int masks) const;
     /// Where nothing is asked for at every cell: drops the tiles of the query that hold no point.
     void drop_tiles_without_points(std::uint32_t first_tile);
     void join_chain_boxes(const geometry::Box& within, double grow);

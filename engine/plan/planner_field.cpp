@@ -1,5 +1,6 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 
@@ -42,6 +43,10 @@ double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts)
            (sizeof(FieldPoint) + sizeof(PlannedFieldPoint) + 2.0 * sizeof(PointData) + words);
 }
 
+// A list of edges for each block of 8 x 8 cells.
+constexpr double bytes_per_cell_of_blocks =
+    (block_capacity + 1.0) * sizeof(std::uint32_t) / (block_side * block_side);
+
 std::string place(const Vector& point) {
     return "(" + number(point.x()) + ", " + number(point.y()) + ")";
 }
@@ -80,6 +85,13 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     if (!result.status.ok()) {
         return;
     }
+    // No cell is nearer to B than the boxes are to each other: what is refused for its distance in
+    // the end is refused before any work where that can be told.
+    const double gap = box.exteriorDistance(PlacedPolygon(*planned.b, query.b.pose).box());
+    result.status = check_distance(query.tolerance, planned.budget.bound + far_rounding * gap, gap);
+    if (!result.status.ok()) {
+        return;
+    }
     boxes_.assign(1, box);
     add_regions(planned.budget.cell, result);
     const Grid& grid = grids_.front();
@@ -89,7 +101,9 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     }
     const double side = field_tile(planned.field);
     require_memory(
-        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field),
+        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field) +
+            (planned.by_compute ? bytes_of_masks(1) + bytes_per_cell_of_blocks * grid.cells()
+                                : 0.0),
         query.tolerance, 2.0);
     result.origin = geometry::to_public(grid.origin);
     result.width = static_cast<std::uint32_t>(grid.width);

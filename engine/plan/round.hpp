@@ -17,10 +17,6 @@
 
 namespace nearfield::plan {
 
-/// Edges longer than this, in cells, stand for themselves: their far ends may be cut off, so that
-/// what is left has coordinates that a float can tell apart.
-inline constexpr double longest_run = 64.0;
-
 /// Consecutive vertices of a round's mesh.
 struct DrawRange {
     std::uint32_t first = 0;

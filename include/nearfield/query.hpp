@@ -106,7 +106,7 @@ struct IntersectionQuery {
     double tolerance = 0.0;  ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;
     /// False: keep the summary (count, area, box) and leave the samples out. None are listed then,
-    /// so memory does not grow with the grid.
+    /// so memory does not grow with the grid, but for the bit masks of Technique::compute.
     bool records = true;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;
     Technique technique = Technique::automatic;
