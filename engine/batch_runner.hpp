@@ -66,7 +66,7 @@ private:
     Renderer* renderer_;
     std::unique_ptr<RenderSlot> slot_;
     std::vector<AnyQuery> queries_;
-    std::vector<Vector2> points_;  // of the queries
+    std::vector<Vector2> points_;            // of the queries
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::Round> rounds_;  // the first Plan::rounds of them
