@@ -68,8 +68,7 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
 void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
                                        PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
-    if (planned.on_cpu &&
-        std::get<PenetrationQuery>(*planned.query).points == PenetrationPoints::vertices) {
+    if (planned.edge_by_edge) {
         vertices_.answer(planned, instances_, result);
         return;
     }
