@@ -17,8 +17,7 @@ exact::PointArrays EdgeSamples::sample(const exact::PlacedEdges& edges, const ge
     }
     const exact::Extent box = exact::extent_of(within);
     std::uint32_t count = 0;
-    for (const plan::BoundaryPoint& place : places_) {
-        const auto [edge, parameter] = place;
+    for (const auto& [edge, parameter] : places_) {
         // As plan::position() has it.
         const double x =
             edges.start_x[edge] + parameter * (edges.end_x[edge] - edges.start_x[edge]);
@@ -26,11 +25,9 @@ exact::PointArrays EdgeSamples::sample(const exact::PlacedEdges& edges, const ge
             edges.start_y[edge] + parameter * (edges.end_y[edge] - edges.start_y[edge]);
         x_[count] = x;
         y_[count] = y;
-        places_[count] = place;
         const bool is_in = x >= box.low_x && x <= box.high_x && y >= box.low_y && y <= box.high_y;
         count += is_in ? 1U : 0U;
     }
-    places_.resize(count);
     return {count, x_.data(), y_.data()};
 }
 

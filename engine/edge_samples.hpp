@@ -17,9 +17,6 @@ public:
     [[nodiscard]] exact::PointArrays sample(const exact::PlacedEdges& edges,
                                             const geometry::Box& within, double spacing);
 
-    /// Where on the boundary sample i lies.
-    [[nodiscard]] const plan::BoundaryPoint& place(std::uint32_t i) const { return places_[i]; }
-
 private:
     std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> near_;
     std::vector<plan::BoundaryPoint> places_;

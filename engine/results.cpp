@@ -106,7 +106,7 @@ void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
 }
 
 void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    exact_points_.answer(plan, words_);
+    exact_points_.answer(plan, instances_, words_);
     finish_queries(plan, true, results);
 }
 

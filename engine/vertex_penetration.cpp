@@ -1,3 +1,4 @@
+#include <engine/exact/edge_by_edge.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/vertex_penetration.hpp>
@@ -135,19 +136,8 @@ ResolvedPoint VertexPenetration::resolve(const PlacedEdges& b, const Vector& poi
 
 bool VertexPenetration::is_unique(const PlacedEdges& b, const Vector& point,
                                   const exact::NearestPoint& nearest) {
-    if (!exact::is_small(b)) {
-        return boundary_.is_unique(point, nearest, margin_);
-    }
-    const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin_;
-    // What is clearly farther needs no closer look.
-    const std::uint32_t count = exact::kernels::find_edges_within(
-        near_b_.edges(), point.x(), point.y(), 1.001 * limit * limit, rivals_.data());
-    return std::none_of(rivals_.begin(), rivals_.begin() + count, [&](std::uint32_t i) {
-        const std::uint32_t edge = near_b_.index(i);
-        return edge != nearest.edge &&
-               exact::is_rival(geometry::nearest_on_segment(point, b.start(edge), b.end(edge)),
-                               nearest.on_edge, limit);
-    });
+    return exact::is_small(b) ? exact::is_unique(near_b_.edges(), point, nearest, margin_)
+                              : boundary_.is_unique(point, nearest, margin_);
 }
 
 }  // namespace nearfield

@@ -10,7 +10,6 @@
 #include <engine/point_resolver.hpp>
 #include <nearfield/result.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -66,8 +65,7 @@ private:
     EdgesNearPoints near_b_;                // of a small B, near the points inside
     std::vector<std::uint32_t> inside_;     // points of A
     std::vector<exact::NearEdge> nearest_;  // to them, of near_b_
-    std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> rivals_;  // of near_b_
-    double margin_ = 0.0;  // of uniqueness
+    double margin_ = 0.0;                   // of uniqueness
     Pair last_;
 };
 

@@ -7,15 +7,19 @@ void PickedEdges::pick(const PlacedEdges& from, const Extent& box) {
     if (count_ == 0) {
         return;
     }
-    const auto lanes = static_cast<std::uint32_t>(padded(count_));
-    for (std::uint32_t i = 0; i < lanes; ++i) {
-        // What fills up the last lanes is the last one once more.
-        const std::uint32_t index = indices_[i < count_ ? i : count_ - 1];
+    for (std::uint32_t i = 0; i < count_; ++i) {
+        const std::uint32_t index = indices_[i];
         start_x_[i] = from.start_x[index];
         start_y_[i] = from.start_y[index];
         end_x_[i] = from.end_x[index];
         end_y_[i] = from.end_y[index];
         inverse_length_[i] = from.inverse_length[index];
+    }
+    // What fills up the last lanes is an edge of no length, which no ray crosses.
+    for (std::size_t i = count_; i < padded(count_); ++i) {
+        start_x_[i] = end_x_[i] = end_x_[count_ - 1];
+        start_y_[i] = end_y_[i] = end_y_[count_ - 1];
+        inverse_length_[i] = 0.0;
     }
 }
 
