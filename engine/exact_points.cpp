@@ -1,40 +1,77 @@
+#include <engine/exact/edge_by_edge.hpp>
 #include <engine/exact_points.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/gpu_layout.hpp>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <variant>
 
 namespace nearfield {
 
-void ExactPoints::answer(const plan::Plan& plan, std::span<std::uint32_t> words) {
+namespace {
+
+/// Of points outside B those no farther than this are asked for.
+double reach_of(const plan::PlannedQuery& query) {
+    const auto* const contacts = std::get_if<ContactQuery>(query.query);
+    return contacts == nullptr ? std::numeric_limits<double>::infinity()
+                               : contacts->contact_distance;
+}
+
+}  // namespace
+
+void ExactPoints::answer(const plan::Plan& plan, exact::PlacedInstances& instances,
+                         std::span<std::uint32_t> words) {
     for (const plan::PlannedQuery& query : plan.queries) {
         if (query.on_cpu && query.point_count > 0) {
-            answer(plan, query, words);
+            answer(plan, query, instances[instances.place(*query.b, query.pose_b)], words);
         }
     }
 }
 
 void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query,
-                         std::span<std::uint32_t> words) {
+                         const exact::PlacedEdges& b, std::span<std::uint32_t> words) {
     const geometry::PlacedPolygon a(*query.a, query.pose_a);
-    const geometry::PlacedPolygon b(*query.b, query.pose_b);
-    boundary_.set(b);
+    if (!exact::is_small(b)) {
+        boundary_.set(b.placed);
+    }
     const double margin = query.budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin;
+    const double reach = reach_of(query);
     std::uint32_t edge = 0;
     for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+        words[i] = 0;
         const geometry::Vector point = position(a, plan.points[i].point);
-        const bool inside = boundary_.contains(point);
-        if (!inside && !query.outside) {
-            words[i] = 0;
+        if (!query.outside && !contains(b, point)) {
             continue;
         }
         // Points come in order along a boundary: the edge nearest to one is near the next.
-        const exact::NearestPoint nearest = boundary_.nearest(point, edge);
-        edge = nearest.edge;
-        const bool unique = boundary_.is_unique(point, nearest, margin);
+        const exact::NearestPoint near = nearest(b, point, edge);
+        edge = near.edge;
+        if (std::sqrt(near.on_edge.squared_distance) > reach) {
+            continue;
+        }
+        const bool inside = !query.outside || contains(b, point);
+        const bool unique = is_unique(b, point, near, margin);
         words[i] = plan::point_resolved | edge | (inside ? plan::point_inside : 0U) |
                    (unique ? plan::point_unique : 0U);
     }
+}
+
+bool ExactPoints::contains(const exact::PlacedEdges& b, const geometry::Vector& point) {
+    return exact::is_small(b) ? exact::kernels::contain(b, point.x(), point.y())
+                              : boundary_.contains(point);
+}
+
+exact::NearestPoint ExactPoints::nearest(const exact::PlacedEdges& b, const geometry::Vector& point,
+                                         std::uint32_t first_guess) {
+    return exact::is_small(b) ? exact::nearest(b, point) : boundary_.nearest(point, first_guess);
+}
+
+bool ExactPoints::is_unique(const exact::PlacedEdges& b, const geometry::Vector& point,
+                            const exact::NearestPoint& nearest, double margin) {
+    return exact::is_small(b) ? exact::is_unique(b, point, nearest, margin)
+                              : boundary_.is_unique(point, nearest, margin);
 }
 
 }  // namespace nearfield

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/exact/boundary.hpp>
+#include <engine/exact/placed_edges.hpp>
 #include <engine/plan/plan.hpp>
 
 #include <cstdint>
@@ -12,14 +13,22 @@ namespace nearfield {
 /// same words, so that what follows is the same for both. Keeps its memory from batch to batch.
 class ExactPoints {
 public:
-    /// Writes the words, by point of the plan, of all queries that the CPU answers.
-    void answer(const plan::Plan& plan, std::span<std::uint32_t> words);
+    /// Writes the words, by point of the plan, of all queries that the CPU answers. Points that
+    /// are too far to be contacts stay unresolved.
+    void answer(const plan::Plan& plan, exact::PlacedInstances& instances,
+                std::span<std::uint32_t> words);
 
 private:
     void answer(const plan::Plan& plan, const plan::PlannedQuery& query,
-                std::span<std::uint32_t> words);
+                const exact::PlacedEdges& b, std::span<std::uint32_t> words);
+    [[nodiscard]] bool contains(const exact::PlacedEdges& b, const geometry::Vector& point);
+    [[nodiscard]] exact::NearestPoint nearest(const exact::PlacedEdges& b,
+                                              const geometry::Vector& point,
+                                              std::uint32_t first_guess);
+    [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, const geometry::Vector& point,
+                                 const exact::NearestPoint& nearest, double margin);
 
-    exact::Boundary boundary_;
+    exact::Boundary boundary_;  // of B, where it has many edges
 };
 
 }  // namespace nearfield

@@ -68,8 +68,7 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
 void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
                                        PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
-    if (planned.on_cpu &&
-        std::get<PenetrationQuery>(*planned.query).points == PenetrationPoints::vertices) {
+    if (planned.edge_by_edge) {
         vertices_.answer(planned, instances_, result);
         return;
     }
@@ -107,7 +106,7 @@ void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
 }
 
 void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    exact_points_.answer(plan, words_);
+    exact_points_.answer(plan, instances_, words_);
     finish_queries(plan, true, results);
 }
 

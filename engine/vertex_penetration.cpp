@@ -1,14 +1,26 @@
+#include <engine/exact/edge_by_edge.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/vertex_penetration.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nearfield {
 
+using exact::EdgeArrays;
 using exact::PlacedEdges;
+using exact::PointArrays;
 using geometry::Vector;
+
+namespace {
+
+Vector point_of(const PointArrays& points, std::uint32_t i) {
+    return {points.x[i], points.y[i]};
+}
+
+}  // namespace
 
 void VertexPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                                PenetrationResult& result) {
@@ -22,26 +34,40 @@ void VertexPenetration::answer(const plan::PlannedQuery& query, exact::PlacedIns
     const bool reversed = pair.is_reverse_of(last_.index);
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
-        find_penetrating(a, b, result, std::get<PenetrationQuery>(*query.query).records);
+        if (a.box.intersects(b.box)) {
+            const auto& asked = std::get<PenetrationQuery>(*query.query);
+            const double touching = a.rounding + b.rounding;
+            if (asked.points == PenetrationPoints::vertices) {
+                find_penetrating(a.starts(), b, touching, b, result, asked.records);
+            } else {
+                find_penetrating(samples_.sample(a, b.box, result.cell), edges_beside(a, b),
+                                 touching, b, result, asked.records);
+            }
+        }
+        // Of a ring of A that lies in B some point is found: it has a vertex that is a sample.
         result.intersects =
             result.intersects || reversed || meeting_.intersect_without_vertex_inside(a, b);
     }
     last_ = {pair, result.intersects};
 }
 
-void VertexPenetration::find_penetrating(const PlacedEdges& a, const PlacedEdges& b,
+EdgeArrays VertexPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {
+    const exact::Extent common = exact::extent_of(a.box.intersection(b.box));
+    beside_.pick(b, {common.low_x - a.rounding, common.low_y - a.rounding,
+                     std::numeric_limits<double>::infinity(), common.high_y + a.rounding});
+    return beside_.empty() ? EdgeArrays(b) : beside_.edges();
+}
+
+void VertexPenetration::find_penetrating(const PointArrays& points, const EdgeArrays& beside,
+                                         double touching, const PlacedEdges& b,
                                          PenetrationResult& result, bool keep_records) {
-    if (!a.box.intersects(b.box)) {
-        return;
-    }
-    const double touching = a.rounding + b.rounding;
     std::uint32_t deepest = 0;
     exact::NearestPoint way_out;
     way_out.on_edge.squared_distance = 0.0;
-    const std::span<const std::uint32_t> inside = find_inside(a, b);
+    const std::span<const std::uint32_t> inside = find_inside(points, beside, b);
     result.intersects = !inside.empty();
     for (std::size_t i = 0; i < inside.size(); ++i) {
-        const Vector point = a.start(inside[i]);
+        const Vector point = point_of(points, inside[i]);
         const exact::NearestPoint nearest = find_nearest(b, i, point);
         const double squared = nearest.on_edge.squared_distance;
         if (squared <= touching * touching) {
@@ -57,29 +83,33 @@ void VertexPenetration::find_penetrating(const PlacedEdges& a, const PlacedEdges
         }
     }
     if (result.count > 0) {
-        result.deepest = penetration_record(resolve(b, a.start(deepest), way_out));
+        result.deepest = penetration_record(resolve(b, point_of(points, deepest), way_out));
     }
 }
 
-std::span<const std::uint32_t> VertexPenetration::find_inside(const PlacedEdges& a,
+std::span<const std::uint32_t> VertexPenetration::find_inside(const PointArrays& points,
+                                                              const EdgeArrays& beside,
                                                               const PlacedEdges& b) {
-    if (inside_.size() < exact::padded(a.count)) {
-        inside_.resize(exact::padded(a.count));
-        nearest_.resize(exact::padded(a.count));
+    if (inside_.size() < exact::padded(points.count)) {
+        inside_.resize(exact::padded(points.count));
+        nearest_.resize(exact::padded(points.count));
     }
-    if (exact::is_small(b)) {
-        const std::uint32_t count = exact::kernels::find_points_inside(
-            a.starts(), exact::extent_of(b.box), b, inside_.data());
-        exact::kernels::find_nearest_of(a.starts(), inside_.data(), count, b, nearest_.data());
-        return {inside_.data(), count};
+    if (!exact::is_small(b)) {
+        boundary_.set(b.placed);
+        const std::uint32_t in_box =
+            exact::kernels::find_points_in(points, exact::extent_of(b.box), inside_.data());
+        const auto end = std::remove_if(
+            inside_.begin(), inside_.begin() + in_box,
+            [&](std::uint32_t i) { return !boundary_.contains(point_of(points, i)); });
+        return {inside_.begin(), end};
     }
-    boundary_.set(b.placed);
-    const std::uint32_t in_box =
-        exact::kernels::find_points_in(a.starts(), exact::extent_of(b.box), inside_.data());
-    const auto end =
-        std::remove_if(inside_.begin(), inside_.begin() + in_box,
-                       [&](std::uint32_t vertex) { return !boundary_.contains(a.start(vertex)); });
-    return {inside_.begin(), end};
+    const std::uint32_t count =
+        exact::kernels::find_points_inside(points, exact::extent_of(b.box), beside, inside_.data());
+    const std::span<const std::uint32_t> inside(inside_.data(), count);
+    near_b_.pick(points, inside, b, margin_);
+    exact::kernels::find_nearest_of(points, inside_.data(), count, near_b_.edges(),
+                                    nearest_.data());
+    return inside;
 }
 
 exact::NearestPoint VertexPenetration::find_nearest(const PlacedEdges& b, std::size_t i,
@@ -87,7 +117,7 @@ exact::NearestPoint VertexPenetration::find_nearest(const PlacedEdges& b, std::s
     if (!exact::is_small(b)) {
         return boundary_.nearest(point);
     }
-    const std::uint32_t edge = nearest_[i].edge;
+    const std::uint32_t edge = near_b_.index(nearest_[i].edge);
     return {edge, geometry::nearest_on_segment(point, b.start(edge), b.end(edge))};
 }
 
@@ -106,17 +136,8 @@ ResolvedPoint VertexPenetration::resolve(const PlacedEdges& b, const Vector& poi
 
 bool VertexPenetration::is_unique(const PlacedEdges& b, const Vector& point,
                                   const exact::NearestPoint& nearest) {
-    if (!exact::is_small(b)) {
-        return boundary_.is_unique(point, nearest, margin_);
-    }
-    const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin_;
-    // What is clearly farther needs no closer look.
-    const std::uint32_t count = exact::kernels::find_edges_within(
-        b, point.x(), point.y(), 1.001 * limit * limit, near_.data());
-    return std::none_of(near_.begin(), near_.begin() + count, [&](std::uint32_t edge) {
-        return exact::is_rival(geometry::nearest_on_segment(point, b.start(edge), b.end(edge)),
-                               nearest.on_edge, limit);
-    });
+    return exact::is_small(b) ? exact::is_unique(near_b_.edges(), point, nearest, margin_)
+                              : boundary_.is_unique(point, nearest, margin_);
 }
 
 }  // namespace nearfield

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/edge_samples.hpp>
+#include <engine/edges_near_points.hpp>
 #include <engine/exact/boundary.hpp>
 #include <engine/exact/meeting.hpp>
 #include <engine/exact/placed_edges.hpp>
@@ -8,7 +10,6 @@
 #include <engine/point_resolver.hpp>
 #include <nearfield/result.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,9 +17,10 @@
 
 namespace nearfield {
 
-/// Penetration of the vertices of A by Technique::cpu, from query to result: nothing is planned and
-/// no tree is made for polygons of few edges, so that a batch of many small pairs costs little
-/// more than placing its vertices. Keeps its memory from batch to batch.
+/// Penetration by Technique::cpu of the vertices of A, or of samples of its boundary where both
+/// shapes are small, from query to result: nothing is planned and no tree is made for polygons of
+/// few edges, so that a batch of many small pairs costs little more than placing its vertices and
+/// looking at the points found. Keeps its memory from batch to batch.
 class VertexPenetration {
 public:
     /// Forgets the pair before: shapes may have moved or deformed since.
@@ -36,12 +38,19 @@ private:
         bool intersects = false;
     };
 
-    void find_penetrating(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
-                          PenetrationResult& result, bool keep_records);
-    /// Lists A's vertices inside B, and finds what is nearest to them where B is small.
-    [[nodiscard]] std::span<const std::uint32_t> find_inside(const exact::PlacedEdges& a,
+    /// The edges of B that count for which points of A in B's box lie inside: those beside them,
+    /// where a ray to the right from one may cross them.
+    [[nodiscard]] exact::EdgeArrays edges_beside(const exact::PlacedEdges& a,
+                                                 const exact::PlacedEdges& b);
+    /// Of points of A. Those nearer to B's boundary than `touching` are on it.
+    void find_penetrating(const exact::PointArrays& points, const exact::EdgeArrays& beside,
+                          double touching, const exact::PlacedEdges& b, PenetrationResult& result,
+                          bool keep_records);
+    /// Lists the points inside B, and finds what is nearest to them where B is small.
+    [[nodiscard]] std::span<const std::uint32_t> find_inside(const exact::PointArrays& points,
+                                                             const exact::EdgeArrays& beside,
                                                              const exact::PlacedEdges& b);
-    /// Of the vertex that was listed as number i.
+    /// Of the point that was listed as number i.
     [[nodiscard]] exact::NearestPoint find_nearest(const exact::PlacedEdges& b, std::size_t i,
                                                    const geometry::Vector& point);
     [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, const geometry::Vector& point,
@@ -51,10 +60,12 @@ private:
 
     exact::Boundary boundary_;  // of B, where it has many edges
     exact::MeetingFinder meeting_;
-    std::vector<std::uint32_t> inside_;     // vertices of A
-    std::vector<exact::NearEdge> nearest_;  // to them, of a small B
-    std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> near_;  // edges of B
-    double margin_ = 0.0;                                                          // of uniqueness
+    EdgeSamples samples_;                   // of A
+    exact::PickedEdges beside_;             // of a small B
+    EdgesNearPoints near_b_;                // of a small B, near the points inside
+    std::vector<std::uint32_t> inside_;     // points of A
+    std::vector<exact::NearEdge> nearest_;  // to them, of near_b_
+    double margin_ = 0.0;                   // of uniqueness
     Pair last_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/exact/picked_edges.hpp>
 #include <engine/exact/placed_edges.hpp>
 
 #include <cstdint>
@@ -22,27 +23,8 @@ public:
     [[nodiscard]] bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges);
 
 private:
-    /// Some of the edges of a polygon in arrays of their own.
-    class Picked {
-    public:
-        void pick(const PlacedEdges& from, const Extent& box);
-        [[nodiscard]] bool empty() const { return count_ == 0; }
-        [[nodiscard]] EdgeArrays edges() const;
-        /// Its index in the polygon.
-        [[nodiscard]] std::uint32_t index(std::uint32_t edge) const { return indices_[edge]; }
-
-    private:
-        static constexpr std::size_t room = padded(most_edges_one_by_one);
-        std::uint32_t count_ = 0;
-        std::uint32_t indices_[room];
-        double start_x_[room];
-        double start_y_[room];
-        double end_x_[room];
-        double end_y_[room];
-    };
-
-    Picked of_a_;
-    Picked of_b_;
+    PickedEdges of_a_;
+    PickedEdges of_b_;
 };
 
 }  // namespace nearfield::exact

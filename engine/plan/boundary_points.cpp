@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nearfield::plan {
 namespace {
@@ -59,6 +60,71 @@ Division divide(const PlacedPolygon& placed, std::uint32_t edge, double length, 
     return division;
 }
 
+/// Every so many edges of a ring its samples start anew, at a vertex: what is sampled depends on
+/// nothing farther back.
+constexpr std::uint32_t most_edges_back = 64;
+
+/// Samples edges of one polygon, in any order; the least is done for edges that follow each other.
+class EdgeSampler {
+public:
+    EdgeSampler(const PlacedPolygon& placed, double spacing, const geometry::Box& within)
+        : placed_(placed), spacing_(spacing), within_(within) {}
+
+    void append_samples(std::uint32_t edge, std::vector<BoundaryPoint>& points) {
+        const double edge_length = length(edge);
+        if (edge != next_ && edge_length <= spacing_) {
+            catch_up(edge);
+        }
+        const Division division = advance(edge, edge_length);
+        const auto end = static_cast<std::uint32_t>(division.end);
+        for (auto part = static_cast<std::uint32_t>(division.first); part < end; ++part) {
+            points.push_back({edge, part / division.parts});
+        }
+    }
+
+private:
+    [[nodiscard]] double length(std::uint32_t edge) const {
+        const Polygon& polygon = placed_.polygon();
+        return (polygon.vertices()[polygon.next(edge)] - polygon.vertices()[edge]).norm();
+    }
+
+    [[nodiscard]] bool starts_anew(std::uint32_t edge) const {
+        const Polygon& polygon = placed_.polygon();
+        return (edge - polygon.ring_begin(polygon.ring_of(edge))) % most_edges_back == 0;
+    }
+
+    /// Walks back to where the samples of a short edge can be told from, and up to it again.
+    void catch_up(std::uint32_t edge) {
+        std::uint32_t from = edge;
+        double from_length = 0.0;
+        while (from_length <= spacing_ && !starts_anew(from)) {
+            from_length = length(--from);
+        }
+        for (; from < edge; ++from) {
+            static_cast<void>(advance(from, length(from)));
+        }
+    }
+
+    /// The samples of an edge, from the samples before.
+    [[nodiscard]] Division advance(std::uint32_t edge, double edge_length) {
+        next_ = edge + 1;
+        if (edge_length <= spacing_ && !starts_anew(edge) &&
+            since_last_ + edge_length <= spacing_) {
+            since_last_ += edge_length;
+            return {1.0, 0.0, 0.0};
+        }
+        const Division division = divide(placed_, edge, edge_length, spacing_, within_);
+        since_last_ = division.end < division.parts ? spacing_ : edge_length / division.parts;
+        return division;
+    }
+
+    const PlacedPolygon& placed_;
+    double spacing_;
+    const geometry::Box& within_;
+    std::uint32_t next_ = std::numeric_limits<std::uint32_t>::max();  // edge, if none is left out
+    double since_last_ = 0.0;  // sample, along the boundary to the next edge
+};
+
 }  // namespace
 
 Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
@@ -72,21 +138,18 @@ Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
 void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
                    double spacing, const geometry::Box& within,
                    std::vector<BoundaryPoint>& points) {
+    EdgeSampler sampler(polygon, spacing, within);
     for (const localize::Chain& chain : chains) {
-        // A chain's first vertex always starts a new sample: what came before is elsewhere.
-        double since_last = spacing;
-        for_each_edge(polygon, chain, [&](std::uint32_t edge, double length) {
-            if (since_last + length <= spacing) {
-                since_last += length;
-                return;
-            }
-            const Division division = divide(polygon, edge, length, spacing, within);
-            const auto end = static_cast<std::uint32_t>(division.end);
-            for (auto part = static_cast<std::uint32_t>(division.first); part < end; ++part) {
-                points.push_back({edge, part / division.parts});
-            }
-            since_last = division.end < division.parts ? spacing : length / division.parts;
-        });
+        for_each_edge(polygon, chain,
+                      [&](std::uint32_t edge, double) { sampler.append_samples(edge, points); });
+    }
+}
+
+void sample_edges(const PlacedPolygon& polygon, std::span<const std::uint32_t> edges,
+                  double spacing, const geometry::Box& within, std::vector<BoundaryPoint>& points) {
+    EdgeSampler sampler(polygon, spacing, within);
+    for (const std::uint32_t edge : edges) {
+        sampler.append_samples(edge, points);
     }
 }
 
@@ -116,6 +179,19 @@ double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Ch
         });
     }
     return count;
+}
+
+double most_samples(const Polygon& polygon, double spacing) {
+    double length = 0.0;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        Vector last = polygon.vertices()[polygon.ring_end(ring) - 1];
+        for (std::uint32_t i = polygon.ring_begin(ring); i < polygon.ring_end(ring); ++i) {
+            // The sum of the coordinates is no less than the length, and costs no root.
+            length += (polygon.vertices()[i] - last).lpNorm<1>();
+            last = polygon.vertices()[i];
+        }
+    }
+    return static_cast<double>(polygon.size()) + length / spacing;
 }
 
 }  // namespace nearfield::plan

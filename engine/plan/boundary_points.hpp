@@ -4,6 +4,7 @@
 #include <engine/localize/overlap.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::plan {
@@ -21,10 +22,16 @@ struct BoundaryPoint {
 /// Appends samples along each chain, consecutive ones at most `spacing` apart along the boundary,
 /// where it lies `within` a box; what samples there are outside it is left open. Long edges are
 /// divided evenly from vertex to vertex, so corners are sampled; of vertices closer together than
-/// `spacing` some are left out.
+/// `spacing` some are left out: of each run of 64 edges of a ring, counted from its first vertex,
+/// the first vertex is sampled. Where the samples of an edge are depends on the polygon and the
+/// spacing alone, so the last one before a chain may lie outside it.
 void sample_chains(const geometry::PlacedPolygon& polygon,
                    const std::vector<localize::Chain>& chains, double spacing,
                    const geometry::Box& within, std::vector<BoundaryPoint>& points);
+
+/// The same samples of single edges, which had best be in ascending order.
+void sample_edges(const geometry::PlacedPolygon& polygon, std::span<const std::uint32_t> edges,
+                  double spacing, const geometry::Box& within, std::vector<BoundaryPoint>& points);
 
 /// Appends the first vertex of every edge of the chains.
 void vertices_of_chains(const geometry::PlacedPolygon& polygon,
@@ -35,5 +42,8 @@ void vertices_of_chains(const geometry::PlacedPolygon& polygon,
 [[nodiscard]] double most_samples(const geometry::PlacedPolygon& polygon,
                                   const std::vector<localize::Chain>& chains, double spacing,
                                   const geometry::Box& within);
+
+/// The same of the whole boundary, roughly: at most half as many again, and a few more.
+[[nodiscard]] double most_samples(const geometry::Polygon& polygon, double spacing);
 
 }  // namespace nearfield::plan

@@ -18,6 +18,7 @@ FieldParts field_parts(const DistanceFieldQuery& query) {
         parts.cells_per_point = parts.blended ? 4 : 12;
         parts.words_per_point = 13;
     }
+    parts.small_tiles = parts.features || at_points;
     return parts;
 }
 

@@ -20,6 +20,9 @@ struct FieldParts {
     /// Cells drawn around the grid, and around each of its tiles, because reconstruction and
     /// differences look beyond.
     std::uint32_t halo = 0;
+    /// Each cell looks through the edges of its tile, or few tiles may hold any point. Whatever
+    /// else is asked for, so that the image and the cells alone agree bit for bit.
+    bool small_tiles = false;
 };
 
 [[nodiscard]] FieldParts field_parts(const DistanceFieldQuery& query);

@@ -23,7 +23,7 @@ struct PlanLimits {
     /// leave out what holds no point, and each draws and tests the edges near it only.
     std::uint32_t points_tile = 64;
     /// The same of tiles of a field with features, where each cell looks through all edges that can
-    /// be nearest in its tile.
+    /// be nearest in its tile, or with points, of which few tiles may hold any.
     std::uint32_t features_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint64_t memory = 0;  ///< bytes a batch may need

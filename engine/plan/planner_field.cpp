@@ -153,7 +153,7 @@ std::uint32_t Planner::field_tile(const FieldParts& parts) const {
     if (plan_->queries[query_].on_cpu) {
         return UINT32_MAX;  // the whole grid
     }
-    const std::uint32_t drawn = parts.features
+    const std::uint32_t drawn = parts.small_tiles
                                     ? std::min(limits_.features_tile, limits_.largest_tile)
                                     : limits_.largest_tile;
     return drawn - 2 * parts.halo;

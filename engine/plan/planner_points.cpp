@@ -1,3 +1,4 @@
+#include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
@@ -30,6 +31,9 @@ Box grown(Box box, double by) {
 // Of either boundary, for a search that is finished exactly.
 constexpr double most_search_samples = 4096.0;
 
+// Of a small shape's boundary, where all are kept at once and none is planned.
+constexpr double most_samples_at_once = 16384.0;
+
 }  // namespace
 
 bool Planner::check_numbers(ResultSummary& result) const {
@@ -50,13 +54,19 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const ErrorBudget budget = penetration_budget(query, planned.deviations);
     result.error_bound = budget.bound;
     result.cell = budget.cell;
-    if (planned.on_cpu && query.points == PenetrationPoints::vertices) {
-        // Nothing is sampled: of the budget the bound alone is asked for.
+    const bool vertices = query.points == PenetrationPoints::vertices;
+    const double most_points =
+        vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
+    planned.edge_by_edge =
+        planned.on_cpu && (vertices || (std::max(planned.a->size(), planned.b->size()) <=
+                                            exact::most_edges_one_by_one &&
+                                        most_points <= most_samples_at_once));
+    if (planned.edge_by_edge) {
+        // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
         // VertexPenetration finds them itself; for whom keeps records, where they can be.
         if (query.records) {
-            require_memory(sizeof(PenetrationRecord) * static_cast<double>(planned.a->size()),
-                           query.tolerance, 1.0);
+            require_memory(sizeof(PenetrationRecord) * most_points, query.tolerance, 1.0);
             boxes_.assign(1, PlacedPolygon(*planned.a, query.a.pose)
                                  .box()
                                  .intersection(PlacedPolygon(*planned.b, query.b.pose).box()));
@@ -84,7 +94,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     samples_.clear();
-    if (query.points == PenetrationPoints::vertices) {
+    if (vertices) {
         vertices_of_chains(a, chains_, samples_);
         require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
                        1.0);
@@ -183,6 +193,10 @@ void Planner::add_closest_points(std::uint32_t index, const std::vector<localize
     chains_.assign(chains.begin(), chains.end());
     join_chain_boxes(everything, 0.0);
     sample_boundary(a, everything, result);
+    // A short chain may lie between two samples.
+    for (const localize::Chain& chain : chains_) {
+        samples_.push_back({chain.first, 0.0});
+    }
     spread_points(index, everything, result);
 }
 

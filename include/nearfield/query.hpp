@@ -37,10 +37,12 @@ enum class Technique {
     /// here, and none needs anything of the device.
     compute,
     /// The device has no part in it. Points: the hierarchies of localisation driven to single
-    /// edges, in double precision; regions are what localisation found, and no grid is sampled in
-    /// them; closest points have none. Intersections: bit masks of the raster's samples. Distance
-    /// fields: the near edges of each block of cells. Answers every query but
-    /// GradientMethod::blended (refused, invalid_query), and intersection tests it alone.
+    /// edges, in double precision; regions are what localisation found, or the common box of both
+    /// shapes where single edges were looked at from the start (penetration with records, of
+    /// vertices or between shapes of at most 256 edges), and no grid is sampled in them; closest
+    /// points have none, nor has such penetration without records. Intersections: bit masks of the
+    /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
+    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests it alone.
     cpu,
 };
 

@@ -66,7 +66,7 @@ TEST(SampleChains, NoGapAlongTheBoundaryIsWiderThanTheSpacing) {
                 const std::uint32_t ring = polygon.ring_of(point.edge);
                 const double way = way_along(polygon, point);
                 if (last[ring] < 0.0) {
-                    EXPECT_EQ(way, 0.0) << "a chain starts with a sample";
+                    EXPECT_EQ(way, 0.0) << "a ring starts with a sample";
                 } else {
                     EXPECT_LE(way - last[ring], spacing * (1.0 + 1e-9));
                 }
@@ -75,6 +75,47 @@ TEST(SampleChains, NoGapAlongTheBoundaryIsWiderThanTheSpacing) {
             for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
                 EXPECT_LE(length_of_ring(polygon, ring) - last[ring], spacing * (1.0 + 1e-9));
             }
+        }
+    }
+}
+
+TEST(SampleChains, WhereSamplesAreDoesNotDependOnWhatIsAskedFor) {
+    for (const test::NamedRings& shape : test::every_family(7)) {
+        Polygon polygon;
+        ASSERT_TRUE(polygon.assign(shape.rings).ok()) << shape.name;
+        for (const double spacing : {0.003, 0.05, 0.7, 50.0}) {
+            SCOPED_TRACE(shape.name + ", spacing " + std::to_string(spacing));
+            const PlacedPolygon placed(polygon, {});
+            std::vector<BoundaryPoint> all;
+            sample_chains(placed, all_of(polygon), spacing, placed.box(), all);
+            // Some edges, with gaps of many lengths between them; the same as a chain each.
+            std::vector<std::uint32_t> edges;
+            std::vector<localize::Chain> chains;
+            for (std::uint32_t edge = 0; edge < polygon.size(); edge += 1 + (edge * 7) % 5) {
+                edges.push_back(edge);
+                chains.push_back({polygon.ring_of(edge), edge, 1, {}});
+            }
+            const std::set<std::uint32_t> asked(edges.begin(), edges.end());
+            std::vector<BoundaryPoint> expected;
+            for (const BoundaryPoint& point : all) {
+                if (asked.contains(point.edge)) {
+                    expected.push_back(point);
+                }
+            }
+            const auto expect_same = [&](const std::vector<BoundaryPoint>& points) {
+                ASSERT_EQ(points.size(), expected.size());
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    EXPECT_EQ(points[i].edge, expected[i].edge);
+                    EXPECT_EQ(points[i].parameter, expected[i].parameter);
+                }
+            };
+            std::vector<BoundaryPoint> of_edges;
+            sample_edges(placed, edges, spacing, placed.box(), of_edges);
+            expect_same(of_edges);
+            std::vector<BoundaryPoint> of_chains;
+            sample_chains(placed, chains, spacing, placed.box(), of_chains);
+            expect_same(of_chains);
+            EXPECT_LE(static_cast<double>(all.size()), most_samples(polygon, spacing));
         }
     }
 }
