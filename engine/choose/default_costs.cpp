@@ -3,26 +3,26 @@
 namespace nearfield::choose {
 namespace {
 
-// Microseconds, as `nearfield calibrate` found them on lavapipe.
+// Microseconds, as `nearfield calibrate` found them on lavapipe, two runs, rounded.
 constexpr CostModel on_software{
-    .raster = {.submission = 250.0,
-               .points = {90.0, 0.01, 0.6},
-               .closest = {120.0, 0.02, 0.0},
-               .intersection = {60.0, 0.02, 0.04},
-               .field = {300.0, 0.5, 0.5},
-               .features = {300.0, 0.5, 3.0}},
-    .compute = {.submission = 150.0,
-                .points = {40.0, 0.01, 0.6},
-                .closest = {80.0, 0.02, 0.0},
-                .intersection = {30.0, 0.02, 0.01},
-                .field = {40.0, 0.2, 0.05},
-                .features = {40.0, 0.2, 2.0}},
-    .cpu = {.submission = 0.0,
-            .points = {0.3, 0.01, 0.5},
-            .closest = {1.0, 0.05, 0.0},
-            .intersection = {1.0, 0.05, 0.001},
-            .field = {2.0, 0.05, 0.01},
-            .features = {2.0, 0.05, 0.3}},
+    .raster = {.submission = 430.0,
+               .points = {76.0, 0.0, 2.9},
+               .closest = {208.0, 0.19, 0.0},
+               .intersection = {228.0, 0.01, 0.018},
+               .field = {253.0, 0.045, 0.07},
+               .features = {262.0, 0.3, 0.37}},
+    .compute = {.submission = 650.0,
+                .points = {12.0, 0.004, 0.12},
+                .closest = {13.0, 0.1, 0.0},
+                .intersection = {8.3, 0.05, 0.002},
+                .field = {1.8, 0.027, 0.018},
+                .features = {16.0, 0.34, 0.13}},
+    .cpu = {.submission = 0.6,
+            .points = {0.0, 0.014, 0.025},
+            .closest = {0.0, 0.0234, 0.0},
+            .intersection = {6.4, 0.032, 0.00015},
+            .field = {0.77, 0.032, 0.0033},
+            .features = {0.4, 0.073, 0.025}},
 };
 
 }  // namespace
