@@ -30,7 +30,7 @@ void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
     instances_.clear();
-    vertices_.begin_batch();
+    penetration_.begin_batch();
     simplified_.clear();
     fields_.begin_batch(plan);
 }
@@ -69,7 +69,7 @@ void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuer
                                        PenetrationResult& result) {
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     if (planned.edge_by_edge) {
-        vertices_.answer(planned, instances_, result);
+        penetration_.answer(planned, instances_, result);
         return;
     }
     resolver_.begin(plan, planned);

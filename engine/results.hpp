@@ -10,8 +10,8 @@
 #include <engine/intersection_test.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
+#include <engine/point_penetration.hpp>
 #include <engine/point_resolver.hpp>
-#include <engine/vertex_penetration.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -74,7 +74,7 @@ private:
     plan::SimplifiedShapes simplified_;  // of what the CPU answers
     ExactOverlap overlaps_;
     IntersectionTest intersection_test_;
-    VertexPenetration vertices_;
+    PointPenetration penetration_;
     ClosestDecoder closest_;
 };
 

@@ -33,7 +33,8 @@ struct PointArrays {
 };
 
 /// Edges, an array for each coordinate of their ends. What fills an array up to whole lanes is an
-/// edge of no length at the last edge's end, or any edge of the array once more.
+/// edge of no length at the last edge's end; or, but for contain() and find_points_inside(), which
+/// count crossings, any edge of the array once more.
 struct EdgeArrays {
     std::uint32_t count = 0;
     const double* start_x = nullptr;

@@ -1,7 +1,7 @@
 #include <engine/exact/edge_by_edge.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/error_budget.hpp>
-#include <engine/vertex_penetration.hpp>
+#include <engine/point_penetration.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ Vector point_of(const PointArrays& points, std::uint32_t i) {
 
 }  // namespace
 
-void VertexPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
-                               PenetrationResult& result) {
+void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
+                              PenetrationResult& result) {
     const InstancePairIndex pair = place_pair(query, instances);
     const PlacedEdges& a = instances[pair.a];
     const PlacedEdges& b = instances[pair.b];
@@ -51,16 +51,16 @@ void VertexPenetration::answer(const plan::PlannedQuery& query, exact::PlacedIns
     last_ = {pair, result.intersects};
 }
 
-EdgeArrays VertexPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {
+EdgeArrays PointPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {
     const exact::Extent common = exact::extent_of(a.box.intersection(b.box));
     beside_.pick(b, {common.low_x - a.rounding, common.low_y - a.rounding,
                      std::numeric_limits<double>::infinity(), common.high_y + a.rounding});
     return beside_.empty() ? EdgeArrays(b) : beside_.edges();
 }
 
-void VertexPenetration::find_penetrating(const PointArrays& points, const EdgeArrays& beside,
-                                         double touching, const PlacedEdges& b,
-                                         PenetrationResult& result, bool keep_records) {
+void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArrays& beside,
+                                        double touching, const PlacedEdges& b,
+                                        PenetrationResult& result, bool keep_records) {
     std::uint32_t deepest = 0;
     exact::NearestPoint way_out;
     way_out.on_edge.squared_distance = 0.0;
@@ -87,9 +87,9 @@ void VertexPenetration::find_penetrating(const PointArrays& points, const EdgeAr
     }
 }
 
-std::span<const std::uint32_t> VertexPenetration::find_inside(const PointArrays& points,
-                                                              const EdgeArrays& beside,
-                                                              const PlacedEdges& b) {
+std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& points,
+                                                             const EdgeArrays& beside,
+                                                             const PlacedEdges& b) {
     if (inside_.size() < exact::padded(points.count)) {
         inside_.resize(exact::padded(points.count));
         nearest_.resize(exact::padded(points.count));
@@ -112,8 +112,8 @@ std::span<const std::uint32_t> VertexPenetration::find_inside(const PointArrays&
     return inside;
 }
 
-exact::NearestPoint VertexPenetration::find_nearest(const PlacedEdges& b, std::size_t i,
-                                                    const Vector& point) {
+exact::NearestPoint PointPenetration::find_nearest(const PlacedEdges& b, std::size_t i,
+                                                   const Vector& point) {
     if (!exact::is_small(b)) {
         return boundary_.nearest(point);
     }
@@ -121,8 +121,8 @@ exact::NearestPoint VertexPenetration::find_nearest(const PlacedEdges& b, std::s
     return {edge, geometry::nearest_on_segment(point, b.start(edge), b.end(edge))};
 }
 
-ResolvedPoint VertexPenetration::resolve(const PlacedEdges& b, const Vector& point,
-                                         const exact::NearestPoint& nearest) {
+ResolvedPoint PointPenetration::resolve(const PlacedEdges& b, const Vector& point,
+                                        const exact::NearestPoint& nearest) {
     const double parameter = nearest.on_edge.parameter;
     return {point,
             nearest.on_edge.point,
@@ -134,8 +134,8 @@ ResolvedPoint VertexPenetration::resolve(const PlacedEdges& b, const Vector& poi
             is_unique(b, point, nearest)};
 }
 
-bool VertexPenetration::is_unique(const PlacedEdges& b, const Vector& point,
-                                  const exact::NearestPoint& nearest) {
+bool PointPenetration::is_unique(const PlacedEdges& b, const Vector& point,
+                                 const exact::NearestPoint& nearest) {
     return exact::is_small(b) ? exact::is_unique(near_b_.edges(), point, nearest, margin_)
                               : boundary_.is_unique(point, nearest, margin_);
 }

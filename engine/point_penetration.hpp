@@ -21,7 +21,7 @@ namespace nearfield {
 /// shapes are small, from query to result: nothing is planned and no tree is made for polygons of
 /// few edges, so that a batch of many small pairs costs little more than placing its vertices and
 /// looking at the points found. Keeps its memory from batch to batch.
-class VertexPenetration {
+class PointPenetration {
 public:
     /// Forgets the pair before: shapes may have moved or deformed since.
     void begin_batch() { last_ = {}; }
