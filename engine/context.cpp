@@ -79,7 +79,8 @@ const char* gradient_format(const gpu::Device& device) {
 
 }  // namespace
 
-class Context::Implementation {
+// Hidden, though what it is nested in is not.
+class [[gnu::visibility("hidden")]] Context::Implementation {
 public:
     Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
                    const Settings& settings)
@@ -93,18 +94,28 @@ public:
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
     Expected<Ticket> submit(const Batch& batch, Results* memory);
-    bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
-    Status collect(Ticket ticket, Results& results);
+    bool is_ready(Ticket ticket) {
+        return lost_ || ring_.is_ready(ticket);
+    }
+    Status collect(Ticket ticket, Results & results);
 
-    [[nodiscard]] ShapeStore& shapes() { return shapes_; }
-    [[nodiscard]] const gpu::Device& device() const { return device_; }
-    [[nodiscard]] const CostModel& costs() const { return costs_; }
-    [[nodiscard]] const Renderer& renderer() const { return renderer_; }
+    [[nodiscard]] ShapeStore& shapes() {
+        return shapes_;
+    }
+    [[nodiscard]] const gpu::Device& device() const {
+        return device_;
+    }
+    [[nodiscard]] const CostModel& costs() const {
+        return costs_;
+    }
+    [[nodiscard]] const Renderer& renderer() const {
+        return renderer_;
+    }
 
 private:
     /// Runs what has to do with the device; remembers where it is lost.
     template <class Action>
-    Status on_device(Action&& action) {
+    Status on_device(Action && action) {
         Status status = guarded(action);
         lost_ = lost_ || status.code() == StatusCode::device_lost;
         return status;

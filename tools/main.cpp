@@ -1,3 +1,5 @@
+#include <nearfield/version.hpp>
+
 #include <CLI/CLI.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/calibrate.hpp>
@@ -24,7 +26,7 @@ int fail(const std::exception& error, int status) {
 
 int run(int count, char** arguments) {
     CLI::App program("2D proximity queries between polygons on a Vulkan GPU", "nearfield");
-    program.set_version_flag("--version", "nearfield " NEARFIELD_VERSION);
+    program.set_version_flag("--version", std::string("nearfield ") + nearfield::version().text);
     program.footer(
         "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
     program.require_subcommand(1);

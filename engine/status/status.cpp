@@ -1,5 +1,7 @@
 #include <nearfield/status.hpp>
 
+#include <utility>
+
 namespace nearfield {
 
 const char* to_string(StatusCode code) noexcept {
@@ -34,6 +36,28 @@ const char* to_string(StatusCode code) noexcept {
             return "device_error";
     }
     return "unknown";
+}
+
+struct Status::Words {
+    std::string message;
+    std::vector<std::string> reasons;
+};
+
+Status::Status(StatusCode code, std::string message, std::vector<std::string> reasons)
+    : code_(code),
+      words_(std::make_shared<const Words>(Words{std::move(message), std::move(reasons)})) {}
+
+const std::string& Status::message() const noexcept {
+    return words().message;
+}
+
+const std::vector<std::string>& Status::reasons() const noexcept {
+    return words().reasons;
+}
+
+const Status::Words& Status::words() const noexcept {
+    static const Words none;
+    return words_ ? *words_ : none;
 }
 
 std::string Status::text() const {

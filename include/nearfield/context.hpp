@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/cost.hpp>
+#include <nearfield/export.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
@@ -47,15 +48,15 @@ struct Settings {
 
 /// What an intersection strategy would need of a device and the device lacks.
 struct StrategyReport {
-    IntersectionStrategy strategy{};
+    IntersectionStrategy strategy{};   ///< which one is told about
     std::vector<std::string> missing;  ///< empty: the strategy is available
 };
 
 /// One Vulkan device that can be used, and every reason why not where it cannot.
 struct DeviceReport {
-    std::string name;
-    std::string driver;  ///< driver version and Vulkan version
-    bool usable = false;
+    std::string name;                  ///< as its driver gives it
+    std::string driver;                ///< driver version and Vulkan version
+    bool usable = false;               ///< nothing is missing
     std::vector<std::string> missing;  ///< what the base needs and the device lacks
     /// Every strategy, for a headless context, which enables the features there are.
     std::vector<StrategyReport> strategies;
@@ -63,24 +64,28 @@ struct DeviceReport {
 
 /// Every device of every installed driver, looked at without creating a device on any. An error
 /// only where there is no Vulkan loader or instance. Thread-safe.
-[[nodiscard]] Expected<std::vector<DeviceReport>> list_devices();
+[[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<DeviceReport>> list_devices();
 
 /// Names a batch in flight of one context. The default value names none.
 struct Ticket {
-    std::uint64_t number = 0;
+    std::uint64_t number = 0;  ///< counts a context's batches; 0: no batch
 
+    /// Both name the same batch, in one context.
     friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
 /// How the render graph prints itself.
-enum class GraphFormat { text, graphviz };
+enum class GraphFormat {
+    text,      ///< for people
+    graphviz,  ///< a graph in the DOT language
+};
 
 /// Everything nearfield needs to answer queries on one device.
 ///
 /// A context is used by one thread at a time; several contexts are independent of each other, on
 /// one device too, as long as their queues are not used at the same time. Destroying a context
 /// waits for its batches in flight, for nothing else on the device, and frees all it made.
-class Context {
+class NEARFIELD_EXPORT Context {
 public:
     /// Adopts a host's device. Fails with every reason where the device does not suffice.
     [[nodiscard]] static Expected<Context> create(const HostDevice& host,
@@ -91,7 +96,9 @@ public:
                                                            const Settings& settings = {});
 
     ~Context();
+    /// What is moved from can only be destroyed or assigned to.
     Context(Context&&) noexcept;
+    /// Destroys what was there before.
     Context& operator=(Context&&) noexcept;
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;

@@ -18,11 +18,11 @@ namespace nearfield {
 /// Nothing needs to be enabled on the device: the base is Vulkan 1.1 without features and without
 /// extensions. The queue family must have VK_QUEUE_GRAPHICS_BIT and VK_QUEUE_COMPUTE_BIT.
 struct HostDevice {
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t queue_family = 0;
+    VkInstance instance = VK_NULL_HANDLE;               ///< made for Vulkan 1.1 or later
+    VkPhysicalDevice physical_device = VK_NULL_HANDLE;  ///< what `device` was made from
+    VkDevice device = VK_NULL_HANDLE;                   ///< all objects are made on it
+    VkQueue queue = VK_NULL_HANDLE;                     ///< all work is submitted to it
+    std::uint32_t queue_family = 0;                     ///< of `queue`
     /// Every entry point is fetched through this one.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     /// The instance was created with VK_EXT_debug_utils: objects are named, passes are labelled.

@@ -1,4 +1,5 @@
 #include <nearfield/context.hpp>
+#include <nearfield/version.hpp>
 
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
@@ -17,7 +18,7 @@ CLI::App* add_info_command(CLI::App& program) {
 }
 
 int run_info() {
-    std::cout << "nearfield " NEARFIELD_VERSION "\n";
+    std::cout << "nearfield " << version().text << '\n';
     const std::vector<DeviceReport> devices = take(list_devices());
     bool any_usable = false;
     for (const DeviceReport& device : devices) {
