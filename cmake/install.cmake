@@ -42,6 +42,7 @@ set(pkg_config_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 foreach(folder IN ITEMS "" INCLUDE LIB)
     file(RELATIVE_PATH to_${folder}
          ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_${folder}DIR})
+    string(REGEX REPLACE "/$" "" to_${folder} ${to_${folder}})
 endforeach()
 configure_file(cmake/nearfield.pc.in ${PROJECT_BINARY_DIR}/package/nearfield.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/nearfield.pc

@@ -14,7 +14,10 @@ function(nearfield_library target)
     target_include_directories(${target} SYSTEM PUBLIC $<BUILD_INTERFACE:${NEARFIELD_VULKAN_INCLUDE}>)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_link_libraries(${target} PUBLIC $<INSTALL_INTERFACE:nearfield::vulkan_headers>
-        PRIVATE $<BUILD_INTERFACE:nearfield_options> hwy::hwy ${CMAKE_DL_LIBS})
+        PRIVATE hwy::hwy ${CMAKE_DL_LIBS})
+    if(NEARFIELD_SANITIZE)
+        target_link_options(${target} PRIVATE -fsanitize=${NEARFIELD_SANITIZE})
+    endif()
     set_target_properties(${target} PROPERTIES
         OUTPUT_NAME nearfield LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}
         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

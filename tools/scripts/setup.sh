@@ -11,7 +11,10 @@ run_packages=(
     libvulkan-dev libvulkan1 mesa-vulkan-drivers
     libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgeos-dev vulkan-validationlayers clang-format clang-tidy)
+test_packages=(
+    libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
+    doxygen dpkg-dev gdb python3
+)
 bench_packages=(
     libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
 )

@@ -46,8 +46,7 @@ check_format() {
 # clang-tidy reads each room of the product as one file, so that Eigen and the standard library are
 # read once a room and not once a file.
 check_tidy() {
-    configure tidy -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 \
-        -DNEARFIELD_BUILD_TESTS=OFF >/dev/null
+    configure tidy >/dev/null
     build tidy --target nearfield_spirv nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
@@ -55,35 +54,62 @@ check_tidy() {
 
 # The rooms that need no driver, with every memory access, leak and undefined operation watched. What
 # runs graphs on a device is left out: drivers leak on their own account.
-# Warnings are not errors here: the sanitizers' own code sets off false ones.
 check_sanitized() {
     local test tests=(test_geometry test_localize test_exact test_graph)
-    configure sanitize -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
-        "-DNEARFIELD_SANITIZE=address,undefined" -DNEARFIELD_BUILD_TOOLS=OFF \
-        -DNEARFIELD_WARNINGS_AS_ERRORS=OFF >/dev/null
+    configure sanitize >/dev/null
     build sanitize --target "${tests[@]}"
     for test in "${tests[@]}"; do
         "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
     done
 }
 
-# A host gives the Vulkan entry points at run time: the library defines none and asks for none.
-check_symbols() {
-    local symbols
-    symbols=$(nm --format=just-symbols "$root/build/release/libnearfield.a" | grep '^vk[A-Z]' || true)
-    [[ -z $symbols ]] || {
-        printf 'libnearfield.a has Vulkan entry points of its own:\n%s\n' "$symbols"
+# expect_none WHAT LINES: fails where there are lines, and shows them.
+expect_none() {
+    [[ -z $2 ]] || {
+        printf '%s:\n%s\n' "$1" "$2"
         return 1
     }
+}
+
+# A host gives the Vulkan entry points at run time: the libraries define none and ask for none. The
+# shared one exports the public interface and nothing else, nor anything that can be there only once
+# in a process (u), which would keep it from being unloaded.
+check_symbols() {
+    local archive="$root/build/release/libnearfield.a" shared="$root/build/release/libnearfield.so"
+    local exported
+    expect_none 'libnearfield.a has Vulkan entry points of its own' \
+        "$(nm --format=just-symbols "$archive" | grep '^vk[A-Z]' || true)"
+    expect_none 'libnearfield.so has Vulkan entry points of its own' \
+        "$(nm --dynamic --format=just-symbols "$shared" | grep '^vk[A-Z]' || true)"
+    exported=$(nm --dynamic --defined-only --demangle "$shared" | cut --delimiter=' ' --fields=2-)
+    grep --quiet '^T nearfield::version()' <<<"$exported"
+    expect_none 'libnearfield.so exports more than functions of nearfield' \
+        "$(grep --invert-match '^T nearfield::' <<<"$exported" || true)"
+    expect_none 'libnearfield.so exports what is not public' \
+        "$(grep 'nearfield::[a-z_]*::\|Implementation::' <<<"$exported" || true)"
+}
+
+# The reference is made without a warning, so every public item is documented; what Doxygen does not
+# look at, enumerators, is looked for in what it wrote.
+check_reference() {
+    local undocumented
+    rm -rf "$root/build/reference"
+    mkdir -p "$root/build"
+    (cd "$root" && doxygen docs/Doxyfile)
+    undocumented=$(awk '/<enumvalue /{name = ""; said = 0} /<para>/{said = 1}
+        name == "" && /<name>/{gsub(/ *<[^>]*>/, ""); name = $0}
+        /<\/enumvalue>/ && !said {print FILENAME ": " name}' "$root"/build/reference/xml/*.xml)
+    expect_none 'These enumerators are not documented' "$undocumented"
 }
 
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" test
 fi
-step "Configure" configure release -DCMAKE_BUILD_TYPE=Release -DNEARFIELD_BUILD_TESTS=ON
+step "Configure" configure release
 step "Build" build release
 step "Tests" run_tests
-step "No Vulkan symbols in the library" check_symbols
+step "Symbols of the libraries" check_symbols
+step "Reference" check_reference
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
