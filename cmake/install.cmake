@@ -48,7 +48,7 @@ configure_file(cmake/nearfield.pc.in ${PROJECT_BINARY_DIR}/package/nearfield.pc 
 install(FILES ${PROJECT_BINARY_DIR}/package/nearfield.pc
         DESTINATION ${pkg_config_folder} COMPONENT development)
 
-install(FILES README.md CHANGELOG.md LICENSE third_party_notes.md
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE third_party_notes.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png")

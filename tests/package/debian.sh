@@ -12,7 +12,11 @@ cpack -G DEB --config "$BUILD/CPackConfig.cmake" -B "$work" >"$work/log" || {
 # file_of PACKAGE: its file.
 file_of() { find "$work" -maxdepth 1 -name "$1_*.deb"; }
 # has PACKAGE PATTERN: a path in the package matches.
-has() { dpkg-deb --contents "$(file_of "$1")" | grep --quiet -E " \./$2( |\$)" || fail "$1 lacks $2"; }
+has() {
+    local contents
+    contents=$(dpkg-deb --contents "$(file_of "$1")")
+    grep --quiet --extended-regexp " \./$2( |\$)" <<<"$contents" || fail "$1 lacks $2"
+}
 # says PACKAGE FIELD PATTERN: a field of its control file matches.
 says() {
     local text
@@ -38,8 +42,9 @@ says libnearfield0 Depends 'libc6.*libhwy1.*libstdc\+\+6'
 says libnearfield-dev Depends 'libnearfield0 \(= [0-9.]+\)'
 says libnearfield-dev Depends libvulkan-dev
 says nearfield Depends 'libcairo2.*libhwy1'
-dpkg-deb --ctrl-tarfile "$(file_of libnearfield0)" | tar --extract --to-stdout ./shlibs |
-    grep --quiet '^libnearfield 0 libnearfield0' || fail "libnearfield0 has no shlibs"
+dpkg-deb --control "$(file_of libnearfield0)" "$work/control"
+[[ -f $work/control/triggers ]] || fail "libnearfield0 does not have the linker look again"
+grep --quiet '^libnearfield 0 libnearfield0' "$work/control/shlibs" || fail "libnearfield0 has no shlibs"
 
 mkdir "$work/all"
 for package in libnearfield0 libnearfield-dev nearfield; do
