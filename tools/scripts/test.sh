@@ -71,9 +71,17 @@ expect_none() {
     }
 }
 
+# The functions of the public interface that the library has code for, as the reference has them.
+public_functions() {
+    awk '/<memberdef /{wanted = /kind="function".* inline="no"/}
+        /<templateparamlist>/{wanted = 0}
+        /<definition>/{gsub(/ *<[^>]*>/, ""); name = $NF}
+        /<argsstring>/ && wanted && !/=(default|delete)/{print name}' "$root"/build/reference/xml/*.xml
+}
+
 # A host gives the Vulkan entry points at run time: the libraries define none and ask for none. The
-# shared one exports the public interface and nothing else, nor anything that can be there only once
-# in a process (u), which would keep it from being unloaded.
+# shared one exports the public interface, all of it and nothing else, nor anything that can be there
+# only once in a process (u), which would keep it from being unloaded.
 check_symbols() {
     local archive="$root/build/release/libnearfield.a" shared="$root/build/release/libnearfield.so"
     local exported
@@ -82,9 +90,11 @@ check_symbols() {
     expect_none 'libnearfield.so has Vulkan entry points of its own' \
         "$(nm --dynamic --format=just-symbols "$shared" | grep '^vk[A-Z]' || true)"
     exported=$(nm --dynamic --defined-only --demangle "$shared" | cut --delimiter=' ' --fields=2-)
-    grep --quiet '^T nearfield::version()' <<<"$exported"
     expect_none 'libnearfield.so exports more than functions of nearfield' \
         "$(grep --invert-match '^T nearfield::' <<<"$exported" || true)"
+    expect_none 'libnearfield.so does not export these (NEARFIELD_EXPORT)' \
+        "$(public_functions | sort --unique |
+            comm -23 - <(sed 's/^T //; s/[([].*//' <<<"$exported" | sort --unique))"
     expect_none 'libnearfield.so exports what is not public' \
         "$(grep 'nearfield::[a-z_]*::\|Implementation::' <<<"$exported" || true)"
 }
@@ -108,8 +118,8 @@ fi
 step "Configure" configure release
 step "Build" build release
 step "Tests" run_tests
-step "Symbols of the libraries" check_symbols
 step "Reference" check_reference
+step "Symbols of the libraries" check_symbols
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
