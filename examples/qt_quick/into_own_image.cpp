@@ -29,10 +29,6 @@ public:
         view_->setGraphicsDevice(QQuickGraphicsDevice::fromDeviceObjects(
             device_.physical_device(), device_.device(), static_cast<int>(device_.queue_family())));
     }
-    ~IntoOwnImage() override { control_.reset(); }  // before its window
-    IntoOwnImage(const IntoOwnImage&) = delete;
-    IntoOwnImage& operator=(const IntoOwnImage&) = delete;
-
     QQuickView& view() override { return *view_; }
 
     QImage render() override {

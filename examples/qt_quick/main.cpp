@@ -18,7 +18,7 @@ namespace {
 using namespace nearfield::examples;
 
 struct Options {
-    QString device;
+    QString way;
     QString screenshot;
     nearfield::Vector2 drag;
 };
@@ -40,32 +40,32 @@ nearfield::Vector2 parse_pair(const QString& text) {
 }
 
 Options parse_options(const QCoreApplication& application) {
-    const QCommandLineOption device("device", "whose Vulkan device: qt, ours, image", "WHOSE",
-                                    "qt");
+    const QCommandLineOption way("way", "whose Vulkan device: qt, ours; image: ours, and no window",
+                                 "WAY", "qt");
     const QCommandLineOption screenshot("screenshot", "write a picture and leave", "FILE.png");
     const QCommandLineOption drag("drag", "before the picture, drag the star by this (world units)",
                                   "X,Y", "0,0");
     QCommandLineParser parser;
-    parser.addOptions({device, screenshot, drag});
+    parser.addOptions({way, screenshot, drag});
     parser.addHelpOption();
     parser.process(application);
-    return {parser.value(device), parser.value(screenshot), parse_pair(parser.value(drag))};
+    return {parser.value(way), parser.value(screenshot), parse_pair(parser.value(drag))};
 }
 
 std::unique_ptr<Way> make_way(const Options& options) {
-    if (options.device == "qt") {
+    if (options.way == "qt") {
         return on_device_of_qt();
     }
-    if (options.device == "ours") {
+    if (options.way == "ours") {
         return on_own_device();
     }
-    if (options.device == "image") {
+    if (options.way == "image") {
         if (options.screenshot.isEmpty()) {
-            throw UsageError("--device image shows no window: it needs --screenshot");
+            throw UsageError("--way image shows no window: it needs --screenshot");
         }
         return into_own_image();
     }
-    throw UsageError("--device is qt, ours or image, not \"" + options.device.toStdString() + "\"");
+    throw UsageError("--way is qt, ours or image, not \"" + options.way.toStdString() + "\"");
 }
 
 /// The mouse does something at a place of the world.
