@@ -11,3 +11,4 @@
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
+#include <nearfield/submission.hpp>
