@@ -28,7 +28,10 @@ LiveContacts::LiveContacts(const HostDevice& host, std::uint32_t frames_in_fligh
 }
 
 void LiveContacts::record(VkCommandBuffer commands, std::uint64_t frame, const Scene& scene) {
-    while (!pending_.empty() && pending_.front().frame + frames_in_flight_ <= frame) {
+    if (frame >= frames_in_flight_) {
+        context_.frame_completed(frame - frames_in_flight_);
+    }
+    while (!pending_.empty() && context_.is_ready(pending_.front().ticket)) {
         take_over(pending_.front());
         pending_.pop_front();
     }
@@ -41,8 +44,11 @@ void LiveContacts::record(VkCommandBuffer commands, std::uint64_t frame, const S
     query.technique = Technique::compute;
     batch_.clear();
     query_ = batch_.add(query);
-    static_cast<void>(commands);
-    pending_.push_back({frame, value_of(context_.submit(batch_)), {scene.version(), poses, {}}});
+    Recording recording;
+    recording.commands = commands;
+    recording.frame = frame;
+    pending_.push_back(
+        {value_of(context_.record(batch_, recording)), {scene.version(), poses, {}}});
 }
 
 void LiveContacts::take_over(const Pending& pending) {

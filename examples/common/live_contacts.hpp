@@ -40,7 +40,6 @@ public:
 
 private:
     struct Pending {
-        std::uint64_t frame = 0;
         Ticket ticket;
         Snapshot asked;  ///< but for the contacts
     };
