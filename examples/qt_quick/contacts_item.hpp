@@ -1,6 +1,6 @@
 #pragma once
 
-#include "examples/common/scene.hpp"
+#include "common/scene.hpp"
 #include "render_side.hpp"
 
 #include <QQuickItem>

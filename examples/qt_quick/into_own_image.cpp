@@ -1,5 +1,5 @@
-#include "examples/common/own_device.hpp"
-#include "examples/common/resources.hpp"
+#include "common/own_device.hpp"
+#include "common/resources.hpp"
 #include "way.hpp"
 
 #include <QCoreApplication>

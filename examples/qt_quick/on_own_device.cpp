@@ -1,4 +1,4 @@
-#include "examples/common/own_device.hpp"
+#include "common/own_device.hpp"
 #include "way.hpp"
 
 #include <QQuickGraphicsDevice>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "examples/common/live_contacts.hpp"
-#include "examples/common/painter.hpp"
+#include "common/live_contacts.hpp"
+#include "common/painter.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "examples/common/live_contacts.hpp"
-#include "examples/common/own_device.hpp"
-#include "examples/common/painter.hpp"
+#include "common/live_contacts.hpp"
+#include "common/own_device.hpp"
+#include "common/painter.hpp"
 #include "screen.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "screen.hpp"
 
-#include "examples/common/resources.hpp"
+#include "common/resources.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "examples/common/own_device.hpp"
-#include "examples/common/owned.hpp"
+#include "common/own_device.hpp"
+#include "common/owned.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "window.hpp"
 
-#include "examples/common/owned.hpp"
+#include "common/owned.hpp"
 
 #include <SDL_vulkan.h>
 

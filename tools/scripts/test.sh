@@ -14,7 +14,7 @@ sources() {
     for pattern in "$@"; do
         names+=(-o -name "$pattern")
     done
-    find "$root"/{include,engine,passes,tools,tests} -type f \( "${names[@]}" \) -print0 | sort -z
+    find "$root"/{include,engine,passes,tools,examples,tests} -type f \( "${names[@]}" \) -print0 | sort -z
 }
 
 # The count of ctest's report with the given name.
@@ -47,8 +47,8 @@ check_format() {
 # read once a room and not once a file.
 check_tidy() {
     configure tidy -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 \
-        -DNEARFIELD_BUILD_TESTS=OFF >/dev/null
-    build tidy --target nearfield_spirv nearfield_embedded >/dev/null
+        -DNEARFIELD_BUILD_TESTS=OFF -DNEARFIELD_BUILD_EXAMPLES=ON >/dev/null
+    build tidy --target nearfield_spirv nearfield_examples_spirv nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
@@ -80,7 +80,8 @@ check_symbols() {
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" test
 fi
-step "Configure" configure release -DCMAKE_BUILD_TYPE=Release -DNEARFIELD_BUILD_TESTS=ON
+step "Configure" configure release -DCMAKE_BUILD_TYPE=Release -DNEARFIELD_BUILD_TESTS=ON \
+    -DNEARFIELD_BUILD_EXAMPLES=ON
 step "Build" build release
 step "Tests" run_tests
 step "No Vulkan symbols in the library" check_symbols
