@@ -4,15 +4,19 @@
 #include <engine/frame_ring.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
+#include <engine/gpu/submission.hpp>
 #include <engine/graph/format.hpp>
+#include <engine/growable.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/renderer.hpp>
 #include <engine/shape_store.hpp>
+#include <engine/stopwatch.hpp>
 #include <nearfield/context.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <new>
 #include <utility>
@@ -59,13 +63,15 @@ CostModel costs_of(const gpu::Device& device, const Settings& settings) {
         device.is_software() ? choose::DeviceClass::software : choose::DeviceClass::hardware));
 }
 
-void check_settings(const Settings& settings) {
+Settings checked(const Settings& given) {
+    const Settings settings = adopted(given, "Settings");
     if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
         throw Failure({StatusCode::invalid_settings, "frames_in_flight is " +
                                                          std::to_string(settings.frames_in_flight) +
                                                          "; it must be at least 1 and at most " +
                                                          std::to_string(most_frames_in_flight)});
     }
+    return settings;
 }
 
 Status lost_device() {
@@ -79,8 +85,7 @@ const char* gradient_format(const gpu::Device& device) {
 
 }  // namespace
 
-// Hidden, though what it is nested in is not.
-class [[gnu::visibility("hidden")]] Context::Implementation {
+class Context::Implementation {
 public:
     Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
                    const Settings& settings)
@@ -89,38 +94,48 @@ public:
           costs_(costs_of(device_, settings)),
           renderer_(device_),
           ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_,
-                gradient_format(device_), renderer_, shapes_) {}
+                gradient_format(device_), renderer_, shapes_) {
+        device_.log(LogLevel::information, [&] {
+            return "context on '" + device_.name() + "' made in " +
+                   std::to_string(making_.milliseconds()) + " ms, for " +
+                   std::to_string(settings.frames_in_flight) + " frames in flight";
+        });
+    }
+    ~Implementation() {
+        device_.log(LogLevel::information, [&] {
+            return "context on '" + device_.name() + "' goes; it took at most " +
+                   std::to_string(device_.memory_count().peak()) + " bytes of device memory";
+        });
+    }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
 
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
-    Expected<Ticket> submit(const Batch& batch, Results* memory);
-    bool is_ready(Ticket ticket) {
-        return lost_ || ring_.is_ready(ticket);
-    }
-    Status collect(Ticket ticket, Results & results);
+    Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
+    Expected<Ticket> record(const Batch& batch, const Recording& recording);
+    void frame_completed(std::uint64_t frame) { ring_.complete(frame); }
+    bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
+    Status collect(Ticket ticket, Results& results);
 
-    [[nodiscard]] ShapeStore& shapes() {
-        return shapes_;
-    }
-    [[nodiscard]] const gpu::Device& device() const {
-        return device_;
-    }
-    [[nodiscard]] const CostModel& costs() const {
-        return costs_;
-    }
-    [[nodiscard]] const Renderer& renderer() const {
-        return renderer_;
-    }
+    [[nodiscard]] ShapeStore& shapes() { return shapes_; }
+    [[nodiscard]] const gpu::Device& device() const { return device_; }
+    [[nodiscard]] const CostModel& costs() const { return costs_; }
+    [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
 private:
     /// Runs what has to do with the device; remembers where it is lost.
     template <class Action>
-    Status on_device(Action && action) {
+    Status on_device(Action&& action) {
         Status status = guarded(action);
-        lost_ = lost_ || status.code() == StatusCode::device_lost;
+        if (status.code() == StatusCode::device_lost && !lost_) {
+            lost_ = true;
+            device_.log(LogLevel::error, [&] { return "the device is lost: " + status.message(); });
+        }
         return status;
     }
 
+    Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
     CostModel costs_;
@@ -159,12 +174,27 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
     return {};
 }
 
-Expected<Ticket> Context::Implementation::submit(const Batch& batch, Results* memory) {
+Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission,
+                                                 Results* memory) {
     if (lost_) {
         return lost_device();
     }
     Ticket ticket;
-    Status status = on_device([&] { ticket = ring_.submit(batch.queries(), memory); });
+    Status status = on_device([&] {
+        const Submission order = adopted(submission, "Submission");
+        gpu::check_semaphores(device_, order);
+        ticket = ring_.submit(batch.queries(), order, memory);
+    });
+    return status.ok() ? Expected<Ticket>(ticket) : status;
+}
+
+Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
+    if (lost_) {
+        return lost_device();
+    }
+    Ticket ticket;
+    Status status =
+        on_device([&] { ticket = ring_.record(batch.queries(), adopted(recording, "Recording")); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
@@ -185,8 +215,9 @@ Context& Context::operator=(Context&&) noexcept = default;
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        check_settings(settings);
-        implementation = std::make_unique<Implementation>(nullptr, host, settings);
+        implementation = std::make_unique<Implementation>(
+            nullptr, adopted(host, "HostDevice", offsetof(HostDevice, debug_utils)),
+            checked(settings));
     });
     if (!status.ok()) {
         return status;
@@ -198,10 +229,10 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        check_settings(settings);
-        auto own = std::make_unique<gpu::HeadlessDevice>(options);
+        const Settings own_settings = checked(settings);
+        auto own = std::make_unique<gpu::HeadlessDevice>(adopted(options, "HeadlessOptions"));
         const HostDevice host = own->host();
-        implementation = std::make_unique<Implementation>(std::move(own), host, settings);
+        implementation = std::make_unique<Implementation>(std::move(own), host, own_settings);
     });
     if (!status.ok()) {
         return status;
@@ -236,12 +267,20 @@ Status Context::find_pairs(std::span<const Instance> instances, double reach,
 }
 
 Status Context::run(const Batch& batch, Results& results) {
-    const Expected<Ticket> ticket = implementation_->submit(batch, &results);
+    const Expected<Ticket> ticket = implementation_->submit(batch, {}, &results);
     return ticket.ok() ? implementation_->collect(*ticket, results) : ticket.status();
 }
 
-Expected<Ticket> Context::submit(const Batch& batch) {
-    return implementation_->submit(batch, nullptr);
+Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission) {
+    return implementation_->submit(batch, submission, nullptr);
+}
+
+Expected<Ticket> Context::record(const Batch& batch, const Recording& recording) {
+    return implementation_->record(batch, recording);
+}
+
+void Context::frame_completed(std::uint64_t frame) noexcept {
+    implementation_->frame_completed(frame);
 }
 
 bool Context::is_ready(Ticket ticket) {
@@ -264,6 +303,11 @@ const CostModel& Context::costs() const noexcept {
 
 const std::string& Context::device_name() const noexcept {
     return implementation_->device().name();
+}
+
+MemoryUse Context::memory_use() const noexcept {
+    const gpu::MemoryCount& count = implementation_->device().memory_count();
+    return {count.in_use(), count.peak()};
 }
 
 std::string Context::describe_graph(GraphFormat format) const {

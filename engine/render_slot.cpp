@@ -39,7 +39,7 @@ RenderSlot::RenderSlot(const gpu::Device& device, const passes::ComputeLayout& l
 }
 
 RenderSlot::~RenderSlot() {
-    if (in_flight_) {
+    if (flight_ == Flight::submitted) {
         try {
             submission_.wait();
         } catch (const Failure&) {
@@ -155,7 +155,9 @@ void RenderSlot::lay_out_output() {
         parts.end = parts.samples + sample_bytes;
         end = parts.end + smallest_part;
     }
-    read_back_.reserve(end);
+    stamp_offset_ = align(end);
+    read_back_.reserve(stamp_offset_ + sizeof(stamp_));
+    std::memset(read_back_.data() + stamp_offset_, 0, sizeof(stamp_));
     for (const std::uint32_t number : running_) {
         RoundOnDevice& on_device = rounds_[number];
         on_device.frame.mesh = mesh_.handle();
@@ -251,15 +253,51 @@ VkCommandBuffer RenderSlot::begin() {
     return submission_.begin();
 }
 
-void RenderSlot::submit() {
-    submission_.submit();
-    in_flight_ = true;
+void RenderSlot::submit(const Submission& order) {
+    submission_.submit(order);
+    flight_ = Flight::submitted;
+}
+
+void RenderSlot::end_recording(VkCommandBuffer commands, std::uint32_t stamp) {
+    const gpu::Functions& functions = device_->functions();
+    functions.vkCmdFillBuffer(commands, read_back_.handle(), stamp_offset_, sizeof(stamp), stamp);
+    const VkBufferMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                        .pNext = nullptr,
+                                        .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                        .dstAccessMask = VK_ACCESS_HOST_READ_BIT,
+                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .buffer = read_back_.handle(),
+                                        .offset = stamp_offset_,
+                                        .size = sizeof(stamp)};
+    functions.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                   VK_PIPELINE_STAGE_HOST_BIT, 0, 0, nullptr, 1, &to_host, 0,
+                                   nullptr);
+    stamp_ = stamp;
+    flight_ = Flight::recorded;
+}
+
+void RenderSlot::require_stamp() {
+    std::uint32_t found = 0;
+    std::memcpy(&found, read_back_.data() + stamp_offset_, sizeof(found));
+    if (found != stamp_) {
+        throw Failure({StatusCode::not_executed,
+                       "the host says that the frame of this batch is complete, but the device "
+                       "did not execute the commands recorded for it; was the command buffer "
+                       "submitted?"});
+    }
 }
 
 void RenderSlot::wait() {
-    submission_.wait();
-    in_flight_ = false;
+    if (flight_ == Flight::submitted) {
+        submission_.wait();
+    }
+    const bool recorded = flight_ == Flight::recorded;
+    flight_ = Flight::none;
     read_back_.invalidate();
+    if (recorded) {
+        require_stamp();
+    }
     for (const std::uint32_t number : running_) {
         RoundOnDevice& round = rounds_[number];
         std::memcpy(&round.sample_count, read_back_.data() + round.output.samples,

@@ -26,6 +26,13 @@ struct OutputParts {
     std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
 };
 
+/// How the commands of a slot get to the device.
+enum class Flight {
+    none,
+    submitted,  ///< by the slot, whose fence says when they are done
+    recorded,   ///< into a command buffer of the host, who says when they are done
+};
+
 /// One round of a slot as the device has it.
 struct RoundOnDevice {
     std::shared_ptr<Recipe> recipe;  ///< kept for as long as the device may use its images
@@ -37,14 +44,15 @@ struct RoundOnDevice {
     [[nodiscard]] bool had_room() const { return sample_count <= frame.sample_capacity; }
 };
 
-/// The device's side of one batch in flight: what the host must not touch before the fence of its
-/// submission. All rounds of the batch are in it, each with descriptor sets of its own and parts of
+/// The device's side of one batch in flight: what the host must not touch before the device is done
+/// with it. All rounds of the batch are in it, each with descriptor sets of its own and parts of
 /// the common buffers. Pipelines, recipes and their images belong to the Renderer and are shared by
 /// all slots. Keeps its memory; the steady state makes nothing.
 class RenderSlot {
 public:
     RenderSlot(const gpu::Device& device, const passes::ComputeLayout& layout);
-    /// Waits for the device where it is still at work.
+    /// Waits for what it submitted, where the device is still at work on it. What was recorded for
+    /// the host is the host's to wait for.
     ~RenderSlot();
     RenderSlot(const RenderSlot&) = delete;
     RenderSlot& operator=(const RenderSlot&) = delete;
@@ -67,11 +75,20 @@ public:
     /// The command buffer, empty.
     [[nodiscard]] VkCommandBuffer begin();
     [[nodiscard]] gpu::Timestamps& timestamps() { return timestamps_; }
-    void submit();
-    /// Submitted, and not waited for yet.
-    [[nodiscard]] bool in_flight() const { return in_flight_; }
-    /// wait() would not wait.
-    [[nodiscard]] bool is_done() const { return !in_flight_ || submission_.is_done(); }
+    void submit(const Submission& order = {});
+    /// Submits the semaphores of a batch that has no commands.
+    void submit_semaphores(const Submission& order) { submission_.submit_semaphores(order); }
+    /// Ends what was recorded into the host's command buffer. `stamp`, never 0 and never used
+    /// before, tells later whether the commands were executed.
+    void end_recording(VkCommandBuffer commands, std::uint32_t stamp);
+    /// On its way to the device, and not waited for yet.
+    [[nodiscard]] Flight flight() const { return flight_; }
+    /// wait() would not wait; of what was recorded only the host knows.
+    [[nodiscard]] bool is_done() const {
+        return flight_ != Flight::submitted || submission_.is_done();
+    }
+    /// Waits for what was submitted; what was recorded has to be done. Throws Failure
+    /// (not_executed) where it was not executed at all.
     void wait();
     /// Lets go of the recipes; not while in flight.
     void release();
@@ -92,6 +109,7 @@ private:
     void bind(const RoundOnDevice& on_device) const;
     void bind_compute(std::uint32_t number) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
+    void require_stamp();
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
@@ -106,7 +124,9 @@ private:
     std::vector<std::unique_ptr<ComputeBuffers>> compute_;
     std::vector<RoundOnDevice> rounds_;
     std::vector<std::uint32_t> running_;
-    bool in_flight_ = false;
+    Flight flight_ = Flight::none;
+    std::uint64_t stamp_offset_ = 0;  // in the read-back; what stands there is 0 until it executes
+    std::uint32_t stamp_ = 0;
 };
 
 }  // namespace nearfield

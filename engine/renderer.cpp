@@ -55,6 +55,7 @@ std::unique_ptr<RenderSlot> Renderer::make_slot() const {
 /// What a slot in flight uses lives on in it, whatever becomes of it here.
 std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent) {
     VkExtent2D atlas{plan::smallest_atlas, plan::smallest_atlas};
+    bool grows = false;
     for (const auto& recipe : recipes_) {
         if (recipe->needs() == needs) {
             if (recipe->extent().width >= extent.width &&
@@ -62,6 +63,7 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
                 return recipe;
             }
             atlas = recipe->extent();
+            grows = true;
         }
     }
     // Powers of two, so that an atlas that grows a little each frame is not made anew each frame.
@@ -71,6 +73,10 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
     while (atlas.height < extent.height) {
         atlas.height *= 2;
     }
+    device_->log(grows ? LogLevel::warning : LogLevel::information, [&] {
+        return std::string(grows ? "images grow to " : "images for a new kind of batch: ") +
+               std::to_string(atlas.width) + " x " + std::to_string(atlas.height);
+    });
     last_recipe_ = nullptr;
     std::erase_if(recipes_, [&](const auto& recipe) { return recipe->needs() == needs; });
     if (recipes_.size() == most_recipes) {
@@ -80,25 +86,45 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
     return recipes_.back();
 }
 
-std::uint32_t Renderer::sample_capacity(const plan::Round& round) const {
+std::uint32_t Renderer::sample_capacity(const plan::Round& round, SampleRoom room) const {
+    if (room == SampleRoom::all) {
+        return static_cast<std::uint32_t>(round.listed_cells);
+    }
     const std::uint64_t expected =
         std::max<std::uint64_t>(most_samples_, 4096 + round.listed_cells / 8);
     return static_cast<std::uint32_t>(std::min(round.listed_cells, expected));
 }
 
-void Renderer::submit(std::span<const plan::Round> rounds, plan::TileSize extent, RenderSlot& slot,
-                      Timings& timings) {
+void Renderer::prepare(std::span<const plan::Round> rounds, plan::TileSize extent, SampleRoom room,
+                       RenderSlot& slot, Timings& timings) {
     const Stopwatch start;
     slot.upload(rounds);
     slot.run(static_cast<std::uint32_t>(rounds.size()));
     for (const std::uint32_t number : slot.running()) {
         RoundOnDevice& round = slot.round(number);
         round.recipe = recipe_for(needs_of(rounds[number]), extent);
-        round.frame.sample_capacity = sample_capacity(rounds[number]);
+        round.frame.sample_capacity = sample_capacity(rounds[number], room);
         last_recipe_ = round.recipe;
     }
+    slot.lay_out_output();
     timings.plan += start.milliseconds();
-    record_and_submit(slot, timings);
+}
+
+void Renderer::submit(RenderSlot& slot, const Submission& order, Timings& timings) {
+    const Stopwatch start;
+    record_rounds(slot, slot.begin());
+    timings.record += start.milliseconds();
+    slot.submit(order);
+}
+
+void Renderer::record(RenderSlot& slot, VkCommandBuffer commands, std::uint32_t stamp,
+                      Timings& timings) {
+    const Stopwatch start;
+    device_->begin_label(commands, "nearfield");
+    record_rounds(slot, commands);
+    slot.end_recording(commands, stamp);
+    device_->end_label(commands);
+    timings.record += start.milliseconds();
 }
 
 bool Renderer::submit_those_without_room(RenderSlot& slot, Timings& timings) {
@@ -106,11 +132,12 @@ bool Renderer::submit_those_without_room(RenderSlot& slot, Timings& timings) {
     if (slot.running().empty()) {
         return false;
     }
-    record_and_submit(slot, timings);
+    slot.lay_out_output();
+    submit(slot, {}, timings);
     return true;
 }
 
-void Renderer::record(RenderSlot& slot, VkCommandBuffer commands) {
+void Renderer::record_rounds(RenderSlot& slot, VkCommandBuffer commands) {
     slot.timestamps().reset(commands);
     for (const std::uint32_t number : slot.running()) {
         const RoundOnDevice& round = slot.round(number);
@@ -119,14 +146,6 @@ void Renderer::record(RenderSlot& slot, VkCommandBuffer commands) {
         slot.hand_buffers_to(*round.recipe, number);
         round.recipe->execute(commands, slot.timestamps());
     }
-}
-
-void Renderer::record_and_submit(RenderSlot& slot, Timings& timings) {
-    const Stopwatch start;
-    slot.lay_out_output();
-    record(slot, slot.begin());
-    timings.record += start.milliseconds();
-    slot.submit();
 }
 
 void Renderer::wait(RenderSlot& slot, Timings& timings) {

@@ -11,8 +11,9 @@ gpu::Owned<VkSampler> make_sampler(const gpu::Device& device) {
     info.addressModeU = info.addressModeV = info.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateSampler(device.handle(), &info, nullptr, &sampler),
-               "vkCreateSampler", "texel fetches");
+    gpu::check(
+        device.functions().vkCreateSampler(device.handle(), &info, device.allocator(), &sampler),
+        "vkCreateSampler", "texel fetches");
     gpu::Owned<VkSampler> owned(device, sampler);
     device.name_object(VK_OBJECT_TYPE_SAMPLER, sampler, "nearfield texel sampler");
     return owned;
@@ -39,9 +40,9 @@ gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkS
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
-        "vkCreateDescriptorSetLayout", "compute passes");
+    gpu::check(device.functions().vkCreateDescriptorSetLayout(device.handle(), &info,
+                                                              device.allocator(), &layout),
+               "vkCreateDescriptorSetLayout", "compute passes");
     gpu::Owned<VkDescriptorSetLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, "nearfield compute set");
     return owned;
@@ -57,7 +58,8 @@ gpu::Owned<VkPipelineLayout> make_pipeline_layout(const gpu::Device& device,
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
+                                                         &layout),
                "vkCreatePipelineLayout", "compute passes");
     gpu::Owned<VkPipelineLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield compute layout");

@@ -13,7 +13,8 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool),
+    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, device.allocator(),
+                                                         &pool),
                "vkCreateDescriptorPool", "compute passes");
     gpu::Owned<VkDescriptorPool> owned(device, pool);
     device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "nearfield compute sets");

@@ -17,8 +17,12 @@ std::vector<std::string> null_handles(const HostDevice& host) {
     require(host.instance != VK_NULL_HANDLE, "instance");
     require(host.physical_device != VK_NULL_HANDLE, "physical_device");
     require(host.device != VK_NULL_HANDLE, "device");
-    require(host.queue != VK_NULL_HANDLE, "queue");
+    require(host.queue != VK_NULL_HANDLE || host.queue_access.submit != nullptr, "queue");
     require(host.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+    require(host.queue_access.lock != nullptr || host.queue_access.unlock == nullptr,
+            "queue_access.lock");
+    require(host.queue_access.unlock != nullptr || host.queue_access.lock == nullptr,
+            "queue_access.unlock");
     return missing;
 }
 
@@ -34,6 +38,9 @@ void refuse_if_any(std::vector<std::string> missing, const std::string& device) 
 
 Device::Device(const HostDevice& host) : host_(host) {
     refuse_if_any(null_handles(host), "the host's device");
+    if (host.allocator != nullptr) {
+        allocator_ = *host.allocator;
+    }
     std::vector<std::string> missing;
     load_instance_functions(missing);
     refuse_if_any(std::move(missing), "the host's instance");
@@ -118,6 +125,21 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags r
                                  std::to_string(allowed) + " (bit mask)"));
     }
     return best;
+}
+
+VkResult Device::submit(const VkSubmitInfo& info, VkFence fence) const {
+    const QueueAccess& access = host_.queue_access;
+    if (access.submit != nullptr) {
+        return access.submit(access.user, 1, &info, fence);
+    }
+    if (access.lock != nullptr) {
+        access.lock(access.user);
+    }
+    const VkResult result = functions_.vkQueueSubmit(host_.queue, 1, &info, fence);
+    if (access.unlock != nullptr) {
+        access.unlock(access.user);
+    }
+    return result;
 }
 
 VkMemoryPropertyFlags Device::memory_flags(std::uint32_t type) const {

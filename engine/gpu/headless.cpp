@@ -96,6 +96,7 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
         host_.queue_family = candidate.queue_family;
         host_.get_instance_proc_addr = instance_.get_instance_proc_addr();
         host_.debug_utils = instance_.debug_utils();
+        host_.log = options.log;
         host_.logic_op = candidate.support.logic_op;
         instance_.function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(
             host_.device, host_.queue_family, 0, &host_.queue);

@@ -41,7 +41,7 @@ gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     const std::string name = "nearfield image " + description.name;
     VkImage image = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateImage(device.handle(), &info, nullptr, &image),
+    gpu::check(device.functions().vkCreateImage(device.handle(), &info, device.allocator(), &image),
                "vkCreateImage", name);
     gpu::Owned<VkImage> owned(device, image);
     device.name_object(VK_OBJECT_TYPE_IMAGE, image, name);
@@ -59,25 +59,26 @@ gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
     info.subresourceRange = {aspects, 0, 1, 0, 1};
     const std::string name = "nearfield image " + description.name + " as " + purpose;
     VkImageView view = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateImageView(device.handle(), &info, nullptr, &view),
-               "vkCreateImageView", name);
+    gpu::check(
+        device.functions().vkCreateImageView(device.handle(), &info, device.allocator(), &view),
+        "vkCreateImageView", name);
     gpu::Owned<VkImageView> owned(device, view);
     device.name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
     return owned;
 }
 
-gpu::Owned<VkDeviceMemory> allocate(const gpu::Device& device,
-                                    const VkMemoryRequirements& requirements,
-                                    const std::string& name) {
+gpu::DeviceMemory allocate(const gpu::Device& device, const VkMemoryRequirements& requirements,
+                           const std::string& name) {
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     info.allocationSize = requirements.size;
     info.memoryTypeIndex =
         device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkAllocateMemory(device.handle(), &info, nullptr, &memory),
-               "vkAllocateMemory", name);
-    gpu::Owned<VkDeviceMemory> owned(device, memory);
+    gpu::check(
+        device.functions().vkAllocateMemory(device.handle(), &info, device.allocator(), &memory),
+        "vkAllocateMemory", name);
+    gpu::DeviceMemory owned(device, memory, requirements.size);
     device.name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
     return owned;
 }
@@ -95,9 +96,9 @@ gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPa
     info.layers = 1;
     const std::string name = "nearfield framebuffer " + pass_name;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateFramebuffer(device.handle(), &info, nullptr, &framebuffer),
-        "vkCreateFramebuffer", name);
+    gpu::check(device.functions().vkCreateFramebuffer(device.handle(), &info, device.allocator(),
+                                                      &framebuffer),
+               "vkCreateFramebuffer", name);
     gpu::Owned<VkFramebuffer> owned(device, framebuffer);
     device.name_object(VK_OBJECT_TYPE_FRAMEBUFFER, framebuffer, name);
     return owned;

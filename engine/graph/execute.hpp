@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bake.hpp>
@@ -71,9 +72,9 @@ private:
 
     const gpu::Device* device_;
     BakedGraph baked_;
-    std::vector<gpu::Owned<VkDeviceMemory>> memory_;  // by memory slot
-    std::vector<Image> images_;                       // by resource
-    std::vector<GraphicsPass> graphics_;              // by position in baked_.passes
+    std::vector<gpu::DeviceMemory> memory_;  // by memory slot
+    std::vector<Image> images_;              // by resource
+    std::vector<GraphicsPass> graphics_;     // by position in baked_.passes
     std::vector<BarrierCall> calls_;  // by position in baked_.passes; last, the one to the host
     std::uint64_t image_bytes_ = 0;
 };

@@ -172,6 +172,13 @@ Status check_query(const IntersectionTestQuery& query) {
     return check_pair(query);
 }
 
+Status not_recordable(Technique technique) {
+    return {StatusCode::not_recordable,
+            std::string("gradient normals by the technique ") + to_string(technique) +
+                " take a second submission, at places that the first one finds; record them with "
+                "the technique cpu or automatic, ask for analytic normals, or submit the batch"};
+}
+
 Status unresolved(double tolerance, double largest_magnitude, double smallest) {
     return invalid("the tolerance " + number(tolerance) +
                    " is below what double precision resolves at coordinates of " +

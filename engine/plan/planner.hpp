@@ -33,6 +33,12 @@ struct PlanLimits {
     std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
 };
 
+/// How often a batch may go to the device.
+enum class Submissions {
+    any,  ///< again, where what came back asks for more
+    one,  ///< what would take more is refused
+};
+
 /// From queries to tiles: checks each query, localises it, cuts its regions into tiles, spreads
 /// points over them and packs all tiles of the batch. Keeps its scratch memory from batch to batch.
 class Planner {
@@ -42,10 +48,10 @@ public:
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
     /// regions. What is wrong with one query stands in its result and leaves it without tiles. No
     /// query has Technique::automatic any more: that was replaced by what was chosen. `shapes`: of
-    /// each query.
+    /// each query. `submissions`: that the batch may take.
     /// Throws Failure (too_large) where the batch needs more memory than the limit.
     void plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes, Plan& plan,
-              std::vector<AnyResult>& results);
+              std::vector<AnyResult>& results, Submissions submissions = Submissions::any);
 
     /// Milliseconds of the last plan() spent in hierarchies.
     [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }

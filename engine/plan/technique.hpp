@@ -31,4 +31,13 @@ template <class Query>
                       query);
 }
 
+/// Where the answer is is known only after the device was asked once, and it has to be asked again.
+template <class Query>
+[[nodiscard]] bool takes_a_second_submission(const Query& query) {
+    if constexpr (std::is_same_v<Query, ContactQuery>) {
+        return query.normals == ContactNormals::gradient && query.technique != Technique::cpu;
+    }
+    return false;
+}
+
 }  // namespace nearfield::plan

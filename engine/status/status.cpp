@@ -16,10 +16,18 @@ const char* to_string(StatusCode code) noexcept {
             return "unknown_shape";
         case StatusCode::invalid_settings:
             return "invalid_settings";
+        case StatusCode::invalid_submission:
+            return "invalid_submission";
         case StatusCode::unknown_ticket:
             return "unknown_ticket";
         case StatusCode::ring_full:
             return "ring_full";
+        case StatusCode::not_ready:
+            return "not_ready";
+        case StatusCode::not_executed:
+            return "not_executed";
+        case StatusCode::not_recordable:
+            return "not_recordable";
         case StatusCode::too_large:
             return "too_large";
         case StatusCode::no_device:

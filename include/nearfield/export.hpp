@@ -10,6 +10,9 @@
 /// these symbols on links with `-Wl,--exclude-libs,libnearfield.a`.
 #if defined(__GNUC__)
 #define NEARFIELD_EXPORT [[gnu::visibility("default")]]
+/// Takes that back for a class inside an exported one.
+#define NEARFIELD_HIDDEN [[gnu::visibility("hidden")]]
 #else
 #define NEARFIELD_EXPORT
+#define NEARFIELD_HIDDEN
 #endif

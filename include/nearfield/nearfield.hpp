@@ -11,4 +11,5 @@
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
+#include <nearfield/submission.hpp>
 #include <nearfield/version.hpp>

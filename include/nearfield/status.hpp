@@ -21,10 +21,14 @@ enum class StatusCode {
     invalid_query,     ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
     unknown_shape,     ///< a handle that was never given out, or whose shape was removed
     invalid_settings,  ///< a setting of a context cannot be used (frames in flight, ...)
-    unknown_ticket,    ///< a ticket that was never given out, or was collected already
-    ring_full,         ///< as many batches are in flight as may be; one has to be collected first
-    too_large,         ///< the answer would need more memory than the stated limit
-    no_device,         ///< no Vulkan driver, or no device in it, that could be used
+    invalid_submission,  ///< what came with a batch cannot be used (semaphore, frame, ...)
+    unknown_ticket,      ///< a ticket that was never given out, or was collected already
+    ring_full,           ///< as many batches are in flight as may be; one has to be collected first
+    not_ready,           ///< the frame that a batch was recorded for is not complete yet
+    not_executed,        ///< the commands recorded for a batch were never executed
+    not_recordable,      ///< a query takes more than one submission, and so cannot be recorded
+    too_large,           ///< the answer would need more memory than the stated limit
+    no_device,           ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
     unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
     out_of_memory,         ///< host or device memory ran out

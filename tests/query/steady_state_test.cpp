@@ -3,6 +3,7 @@
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
 #include <tests/support/fake_loader.hpp>
+#include <tests/support/host_frames.hpp>
 
 #include <optional>
 #include <string_view>
@@ -131,6 +132,14 @@ protected:
         EXPECT_EQ(all - allocations_below, 0U) << "in " << frames << " frames";
     }
 
+    /// What the host does itself does not count.
+    template <class Action>
+    static void by_others(const Action& action) {
+        const std::uint64_t before = test_support::allocation_count_of_this_thread();
+        action();
+        allocations_below += test_support::allocation_count_of_this_thread() - before;
+    }
+
     static void expect_answers(const Results& results) {
         for (std::size_t i = 0; i < results.results.size(); ++i) {
             std::visit(
@@ -207,6 +216,41 @@ TEST_F(SteadyState, AThousandFramesInFlightAllocateAndCreateNothing) {
     });
     expect_answers(results);
     EXPECT_EQ(results.results.size(), batch().queries().size());
+}
+
+TEST_F(SteadyState, AThousandRecordedFramesAllocateAndCreateNothing) {
+    constexpr std::uint64_t frames = 2;
+    test_support::HostFrames host(host_device(), frames);
+    // Refusing a query takes words, which take memory: the batch has none to refuse.
+    Batch recordable;
+    for (const AnyQuery& query : batch().queries()) {
+        const auto* const contacts = std::get_if<ContactQuery>(&query);
+        if (contacts == nullptr || contacts->normals == ContactNormals::analytic) {
+            std::visit([&](const auto& same) { recordable.add(same); }, query);
+        }
+    }
+    Results results;
+    Ticket tickets[frames];
+    std::uint64_t number = 0;
+    expect_nothing_made(1000, [&](int form) {
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        by_others([&] { commands = host.begin(number); });
+        Ticket& ticket = tickets[number % frames];
+        bool ok = deform(form);
+        if (number >= frames) {
+            watched().frame_completed(number - frames);
+            ok = ok && watched().collect(ticket, results).ok();
+        }
+        const Expected<Ticket> next =
+            watched().record(recordable, {.commands = commands, .frame = number});
+        ok = ok && next.ok();
+        ticket = next.ok() ? *next : Ticket{};
+        by_others([&] { host.submit(number++); });
+        return ok;
+    });
+    expect_answers(results);
+    EXPECT_EQ(results.results.size(), recordable.queries().size());
+    host.wait(number - 1);
 }
 
 TEST_F(SteadyState, FramesThatAreWaitedForAllocateAndCreateNothing) {

@@ -14,7 +14,7 @@ sources() {
     for pattern in "$@"; do
         names+=(-o -name "$pattern")
     done
-    find "$root"/{include,engine,passes,tools,tests} -type f \( "${names[@]}" \) -print0 | sort -z
+    find "$root"/{include,engine,passes,tools,examples,tests} -type f \( "${names[@]}" \) -print0 | sort -z
 }
 
 # The count of ctest's report with the given name.
@@ -47,7 +47,7 @@ check_format() {
 # read once a room and not once a file.
 check_tidy() {
     configure tidy >/dev/null
-    build tidy --target nearfield_spirv nearfield_embedded >/dev/null
+    build tidy --target nearfield_spirv nearfield_examples_spirv nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
