@@ -2,6 +2,7 @@
 #include <engine/failure.hpp>
 
 #include <algorithm>
+#include <string>
 
 namespace nearfield {
 namespace {
@@ -9,6 +10,14 @@ namespace {
 std::span<const Vector2> points_of(const AnyQuery& query) {
     const auto* const field = std::get_if<DistanceFieldQuery>(&query);
     return field == nullptr ? std::span<const Vector2>() : field->points;
+}
+
+/// Which of those that stay on the device is a query's.
+template <class HandedOver>
+std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [query](const HandedOver& one) { return one.query == query; });
+    return static_cast<std::size_t>(found - all.begin());
 }
 
 }  // namespace
@@ -60,6 +69,8 @@ void BatchRunner::make_rounds() {
     for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
         builder.build(plan_, number, rounds_[number]);
     }
+    hand_over_builder_.build(plan_, std::span(rounds_).first(plan_.rounds), results_.results,
+                             hand_over_);
     timings.plan += start.milliseconds();
 }
 
@@ -78,15 +89,51 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
     timings.localize += planner.localize_milliseconds();
     timings.plan += start.milliseconds() - planner.localize_milliseconds();
     decoder_.begin_batch(plan_);
-    if (plan_.rounds > 0) {
-        make_rounds();
-        renderer_->submit(std::span(rounds_).first(plan_.rounds), plan_.extent, *slot_, timings);
+    make_rounds();
+    if (plan_.rounds > 0 || !hand_over_.empty()) {
+        renderer_->submit(std::span(rounds_).first(plan_.rounds), hand_over_, plan_.extent, *slot_,
+                          timings);
         submitted_ = {};
         device_milliseconds_.reset();
     }
     const Stopwatch decode_start;
     decoder_.answer_on_cpu(plan_, results_.results);
     timings.decode += decode_start.milliseconds();
+}
+
+template <class Query>
+void BatchRunner::require_resident(QueryHandle<Query> handle) const {
+    const auto refuse = [&](const std::string& why) {
+        throw Failure({StatusCode::invalid_query,
+                       "resident: query " + std::to_string(handle.index) + " " + why});
+    };
+    if (handle.index >= queries_.size()) {
+        refuse("is none of the batch, which has " + std::to_string(queries_.size()));
+    }
+    const auto* const query = std::get_if<Query>(&queries_[handle.index]);
+    if (query == nullptr) {
+        refuse("is of another kind than its handle says");
+    } else if (!query->resident) {
+        refuse("did not ask for results that stay on the device (resident)");
+    }
+    const Status& status =
+        std::visit([](const auto& result) -> const Status& { return result.status; },
+                   results_.results[handle.index]);
+    if (!status.ok()) {
+        throw Failure(status);
+    }
+}
+
+template void BatchRunner::require_resident(QueryHandle<PenetrationQuery>) const;
+template void BatchRunner::require_resident(QueryHandle<ContactQuery>) const;
+
+ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) const {
+    require_resident(handle);
+    return slot_->hand_over().field(place_of(hand_over_.fields, handle.index));
+}
+
+ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
+    return slot_->hand_over().records(place_of(hand_over_.records, query));
 }
 
 bool BatchRunner::is_done() {

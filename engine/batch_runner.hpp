@@ -1,6 +1,8 @@
 #pragma once
 
 #include <engine/choose/chooser.hpp>
+#include <engine/hand_over_builder.hpp>
+#include <engine/plan/hand_over.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
@@ -47,6 +49,15 @@ public:
     /// left to GradientNormals.
     void collect();
 
+    /// What stays on the device of a query, after submit(). Throws Failure where there is nothing,
+    /// for each reason by name.
+    [[nodiscard]] ResidentField resident(QueryHandle<DistanceFieldQuery> handle) const;
+    template <class Query>
+    [[nodiscard]] ResidentRecords resident(QueryHandle<Query> handle) const {
+        require_resident(handle);
+        return resident_records(handle.index);
+    }
+
     /// Of the last batch, until the next: complete after collect(), but for their total time. May
     /// be swapped for other results, whose memory is then reused.
     [[nodiscard]] Results& results() { return results_; }
@@ -61,6 +72,9 @@ private:
     void make_rounds();
     void wait();
     void decode(std::uint32_t number);
+    template <class Query>
+    void require_resident(QueryHandle<Query> handle) const;
+    [[nodiscard]] ResidentRecords resident_records(std::uint32_t query) const;
 
     Planning* planning_;
     Renderer* renderer_;
@@ -70,6 +84,8 @@ private:
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::Round> rounds_;  // the first Plan::rounds of them
+    HandOverBuilder hand_over_builder_;
+    plan::HandOver hand_over_;
     ResultDecoder decoder_;
     Results results_;
     Stopwatch submitted_;

@@ -27,6 +27,12 @@ public:
     /// Waits for one batch and writes its results. Throws Failure (unknown_ticket) where there is
     /// none; after any other Failure too the ticket is used up.
     void collect(Ticket ticket, Results& results);
+    /// What stays on the device of a query of a batch in flight. Throws as collect() does, and
+    /// where there is nothing.
+    template <class Query>
+    [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
+        return require(ticket).runner.resident(handle);
+    }
     /// Gives up a batch of a device that is lost. Throws as collect() does.
     void drop(Ticket ticket);
 
