@@ -149,7 +149,7 @@ void HandOverBuilder::add_records(const plan::Plan& plan, std::span<const plan::
     }
     add_runs(plan, rounds, planned, 0, hand_over);
     if (reverse != nullptr) {
-        boundary_is_set_ = false;
+        b_.reset();
         add_runs(plan, rounds, *reverse, resident_flags::on_b, hand_over);
     }
 }
@@ -193,9 +193,8 @@ void HandOverBuilder::add_runs(const plan::Plan& plan, std::span<const plan::Rou
 /// Of B's boundary, whose points in the field of A the query asks for.
 std::uint32_t HandOverBuilder::normal_at(const PlannedQuery& planned,
                                          const plan::BoundaryPoint& point) {
-    if (!boundary_is_set_) {
-        boundary_.set(PlacedPolygon(*planned.a, planned.pose_a));
-        boundary_is_set_ = true;
+    if (!b_) {
+        boundary_.set(b_.emplace(*planned.a, planned.pose_a));
     }
     const Vector normal = outward_normal_at(boundary_, point);
     return as_snorm(normal.x()) | as_snorm(normal.y()) << 16U;

@@ -7,6 +7,7 @@
 #include <nearfield/result.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,8 +35,8 @@ private:
                                           const plan::BoundaryPoint& point);
 
     std::vector<std::pair<std::uint32_t, plan::FieldPartHandOver>> parts_;  // with their query
-    exact::Boundary boundary_;                                              // of B, of contacts
-    bool boundary_is_set_ = false;
+    std::optional<geometry::PlacedPolygon> b_;  // of contacts
+    exact::Boundary boundary_;                  // of that, where it is set
 };
 
 }  // namespace nearfield

@@ -87,20 +87,20 @@ void check_arrows(const Scene& scene, const Picture& picture, const ContactResul
 
 TEST_F(ResidentDrawing, AHostDrawsFieldAndContactsWithoutAnyReadBack) {
     Random random(seed);
-    Pair shapes{{"coast", coast(random, 90, 0.5)}, {"holes", with_holes(random, 2)}, {}, {}, 0.008};
-    shapes.pose_a = {{1.15, 0.35}, 0.4};
+    const Rings rings = with_holes(random, 2);
+    const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.006};
     ResidentView view(host_device(), pixels);
     for (const Technique technique : {Technique::raster, Technique::compute}) {
-        Scene scene{{context(), shapes, technique}, {{-1.6, -1.45}, 4.0 / pixels.width, 0.1, 0.1}};
+        Scene scene{{context(), shapes, technique}, {{-1.45, -1.1}, 2.9 / pixels.width, 0.1, 0.1}};
         DistanceFieldQuery field;
         field.b = scene.pair.instance_b();
         field.tolerance = scene.pair.tolerance();
         field.technique = technique;
-        field.rectangle = Rectangle{{-1.6, -1.45}, {2.4, 1.55}};
+        field.rectangle = Rectangle{{-1.5, -1.15}, {1.5, 1.15}};
         field.values = false;
         field.resident = true;
-        ContactQuery contacts = scene.pair.contacts(0.03);
-        contacts.tolerance = 0.03;
+        ContactQuery contacts = scene.pair.contacts(0.04);
+        contacts.tolerance = 0.04;
         contacts.resident = true;
 
         Batch batch;

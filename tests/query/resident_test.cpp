@@ -346,7 +346,7 @@ TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
 TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
     std::size_t compared = 0;
     std::size_t of_b = 0;
-    for_each_case(seed + 200, 8, [&](Random& random) {
+    for_each_case(seed + 200, 14, [&](Random& random) {
         for (const Technique technique : on_device) {
             const PlacedPair pair(context(), any_pair(random), technique);
             SCOPED_TRACE(describe(pair.pair()));
