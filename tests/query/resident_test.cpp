@@ -374,6 +374,39 @@ TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
     EXPECT_GT(of_b, 100U);
 }
 
+TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
+    Settings settings;
+    settings.memory_limit = std::uint64_t{32} << 20U;  // small atlas images
+    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    ASSERT_TRUE(made.ok()) << made.status().text();
+    Random random(seed);
+    const Rings rings = with_holes(random, 3);
+    const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.0007};
+    for (const Technique technique : on_device) {
+        const PlacedPair pair(*made, shapes, technique);
+        PenetrationQuery query = pair.penetration();
+        query.resident = true;
+        ResidentRecords resident;
+        RecordsContents contents;
+        const PenetrationResult result = ask(*made, query, [&](const ResidentRecords& records) {
+            resident = records;
+            contents = contents_of(records);
+        });
+        check_summary(resident, contents);
+        const auto by_place = [](const RecordContents& i, const RecordContents& j) {
+            return i.place < j.place;
+        };
+        // One round after the other: not in order, so there were several.
+        EXPECT_FALSE(std::is_sorted(contents.records.begin(), contents.records.end(), by_place));
+        std::sort(contents.records.begin(), contents.records.end(), by_place);
+        const Comparison comparison =
+            compare(pair, resident, contents, result.records, [&](double distance) {
+                return distance <= std::ldexp(result.cell, -15) + 2.0 * resident.error_bound;
+            });
+        EXPECT_GT(comparison.compared, 500U);
+    }
+}
+
 TEST_F(Resident, WhereNothingMeetsTheSummaryIsEmpty) {
     const Pair apart{{"square", rectangle({0.0, 0.0}, {1.0, 1.0})},
                      {"square", rectangle({0.0, 0.0}, {1.0, 1.0})},
