@@ -3,6 +3,7 @@
 #include <engine/plan/technique.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace nearfield {
@@ -11,6 +12,14 @@ namespace {
 std::span<const Vector2> points_of(const AnyQuery& query) {
     const auto* const field = std::get_if<DistanceFieldQuery>(&query);
     return field == nullptr ? std::span<const Vector2>() : field->points;
+}
+
+/// Which of those that stay on the device is a query's.
+template <class HandedOver>
+std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [query](const HandedOver& one) { return one.query == query; });
+    return static_cast<std::size_t>(found - all.begin());
 }
 
 }  // namespace
@@ -62,6 +71,8 @@ void BatchRunner::make_rounds() {
     for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
         builder.build(plan_, number, rounds_[number]);
     }
+    hand_over_builder_.build(plan_, std::span(rounds_).first(plan_.rounds), results_.results,
+                             hand_over_);
     timings.plan += start.milliseconds();
 }
 
@@ -99,13 +110,18 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     timings.localize += planner.localize_milliseconds();
     timings.plan += start.milliseconds() - planner.localize_milliseconds();
     decoder_.begin_batch(plan_);
-    if (plan_.rounds > 0) {
-        make_rounds();
+    make_rounds();
+    if (has_device_work()) {
         const SampleRoom room =
             submissions == plan::Submissions::one ? SampleRoom::all : SampleRoom::likely;
-        renderer_->prepare(std::span(rounds_).first(plan_.rounds), plan_.extent, room, *slot_,
-                           timings);
+        renderer_->prepare(std::span(rounds_).first(plan_.rounds), hand_over_, plan_.extent, room,
+                           *slot_, timings);
     }
+}
+
+/// Where there are no rounds, records that stay on the device are still to say that there are none.
+bool BatchRunner::has_device_work() const {
+    return plan_.rounds > 0 || !hand_over_.empty();
 }
 
 void BatchRunner::answer_on_cpu() {
@@ -117,7 +133,7 @@ void BatchRunner::answer_on_cpu() {
 void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                          const Submission& order) {
     begin(queries, find_shape, plan::Submissions::any);
-    if (plan_.rounds > 0) {
+    if (has_device_work()) {
         renderer_->submit(*slot_, order, results_.timings);
         submitted_ = {};
         device_milliseconds_.reset();
@@ -136,10 +152,45 @@ void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShap
                          VkCommandBuffer commands, std::uint32_t stamp) {
     begin(queries, find_shape, plan::Submissions::one);
     answer_on_cpu();
-    if (plan_.rounds > 0) {
+    if (has_device_work()) {
         renderer_->record(*slot_, commands, stamp, results_.timings);
         device_milliseconds_ = 0.0;  // the host alone knows
     }
+}
+
+template <class Query>
+void BatchRunner::require_resident(QueryHandle<Query> handle) const {
+    const auto refuse = [&](const std::string& why) {
+        throw Failure({StatusCode::invalid_query,
+                       "resident: query " + std::to_string(handle.index) + " " + why});
+    };
+    if (handle.index >= queries_.size()) {
+        refuse("is none of the batch, which has " + std::to_string(queries_.size()));
+    }
+    const auto* const query = std::get_if<Query>(&queries_[handle.index]);
+    if (query == nullptr) {
+        refuse("is of another kind than its handle says");
+    } else if (!query->resident) {
+        refuse("did not ask for results that stay on the device (resident)");
+    }
+    const Status& status =
+        std::visit([](const auto& result) -> const Status& { return result.status; },
+                   results_.results[handle.index]);
+    if (!status.ok()) {
+        throw Failure(status);
+    }
+}
+
+template void BatchRunner::require_resident(QueryHandle<PenetrationQuery>) const;
+template void BatchRunner::require_resident(QueryHandle<ContactQuery>) const;
+
+ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) const {
+    require_resident(handle);
+    return slot_->hand_over().field(place_of(hand_over_.fields, handle.index));
+}
+
+ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
+    return slot_->hand_over().records(place_of(hand_over_.records, query));
 }
 
 bool BatchRunner::is_done() {

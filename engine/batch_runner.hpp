@@ -1,6 +1,8 @@
 #pragma once
 
 #include <engine/choose/chooser.hpp>
+#include <engine/hand_over_builder.hpp>
+#include <engine/plan/hand_over.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/renderer.hpp>
@@ -57,6 +59,15 @@ public:
     /// contacts that are to be gradients are left to GradientNormals.
     void collect();
 
+    /// What stays on the device of a query, after submit(). Throws Failure where there is nothing,
+    /// for each reason by name.
+    [[nodiscard]] ResidentField resident(QueryHandle<DistanceFieldQuery> handle) const;
+    template <class Query>
+    [[nodiscard]] ResidentRecords resident(QueryHandle<Query> handle) const {
+        require_resident(handle);
+        return resident_records(handle.index);
+    }
+
     /// Of the last batch, until the next: complete after collect(), but for their total time. May
     /// be swapped for other results, whose memory is then reused.
     [[nodiscard]] Results& results() { return results_; }
@@ -69,12 +80,16 @@ private:
     void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                plan::Submissions submissions);
     void keep_off_the_device();
+    [[nodiscard]] bool has_device_work() const;
     void answer_on_cpu();
     void copy(std::span<const AnyQuery> queries);
     void begin_timings();
     void make_rounds();
     void wait();
     void decode(std::uint32_t number);
+    template <class Query>
+    void require_resident(QueryHandle<Query> handle) const;
+    [[nodiscard]] ResidentRecords resident_records(std::uint32_t query) const;
 
     Planning* planning_;
     Renderer* renderer_;
@@ -84,6 +99,8 @@ private:
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::Round> rounds_;  // the first Plan::rounds of them
+    HandOverBuilder hand_over_builder_;
+    plan::HandOver hand_over_;
     ResultDecoder decoder_;
     Results results_;
     Stopwatch submitted_;

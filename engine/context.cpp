@@ -48,6 +48,7 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     plan::PlanLimits limits;
     limits.subpixel = subpixel_grid(device);
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
+    limits.largest_image = device.limits().maxImageDimension2D;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
@@ -117,6 +118,16 @@ public:
     void frame_completed(std::uint64_t frame) { ring_.complete(frame); }
     bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
     Status collect(Ticket ticket, Results& results);
+
+    template <class Resident, class Query>
+    Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
+        if (lost_) {
+            return lost_device();
+        }
+        Resident result;
+        Status status = guarded([&] { result = ring_.resident(ticket, query); });
+        return status.ok() ? Expected<Resident>(result) : status;
+    }
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
@@ -289,6 +300,18 @@ bool Context::is_ready(Ticket ticket) {
 
 Status Context::collect(Ticket ticket, Results& results) {
     return implementation_->collect(ticket, results);
+}
+
+Expected<ResidentField> Context::resident(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
+    return implementation_->resident<ResidentField>(ticket, query);
+}
+
+Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<PenetrationQuery> query) {
+    return implementation_->resident<ResidentRecords>(ticket, query);
+}
+
+Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQuery> query) {
+    return implementation_->resident<ResidentRecords>(ticket, query);
 }
 
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {

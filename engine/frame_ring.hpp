@@ -35,6 +35,12 @@ public:
     /// none, (not_ready) where its frame is not complete; after any other Failure the ticket is
     /// used up.
     void collect(Ticket ticket, Results& results);
+    /// What stays on the device of a query of a batch in flight. Throws as collect() does, and
+    /// where there is nothing.
+    template <class Query>
+    [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
+        return require(ticket).runner.resident(handle);
+    }
     /// Gives up a batch of a device that is lost. Throws as collect() does.
     void drop(Ticket ticket);
 

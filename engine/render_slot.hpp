@@ -5,6 +5,8 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/hand_over_slot.hpp>
+#include <engine/plan/hand_over.hpp>
 #include <engine/plan/round.hpp>
 #include <engine/recipe.hpp>
 #include <passes/compute_layout.hpp>
@@ -57,9 +59,9 @@ public:
     RenderSlot(const RenderSlot&) = delete;
     RenderSlot& operator=(const RenderSlot&) = delete;
 
-    /// Takes rounds to the device's memory. They have to stay as they are until the slot takes
-    /// others, and the slot must not be in flight.
-    void upload(std::span<const plan::Round> rounds);
+    /// Takes rounds to the device's memory, and what is to be handed over of them. They have to
+    /// stay as they are until the slot takes others, and the slot must not be in flight.
+    void upload(std::span<const plan::Round> rounds, const plan::HandOver& hand_over);
     /// The rounds that the next submission is made of, by position.
     void run(std::uint32_t count);
     void run_those_without_room();
@@ -71,6 +73,19 @@ public:
     [[nodiscard]] const RoundOnDevice& round(std::uint32_t number) const { return rounds_[number]; }
     /// Points a recipe to the buffers of a round, for what is recorded next.
     void hand_buffers_to(Recipe& recipe, std::uint32_t number) const;
+
+    /// What stays on the device; its commands are part of a batch's first submission.
+    [[nodiscard]] const HandOverSlot& hand_over() const { return hand_over_; }
+    [[nodiscard]] bool is_to_hand_over() const { return is_to_hand_over_; }
+    /// What of the words that stay on the device the host wants all the same.
+    struct CopyBack {
+        VkBuffer words = VK_NULL_HANDLE;
+        VkBuffer read_back = VK_NULL_HANDLE;
+        std::span<const VkBufferCopy> ranges;
+    };
+    [[nodiscard]] CopyBack copy_back() const {
+        return {words_.handle(), read_back_.handle(), copies_};
+    }
 
     /// The command buffer, empty.
     [[nodiscard]] VkCommandBuffer begin();
@@ -106,6 +121,10 @@ private:
                        std::uint64_t& mesh_end) const;
     void copy_input(const RoundOnDevice& on_device) const;
     void empty_output(const RoundOnDevice& on_device) const;
+    void find_copies(const RoundOnDevice& on_device);
+    void bind_hand_over();
+    /// Where a round writes the words of its points and fields.
+    [[nodiscard]] VkBuffer words_of(const RoundOnDevice& on_device) const;
     void bind(const RoundOnDevice& on_device) const;
     void bind_compute(std::uint32_t number) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
@@ -118,7 +137,13 @@ private:
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
-    std::vector<passes::ComputeSets> sets_;  // by round
+    /// Laid out as the read-back, for rounds whose results stay on the device.
+    gpu::MappedBuffer words_;
+    HandOverSlot hand_over_;
+    bool is_to_hand_over_ = false;
+    std::vector<VkBufferCopy> copies_;
+    std::vector<HandOverSlot::Words> hand_over_words_;  // by round
+    std::vector<passes::ComputeSets> sets_;             // by round
     /// By round; null where it never was one of the compute technique. Each has scratch memory of
     /// its own, since no barrier stands between the rounds of a submission.
     std::vector<std::unique_ptr<ComputeBuffers>> compute_;

@@ -46,7 +46,12 @@ Needs needs_of(const plan::Round& round) {
 }  // namespace
 
 Renderer::Renderer(const gpu::Device& device)
-    : device_(&device), layout_(device), passes_(device, layout_, frame_) {}
+    : device_(&device),
+      layout_(device),
+      passes_(device, layout_, frame_),
+      copy_back_(device),
+      hand_over_field_(device, layout_),
+      hand_over_records_(device, layout_) {}
 
 std::unique_ptr<RenderSlot> Renderer::make_slot() const {
     return std::make_unique<RenderSlot>(*device_, layout_);
@@ -95,10 +100,12 @@ std::uint32_t Renderer::sample_capacity(const plan::Round& round, SampleRoom roo
     return static_cast<std::uint32_t>(std::min(round.listed_cells, expected));
 }
 
-void Renderer::prepare(std::span<const plan::Round> rounds, plan::TileSize extent, SampleRoom room,
-                       RenderSlot& slot, Timings& timings) {
+void Renderer::prepare(std::span<const plan::Round> rounds, const plan::HandOver& hand_over,
+                       plan::TileSize extent, SampleRoom room, RenderSlot& slot, Timings& timings) {
     const Stopwatch start;
-    slot.upload(rounds);
+    slot.upload(rounds, hand_over);
+    last_had_fields_ = !hand_over.fields.empty();
+    last_had_records_ = !hand_over.records.empty();
     slot.run(static_cast<std::uint32_t>(rounds.size()));
     for (const std::uint32_t number : slot.running()) {
         RoundOnDevice& round = slot.round(number);
@@ -146,6 +153,24 @@ void Renderer::record_rounds(RenderSlot& slot, VkCommandBuffer commands) {
         slot.hand_buffers_to(*round.recipe, number);
         round.recipe->execute(commands, slot.timestamps());
     }
+    record_hand_over(slot, commands);
+}
+
+void Renderer::record_hand_over(RenderSlot& slot, VkCommandBuffer commands) {
+    const RenderSlot::CopyBack copies = slot.copy_back();
+    if (!copies.ranges.empty()) {
+        copy_back_.record(commands, slot.timestamps(), copies.words, copies.read_back,
+                          copies.ranges);
+    }
+    if (slot.is_to_hand_over()) {
+        const HandOverSlot& hand_over = slot.hand_over();
+        for (std::size_t i = 0; i < hand_over.hand_over().fields.size(); ++i) {
+            hand_over_field_.record(commands, slot.timestamps(), hand_over.field_item(i));
+        }
+        for (std::size_t i = 0; i < hand_over.hand_over().records.size(); ++i) {
+            hand_over_records_.record(commands, slot.timestamps(), hand_over.records_item(i));
+        }
+    }
 }
 
 void Renderer::wait(RenderSlot& slot, Timings& timings) {
@@ -157,7 +182,14 @@ void Renderer::wait(RenderSlot& slot, Timings& timings) {
 }
 
 std::string Renderer::print(GraphFormat format) const {
-    return last_recipe_ == nullptr ? std::string() : last_recipe_->print(format);
+    std::string text = last_recipe_ == nullptr ? std::string() : last_recipe_->print(format);
+    if (last_had_fields_) {
+        text += hand_over_field_.print(format);
+    }
+    if (last_had_records_) {
+        text += hand_over_records_.print(format);
+    }
+    return text;
 }
 
 }  // namespace nearfield

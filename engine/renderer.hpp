@@ -5,6 +5,9 @@
 #include <engine/recipe.hpp>
 #include <engine/render_slot.hpp>
 #include <nearfield/result.hpp>
+#include <passes/copy_back.hpp>
+#include <passes/hand_over_field.hpp>
+#include <passes/hand_over_records.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -31,10 +34,11 @@ public:
     /// A slot for this renderer, which must outlive it.
     [[nodiscard]] std::unique_ptr<RenderSlot> make_slot() const;
 
-    /// Uploads rounds and finds room for what they bring back; adds to the time of planning. They
-    /// have to stay as they are, and the slot untouched, until the device is done.
-    void prepare(std::span<const plan::Round> rounds, plan::TileSize extent, SampleRoom room,
-                 RenderSlot& slot, Timings& timings);
+    /// Uploads rounds, and what is handed over of them, and finds room for what they bring back;
+    /// adds to the time of planning. They have to stay as they are, and the slot untouched, until
+    /// the device is done.
+    void prepare(std::span<const plan::Round> rounds, const plan::HandOver& hand_over,
+                 plan::TileSize extent, SampleRoom room, RenderSlot& slot, Timings& timings);
     /// Records what was prepared and submits it; adds to the time of recording.
     void submit(RenderSlot& slot, const Submission& order, Timings& timings);
     /// Records what was prepared into a command buffer of the host, with a stamp at its end
@@ -48,20 +52,26 @@ public:
     /// Returns false where there are none.
     [[nodiscard]] bool submit_those_without_room(RenderSlot& slot, Timings& timings);
 
-    /// The graph of the last round submitted; empty before the first.
+    /// The graph of the last round submitted, and those that handed over; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
     [[nodiscard]] std::shared_ptr<Recipe> recipe_for(Needs needs, plan::TileSize extent);
     [[nodiscard]] std::uint32_t sample_capacity(const plan::Round& round, SampleRoom room) const;
     void record_rounds(RenderSlot& slot, VkCommandBuffer commands);
+    void record_hand_over(RenderSlot& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
     passes::Frame frame_;  // of the round that is being recorded
     passes::ComputeLayout layout_;
     Passes passes_;
+    passes::CopyBack copy_back_;
+    passes::HandOverField hand_over_field_;
+    passes::HandOverRecords hand_over_records_;
     std::vector<std::shared_ptr<Recipe>> recipes_;
     std::shared_ptr<const Recipe> last_recipe_;
+    bool last_had_fields_ = false;  // among what was handed over of the last batch
+    bool last_had_records_ = false;
     std::uint32_t most_samples_ = 0;  // that any round found, so that the next one has room
 };
 

@@ -25,6 +25,7 @@
     X(vkCmdBindDescriptorSets)        \
     X(vkCmdBindPipeline)              \
     X(vkCmdBindVertexBuffers)         \
+    X(vkCmdCopyBuffer)                \
     X(vkCmdCopyQueryPoolResults)      \
     X(vkCmdDispatch)                  \
     X(vkCmdDraw)                      \

@@ -161,6 +161,9 @@ void Executor::create_views(const Graph& graph) {
         const Resource& resource = graph.resources()[i];
         const VkImageUsageFlags usage = baked_.lifetimes[i].usage;
         Image& image = images_[i];
+        if (!image.image) {
+            continue;  // unused, or the caller's
+        }
         if ((usage & ~static_cast<VkImageUsageFlags>(VK_IMAGE_USAGE_SAMPLED_BIT)) != 0) {
             image.attachment_view =
                 make_view(*device_, image.image.get(), resource.image, resource.image.format,
@@ -219,6 +222,7 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                    .image = images_[barrier.resource].image.get(),
                                    .subresourceRange = {all_aspects(resource), 0, 1, 0, 1}});
+            call.image_resources.push_back(barrier.resource);
         } else {
             call.buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
                                     .pNext = nullptr,
@@ -245,6 +249,16 @@ void Executor::set_buffer(Handle handle, VkBuffer buffer) {
     }
 }
 
+void Executor::set_image(Handle handle, VkImage image) {
+    for (BarrierCall& call : calls_) {
+        for (std::size_t i = 0; i < call.images.size(); ++i) {
+            if (call.image_resources[i] == handle.resource) {
+                call.images[i].image = image;
+            }
+        }
+    }
+}
+
 VkImageView Executor::sampled_view(Handle handle) const {
     return images_[handle.resource].sampled_view.get();
 }
@@ -255,6 +269,13 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
         if (call.buffers[i].buffer == VK_NULL_HANDLE) {
             throw Failure(graph_error("buffer '" +
                                       graph.resources()[call.buffer_resources[i]].name() +
+                                      "' was not set before the graph was executed"));
+        }
+    }
+    for (std::size_t i = 0; i < call.images.size(); ++i) {
+        if (call.images[i].image == VK_NULL_HANDLE) {
+            throw Failure(graph_error("image '" +
+                                      graph.resources()[call.image_resources[i]].name() +
                                       "' was not set before the graph was executed"));
         }
     }
@@ -292,6 +313,14 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
         device_->end_label(commands);
     }
     record_barriers(graph, commands, calls_.back());
+}
+
+std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {
+    Expected<BakedGraph> baked = bake(graph);
+    if (!baked.ok()) {
+        throw Failure(baked.status());
+    }
+    return std::make_unique<Executor>(device, graph, std::move(*baked));
 }
 
 }  // namespace nearfield::graph

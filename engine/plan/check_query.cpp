@@ -76,10 +76,11 @@ Status check_field(const DistanceFieldQuery& query) {
     if (!query.rectangle && query.a.shape == ShapeHandle{}) {
         return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
     }
-    if (!query.values && !query.features && !query.gradients && query.points.empty()) {
+    if (!query.values && !query.features && !query.gradients && query.points.empty() &&
+        !query.resident) {
         return invalid(
             "the distance field asks for nothing: neither for values, features or gradients at "
-            "cells nor for points");
+            "cells nor for points, nor for anything that stays on the device");
     }
     for (std::size_t i = 0; i < query.points.size(); ++i) {
         for (const double value : {query.points[i].x, query.points[i].y}) {
@@ -154,6 +155,11 @@ Status check_query(const ContactQuery& query) {
     if (query.normals != ContactNormals::analytic && query.normals != ContactNormals::gradient) {
         return invalid("the normals are no enumerator: " +
                        std::to_string(static_cast<int>(query.normals)));
+    }
+    if (query.resident && query.normals == ContactNormals::gradient) {
+        return invalid(
+            "contacts that stay on the device (resident) have analytic normals; gradient normals "
+            "are known only once the batch is collected");
     }
     return is_length(query.contact_distance)
                ? Status()

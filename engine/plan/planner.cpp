@@ -116,6 +116,9 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
                 result.technique = query.technique;
                 planned.on_cpu = result.technique == Technique::cpu;
                 planned.by_compute = result.technique == Technique::compute;
+                if constexpr (requires { query.resident; }) {
+                    planned.resident = query.resident;
+                }
                 // Success is not copied: it is what thousands of queries have in common.
                 if (Status status = check_query(query); !status.ok()) {
                     result.status = std::move(status);

@@ -18,6 +18,11 @@ template <class Query>
             return "blended gradients, which are drawn";
         }
     }
+    if constexpr (requires { query.resident; }) {
+        if (technique == Technique::cpu && query.resident) {
+            return "what is to stay on the device (resident)";
+        }
+    }
     if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
         if (technique != Technique::cpu && technique != Technique::automatic) {
             return "intersection tests";

@@ -5,6 +5,7 @@
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/resident.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -221,6 +222,21 @@ public:
     /// Fails as run() does; the ticket is used up all the same. Once the device is lost, every
     /// ticket in flight gives device_lost.
     Status collect(Ticket ticket, Results& results);
+
+    /// What a query that was asked with `resident` leaves on the device: from submit() or record()
+    /// until the batch is collected. The device has it once it has done the commands; resident.hpp
+    /// says how a host's shaders read it. Never waits.
+    ///
+    /// Fails with unknown_ticket as collect() does; with invalid_query where the handle names no
+    /// query of the batch of that kind, or one that was asked without `resident`; with the query's
+    /// own status where it was refused, as one for Technique::cpu is; with device_lost once the
+    /// device is lost.
+    [[nodiscard]] Expected<ResidentField> resident(Ticket ticket,
+                                                   QueryHandle<DistanceFieldQuery> query);
+    [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
+                                                     QueryHandle<PenetrationQuery> query);
+    [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
+                                                     QueryHandle<ContactQuery> query);
 
     /// Runs every technique on small made-up workloads and measures what each takes, for
     /// Settings::costs of later contexts on the same machine; nothing changes in this one. Takes

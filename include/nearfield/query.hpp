@@ -65,6 +65,10 @@ struct PenetrationQuery {
     PenetrationPoints points = PenetrationPoints::boundary;  ///< which points of A
     bool records = true;  ///< false: keep the summary (count, deepest) and leave the records out
     Technique technique = Technique::automatic;  ///< what answers
+    /// True: summary and records stay on the device as well, for shaders to read (resident.hpp);
+    /// Technique::automatic then chooses among those that answer on the device, and
+    /// Technique::cpu is refused (invalid_query).
+    bool resident = false;
 };
 
 /// What of each shape takes part in an intersection (the paper's section 2.2.1).
@@ -160,6 +164,10 @@ struct DistanceFieldQuery {
     /// submit() returns.
     std::span<const Vector2> points = {};
     Technique technique = Technique::automatic;  ///< what answers
+    /// True: images of the signed distance and of the nearest features stay on the device, for
+    /// shaders to sample (resident.hpp); of techniques as PenetrationQuery::resident. `values` and
+    /// `features` say what comes back to the CPU beside; both may be false, and then nothing does.
+    bool resident = false;
 };
 
 /// Where the normal of a contact comes from.
@@ -178,6 +186,8 @@ struct ContactQuery {
     ContactNormals normals = ContactNormals::analytic;  ///< how normals are found
     bool records = true;  ///< false: keep the summary and the manifold, leave the records out
     Technique technique = Technique::automatic;  ///< what answers
+    /// As PenetrationQuery::resident; with ContactNormals::analytic alone (invalid_query else).
+    bool resident = false;
 };
 
 /// The point of A that is closest to B (section 2.2.4, "Closest Point").

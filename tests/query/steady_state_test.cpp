@@ -104,6 +104,26 @@ protected:
     [[nodiscard]] Context& watched() { return *watched_; }
     [[nodiscard]] const Batch& batch() const { return batch_; }
 
+    /// Queries whose results stay on the device: fields first, then penetration.
+    [[nodiscard]] Batch resident_batch() const {
+        Batch batch;
+        DistanceFieldQuery field;
+        field.b = {b_, {{5.7, 5.1}, 0.3}};
+        field.tolerance = 0.1;
+        field.rectangle = Rectangle{{4.0, 4.0}, {6.0, 6.0}};
+        field.resident = true;
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            field.technique = technique;
+            batch.add(field);
+        }
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            const Instance here{a_, {{5.0, 5.0}, 0.0}};
+            batch.add(PenetrationQuery{here, field.b, 0.08, {}, true, technique, true});
+            batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, true, technique, true});
+        }
+        return batch;
+    }
+
     /// Both shapes take the next of their forms.
     [[nodiscard]] bool deform(int frame) {
         const auto form = static_cast<std::size_t>(frame) % rings_a_.size();
@@ -258,6 +278,27 @@ TEST_F(SteadyState, FramesThatAreWaitedForAllocateAndCreateNothing) {
     expect_nothing_made(
         50, [&](int number) { return deform(number) && watched().run(batch(), results).ok(); });
     expect_answers(results);
+}
+
+TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
+    const Batch batch = resident_batch();
+    Results results;
+    Ticket former;
+    expect_nothing_made(200, [&](int number) {
+        if (!deform(number)) {
+            return false;
+        }
+        const Expected<Ticket> ticket = watched().submit(batch);
+        const bool handed_over =
+            ticket.ok() && watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).ok() &&
+            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).ok();
+        const bool ok =
+            handed_over && (former == Ticket{} || watched().collect(former, results).ok());
+        former = ticket.ok() ? *ticket : Ticket{};
+        return ok;
+    });
+    expect_answers(results);
+    EXPECT_EQ(results.results.size(), batch.queries().size());
 }
 
 }  // namespace
