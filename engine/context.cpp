@@ -5,6 +5,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 #include <engine/graph/format.hpp>
+#include <engine/guarded.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/renderer.hpp>
@@ -13,28 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <utility>
 #include <vector>
 
 namespace nearfield {
 namespace {
-
-/// Turns whatever an action throws into a status: no exception crosses the interface.
-template <class Action>
-Status guarded(Action&& action) {
-    try {
-        action();
-        return {};
-    } catch (const Failure& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return {StatusCode::out_of_memory, "the host has no memory left"};
-    } catch (const std::exception& error) {
-        return {StatusCode::device_error, error.what()};
-    }
-}
 
 geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
     return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
@@ -101,15 +85,18 @@ public:
     [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
-private:
-    /// Runs what has to do with the device; remembers where it is lost.
+    /// Does something unless the device is lost; remembers where it gets lost.
     template <class Action>
-    Status on_device(Action&& action) {
+    Status unless_lost(Action&& action) noexcept {
+        if (lost_) {
+            return lost_device_;
+        }
         Status status = guarded(action);
-        lost_ = lost_ || status.code() == StatusCode::device_lost;
+        lost_ = status.code() == StatusCode::device_lost;
         return status;
     }
 
+private:
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
     CostModel costs_;
@@ -119,6 +106,7 @@ private:
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     Renderer renderer_;
     FrameRing ring_;
+    const Status lost_device_ = lost_device();  // made ahead: saying it needs no memory
     bool lost_ = false;
 };
 
@@ -149,20 +137,17 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
 }
 
 Expected<Ticket> Context::Implementation::submit(const Batch& batch, Results* memory) {
-    if (lost_) {
-        return lost_device();
-    }
     Ticket ticket;
-    Status status = on_device([&] { ticket = ring_.submit(batch.queries(), memory); });
+    Status status = unless_lost([&] { ticket = ring_.submit(batch.queries(), memory); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Status Context::Implementation::collect(Ticket ticket, Results& results) {
     if (lost_) {
         Status status = guarded([&] { ring_.drop(ticket); });
-        return status.ok() ? lost_device() : status;
+        return status.ok() ? lost_device_ : status;
     }
-    return on_device([&] { ring_.collect(ticket, results); });
+    return unless_lost([&] { ring_.collect(ticket, results); });
 }
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
@@ -200,27 +185,30 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
 
 Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
     Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = guarded([&] { handle = implementation_->shapes().add(rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { handle = implementation_->shapes().add(rings, deviation); });
     return status.ok() ? handle : Expected<ShapeHandle>(status);
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
     Status result;
-    Status status =
-        guarded([&] { result = implementation_->shapes().update(shape, rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->shapes().update(shape, rings, deviation); });
     return status.ok() ? result : status;
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
-    Status status = guarded([&] { result = implementation_->shapes().remove(shape); });
+    Status status =
+        implementation_->unless_lost([&] { result = implementation_->shapes().remove(shape); });
     return status.ok() ? result : status;
 }
 
 Status Context::find_pairs(std::span<const Instance> instances, double reach,
                            std::vector<InstancePair>& pairs) {
     Status result;
-    Status status = guarded([&] { result = implementation_->find_pairs(instances, reach, pairs); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->find_pairs(instances, reach, pairs); });
     return status.ok() ? result : status;
 }
 
@@ -243,7 +231,8 @@ Status Context::collect(Ticket ticket, Results& results) {
 
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {
     CostModel costs;
-    Status status = guarded([&] { costs = nearfield::measure_costs(*this, progress); });
+    Status status =
+        implementation_->unless_lost([&] { costs = nearfield::measure_costs(*this, progress); });
     return status.ok() ? Expected<CostModel>(costs) : status;
 }
 
@@ -258,7 +247,10 @@ const std::string& Context::device_name() const noexcept {
 std::string Context::describe_graph(GraphFormat format) const {
     std::string text;
     const Status status = guarded([&] { text = implementation_->renderer().print(format); });
-    return status.ok() ? text : status.text();
+    if (!status.ok()) {
+        static_cast<void>(guarded([&] { text = status.text(); }));
+    }
+    return text;
 }
 
 }  // namespace nearfield

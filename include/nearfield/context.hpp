@@ -80,6 +80,10 @@ enum class GraphFormat { text, graphviz };
 /// A context is used by one thread at a time; several contexts are independent of each other, on
 /// one device too, as long as their queues are not used at the same time. Destroying a context
 /// waits for its batches in flight, for nothing else on the device, and frees all it made.
+///
+/// After any error but device_lost a context goes on: the next batch is answered. Once the device
+/// is lost it stays lost: whatever can fail says device_lost, and no more work goes to Vulkan;
+/// destroy the context (that is still done properly) and make another on another device.
 class Context {
 public:
     /// Adopts a host's device. Fails with every reason where the device does not suffice.

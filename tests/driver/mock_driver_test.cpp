@@ -1,0 +1,35 @@
+#include <gtest/gtest.h>
+#include <tests/driver/world.hpp>
+#include <tests/support/mock_driver.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::MockDriver;
+
+constexpr Technique techniques[] = {Technique::raster, Technique::compute};
+
+TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
+    for (const Technique technique : techniques) {
+        World world(technique);
+        for (const World::Step step : World::steps) {
+            SCOPED_TRACE(to_string(step));
+            const Status status = world.take(step);
+            ASSERT_TRUE(status.ok()) << status.text();
+            EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
+            EXPECT_EQ(world.driver().alive().empty(), step == World::Step::destroy);
+            const auto& calls = world.driver().calls();
+            const bool submits =
+                std::find(calls.begin(), calls.end(), "vkQueueSubmit") != calls.end();
+            EXPECT_EQ(submits, step >= World::Step::submit_first && step != World::Step::destroy)
+                << "gradient normals are to be asked for when a batch is collected";
+            world.driver().forget_calls();
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
