@@ -115,19 +115,9 @@ void try_failure(Technique technique, const Failure& failure, const std::vector<
     EXPECT_EQ(driver.breaches(), std::vector<std::string>{});
 }
 
-/// The numbers of a batch that nothing has come in the way of.
-std::vector<double> undisturbed(Technique technique) {
-    World world(technique);
-    world.take_all_before(World::Step::submit_first);
-    std::vector<double> numbers;
-    const Status status = world.answer(numbers);
-    EXPECT_TRUE(status.ok()) << status.text();
-    return numbers;
-}
-
 TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
     for (const Technique technique : techniques) {
-        const std::vector<double> expected = undisturbed(technique);
+        const std::vector<double> expected = World::undisturbed(technique);
         const std::vector<Failure> failures = all_failures(technique);
         for (const Failure& failure : failures) {
             if (technique == Technique::compute && failure.step == World::Step::create) {
@@ -176,7 +166,7 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
 
 /// The part of device memory that the host sees is small on many cards.
 TEST(FailingCalls, MemoryThatIsRefusedOnceIsTakenElsewhere) {
-    const std::vector<double> expected = undisturbed(Technique::compute);
+    const std::vector<double> expected = World::undisturbed(Technique::compute);
     for (const Failure& failure : all_failures(Technique::compute)) {
         if (failure.call != "vkAllocateMemory" || failure.error != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
             continue;

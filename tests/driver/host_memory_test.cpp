@@ -56,14 +56,10 @@ void try_without_memory(Technique technique, World::Step step, std::uint64_t suc
 
 TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
     for (const Technique technique : {Technique::raster, Technique::compute}) {
-        World undisturbed(technique);
-        undisturbed.take_all_before(World::Step::submit_first);
-        std::vector<double> expected;
-        ASSERT_TRUE(undisturbed.answer(expected).ok());
-        for (const World::Step step :
-             {World::Step::create, World::Step::add_shapes, World::Step::submit_first,
-              World::Step::collect_first, World::Step::submit_larger,
-              World::Step::collect_larger}) {
+        const std::vector<double> expected = World::undisturbed(technique);
+        for (const World::Step step : {World::Step::create, World::Step::add_shapes,
+                                       World::Step::submit_first, World::Step::collect_first,
+                                       World::Step::submit_larger, World::Step::collect_larger}) {
             const std::uint64_t count = allocations_of(technique, step);
             ASSERT_GT(count, 0U) << to_string(step);
             const std::uint64_t stride = std::max<std::uint64_t>(1, count / most_tries);

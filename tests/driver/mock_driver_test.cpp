@@ -22,9 +22,18 @@ TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
             EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
             EXPECT_EQ(world.driver().alive().empty(), step == World::Step::destroy);
             const auto& calls = world.driver().calls();
-            const bool submits =
-                std::find(calls.begin(), calls.end(), "vkQueueSubmit") != calls.end();
-            EXPECT_EQ(submits, step >= World::Step::submit_first && step != World::Step::destroy)
+            const auto asks = [&](std::string_view call) {
+                return std::find(calls.begin(), calls.end(), call) != calls.end();
+            };
+            EXPECT_EQ(asks("vkCreateBuffer"), step == World::Step::submit_first ||
+                                                  step == World::Step::collect_first ||
+                                                  step == World::Step::submit_larger);
+            EXPECT_EQ(asks("vkCreateImage"),
+                      technique == Technique::raster && (step == World::Step::submit_first ||
+                                                         step == World::Step::collect_first ||
+                                                         step == World::Step::submit_larger));
+            EXPECT_EQ(asks("vkQueueSubmit"),
+                      step >= World::Step::submit_first && step != World::Step::destroy)
                 << "gradient normals are to be asked for when a batch is collected";
             world.driver().forget_calls();
         }

@@ -1,5 +1,6 @@
-#include <gtest/gtest.h>
 #include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
 #include <tests/support/mock_driver.hpp>
 #include <tests/support/polygons.hpp>
 

@@ -6,11 +6,11 @@
 namespace nearfield::test {
 namespace {
 
-constexpr double first_cells = 8.0;
-constexpr double larger_cells = 150.0;
+constexpr double first_cells = 4.0;
+constexpr double larger_cells = 50.0;
 
-const std::vector<Vector2> ring_a{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}};
-const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}};
+const std::vector<Ring> rings_a{{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}}};
+const std::vector<Ring> rings_b{{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}}};
 const std::vector<Vector2> field_points{{1.1, 1.2}, {1.6, 1.4}};
 
 /// Of any query of a batch.
@@ -66,11 +66,11 @@ Status World::create() {
 }
 
 Status World::add_shapes() {
-    const Expected<ShapeHandle> a = context_->add_shape({{ring_a}});
+    const Expected<ShapeHandle> a = context_->add_shape(rings_a);
     if (!a.ok()) {
         return a.status();
     }
-    const Expected<ShapeHandle> b = context_->add_shape({{ring_b}});
+    const Expected<ShapeHandle> b = context_->add_shape(rings_b);
     if (!b.ok()) {
         return b.status();
     }
@@ -107,11 +107,21 @@ Status World::answer(std::vector<double>& numbers) {
     if (Status status = first_error(results); !status.ok()) {
         return status;
     }
-    if (Status status = context_->run(batch(larger_cells, Technique::cpu), results); !status.ok()) {
+    if (Status status = context_->run(batch(first_cells, Technique::cpu), results); !status.ok()) {
         return status;
     }
     numbers = all_numbers(results);
     return first_error(results);
+}
+
+std::vector<double> World::undisturbed(Technique technique) {
+    World world(technique);
+    world.take_all_before(Step::submit_first);
+    std::vector<double> numbers;
+    const Status status = world.answer(numbers);
+    EXPECT_TRUE(status.ok()) << status.text();
+    EXPECT_GT(numbers.size(), 100U);
+    return numbers;
 }
 
 Batch World::batch(double cells, Technique technique) const {

@@ -40,9 +40,11 @@ public:
     Status take(Step step);
     /// Takes all steps before `step`; each has to succeed.
     void take_all_before(Step step);
-    /// Answers the larger batch, after add_shapes, and the same one without the driver; what that
+    /// Answers the larger batch, after add_shapes, and the first one without the driver; what that
     /// says, as numbers. An error of any query counts.
     Status answer(std::vector<double>& numbers);
+    /// What answer() says where nothing comes in the way.
+    [[nodiscard]] static std::vector<double> undisturbed(Technique technique);
 
     [[nodiscard]] Batch batch(double cells) const { return batch(cells, technique_); }
 

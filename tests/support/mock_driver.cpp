@@ -3,6 +3,7 @@
 #include <tests/support/mock_driver_state.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace nearfield::test_support {
 
@@ -126,6 +127,9 @@ void MockDriver::State::finish(MockObject& fence) {
 }
 
 MockDriver::MockDriver() : state_(std::make_unique<State>()) {
+    if (mock_driver != nullptr) {
+        throw std::logic_error("there is a mock driver already");
+    }
     state_->instance = ++state_->last;
     state_->physical_device = ++state_->last;
     state_->device = ++state_->last;

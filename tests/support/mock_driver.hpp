@@ -26,9 +26,9 @@ struct EntryPoint {
 /// a time: entry points carry no user data. For one thread.
 class MockDriver {
 public:
-    /// What mapped memory is full of, as if a device had written it: to the library each word says
+    /// What mapped memory is full of, and what submissions write: to the library each word says
     /// that edge 1 is nearest, and that the point or cell lies inside; as a number it is tiny.
-    static constexpr std::uint32_t first_content = 0xA0000001;
+    static constexpr std::uint32_t device_word = 0xA0000001;
 
     MockDriver();
     ~MockDriver();

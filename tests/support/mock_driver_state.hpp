@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <typeinfo>
 #include <vector>
@@ -42,8 +43,10 @@ struct MockObject {
     std::uint64_t bytes = 0;
     std::uint32_t memory_type = 0;
     std::vector<std::byte> content;  // where it is mapped
+    std::span<std::uint32_t> words;  // the same, aligned
     bool mapped = false;
     bool bound = false;
+    bool written = false;  // a buffer that commands write
 
     // Command buffers.
     enum class Commands { empty, recording, executable, pending };

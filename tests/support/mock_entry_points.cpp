@@ -117,8 +117,8 @@ VkResult perform(Tag_vkMapMemory tag, VkDevice, VkDeviceMemory memory, VkDeviceS
     void* start = object.content.data();
     std::size_t space = object.content.size();
     *data = std::align(alignment, object.bytes, start, space);
-    auto* const words = static_cast<std::uint32_t*>(*data);
-    std::fill(words, words + object.bytes / sizeof(std::uint32_t), MockDriver::first_content);
+    object.words = {static_cast<std::uint32_t*>(*data), object.bytes / sizeof(std::uint32_t)};
+    std::fill(object.words.begin(), object.words.end(), MockDriver::device_word);
     return VK_SUCCESS;
 }
 
@@ -148,7 +148,9 @@ VkResult perform(Tag_vkInvalidateMappedMemoryRanges tag, VkDevice, std::uint32_t
 VkResult perform(Tag_vkCreateBuffer tag, VkDevice device, const VkBufferCreateInfo* info,
                  const VkAllocationCallbacks*, VkBuffer* buffer) {
     *buffer = driver().make<VkBuffer>(tag.name, number(device));
-    driver().find(tag.name, *buffer)->bytes = info->size;
+    MockObject& object = *driver().find(tag.name, *buffer);
+    object.bytes = info->size;
+    object.written = (info->usage & VK_BUFFER_USAGE_TRANSFER_DST_BIT) != 0;
     return VK_SUCCESS;
 }
 
@@ -396,6 +398,19 @@ VkResult perform(Tag_vkResetFences tag, VkDevice, std::uint32_t count, const VkF
     return VK_SUCCESS;
 }
 
+/// What a submission leaves in the buffers that it writes. Counts that the host set to 0 stay 0.
+void write_results(const std::set<Number>& used) {
+    for (const Number number_used : used) {
+        const MockObject& buffer = driver().objects[number_used];
+        if (!buffer.written || !buffer.bound) {
+            continue;
+        }
+        for (std::uint32_t& word : driver().objects[buffer.needs.at(0)].words) {
+            word = word == 0 ? 0 : MockDriver::device_word;
+        }
+    }
+}
+
 VkResult perform(Tag_vkQueueSubmit tag, VkQueue queue, std::uint32_t count,
                  const VkSubmitInfo* infos, VkFence fence) {
     if (number(queue) != driver().queue) {
@@ -418,6 +433,7 @@ VkResult perform(Tag_vkQueueSubmit tag, VkQueue queue, std::uint32_t count,
             driver().add_needs(number(commands), signalled.in_use);
         }
     }
+    write_results(signalled.in_use);
     signalled.signalled = true;
     return VK_SUCCESS;
 }

@@ -74,8 +74,8 @@ private:
         numbers_.push_back(static_cast<double>(pairs.size()));
     }
     Ticket submit(int frame) {
-        const Expected<Ticket> ticket = context_.submit(
-            batch(frame, frame % 2 == 0 ? Technique::raster : Technique::compute));
+        const Expected<Ticket> ticket =
+            context_.submit(batch(frame, frame % 2 == 0 ? Technique::raster : Technique::compute));
         expect(ticket.status());
         return ticket.ok() ? *ticket : Ticket{};
     }
@@ -143,8 +143,8 @@ std::mutex queue_lock;
 
 VkResult VKAPI_CALL locked_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
                                   VkFence fence) {
-    static const auto submit = reinterpret_cast<PFN_vkQueueSubmit>(
-        test_support::true_device_function("vkQueueSubmit"));
+    static const auto submit =
+        reinterpret_cast<PFN_vkQueueSubmit>(test_support::true_device_function("vkQueueSubmit"));
     const std::lock_guard lock(queue_lock);
     return submit(queue, count, infos, fence);
 }
