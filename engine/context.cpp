@@ -7,6 +7,7 @@
 #include <engine/gpu/submission.hpp>
 #include <engine/graph/format.hpp>
 #include <engine/growable.hpp>
+#include <engine/guarded.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/renderer.hpp>
@@ -17,28 +18,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
-#include <new>
 #include <utility>
 #include <vector>
 
 namespace nearfield {
 namespace {
-
-/// Turns whatever an action throws into a status: no exception crosses the interface.
-template <class Action>
-Status guarded(Action&& action) {
-    try {
-        action();
-        return {};
-    } catch (const Failure& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return {StatusCode::out_of_memory, "the host has no memory left"};
-    } catch (const std::exception& error) {
-        return {StatusCode::device_error, error.what()};
-    }
-}
 
 geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
     return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
@@ -121,11 +105,8 @@ public:
 
     template <class Resident, class Query>
     Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
-        if (lost_) {
-            return lost_device();
-        }
         Resident result;
-        Status status = guarded([&] { result = ring_.resident(ticket, query); });
+        Status status = unless_lost([&] { result = ring_.resident(ticket, query); });
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
@@ -134,18 +115,21 @@ public:
     [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
-private:
-    /// Runs what has to do with the device; remembers where it is lost.
+    /// Does something unless the device is lost; remembers where it gets lost.
     template <class Action>
-    Status on_device(Action&& action) {
+    Status unless_lost(Action&& action) noexcept {
+        if (lost_) {
+            return lost_device_;
+        }
         Status status = guarded(action);
-        if (status.code() == StatusCode::device_lost && !lost_) {
+        if (status.code() == StatusCode::device_lost) {
             lost_ = true;
             device_.log(LogLevel::error, [&] { return "the device is lost: " + status.message(); });
         }
         return status;
     }
 
+private:
     Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
@@ -156,6 +140,7 @@ private:
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     Renderer renderer_;
     FrameRing ring_;
+    const Status lost_device_ = lost_device();  // made ahead: saying it needs no memory
     bool lost_ = false;
 };
 
@@ -187,11 +172,8 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
 
 Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission,
                                                  Results* memory) {
-    if (lost_) {
-        return lost_device();
-    }
     Ticket ticket;
-    Status status = on_device([&] {
+    Status status = unless_lost([&] {
         const Submission order = adopted(submission, "Submission");
         gpu::check_semaphores(device_, order);
         ticket = ring_.submit(batch.queries(), order, memory);
@@ -200,21 +182,18 @@ Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submi
 }
 
 Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
-    if (lost_) {
-        return lost_device();
-    }
     Ticket ticket;
-    Status status =
-        on_device([&] { ticket = ring_.record(batch.queries(), adopted(recording, "Recording")); });
+    Status status = unless_lost(
+        [&] { ticket = ring_.record(batch.queries(), adopted(recording, "Recording")); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Status Context::Implementation::collect(Ticket ticket, Results& results) {
     if (lost_) {
         Status status = guarded([&] { ring_.drop(ticket); });
-        return status.ok() ? lost_device() : status;
+        return status.ok() ? lost_device_ : status;
     }
-    return on_device([&] { ring_.collect(ticket, results); });
+    return unless_lost([&] { ring_.collect(ticket, results); });
 }
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
@@ -253,27 +232,30 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
 
 Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
     Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = guarded([&] { handle = implementation_->shapes().add(rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { handle = implementation_->shapes().add(rings, deviation); });
     return status.ok() ? handle : Expected<ShapeHandle>(status);
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
     Status result;
-    Status status =
-        guarded([&] { result = implementation_->shapes().update(shape, rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->shapes().update(shape, rings, deviation); });
     return status.ok() ? result : status;
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
-    Status status = guarded([&] { result = implementation_->shapes().remove(shape); });
+    Status status =
+        implementation_->unless_lost([&] { result = implementation_->shapes().remove(shape); });
     return status.ok() ? result : status;
 }
 
 Status Context::find_pairs(std::span<const Instance> instances, double reach,
                            std::vector<InstancePair>& pairs) {
     Status result;
-    Status status = guarded([&] { result = implementation_->find_pairs(instances, reach, pairs); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->find_pairs(instances, reach, pairs); });
     return status.ok() ? result : status;
 }
 
@@ -316,7 +298,8 @@ Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQu
 
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {
     CostModel costs;
-    Status status = guarded([&] { costs = nearfield::measure_costs(*this, progress); });
+    Status status =
+        implementation_->unless_lost([&] { costs = nearfield::measure_costs(*this, progress); });
     return status.ok() ? Expected<CostModel>(costs) : status;
 }
 
@@ -336,7 +319,10 @@ MemoryUse Context::memory_use() const noexcept {
 std::string Context::describe_graph(GraphFormat format) const {
     std::string text;
     const Status status = guarded([&] { text = implementation_->renderer().print(format); });
-    return status.ok() ? text : status.text();
+    if (!status.ok()) {
+        static_cast<void>(guarded([&] { text = status.text(); }));
+    }
+    return text;
 }
 
 }  // namespace nearfield

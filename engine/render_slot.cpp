@@ -1,5 +1,4 @@
 #include <engine/buffer_parts.hpp>
-#include <engine/failure.hpp>
 #include <engine/render_slot.hpp>
 
 #include <algorithm>
@@ -49,11 +48,7 @@ RenderSlot::RenderSlot(const gpu::Device& device, const passes::ComputeLayout& l
 
 RenderSlot::~RenderSlot() {
     if (flight_ == Flight::submitted) {
-        try {
-            submission_.wait();
-        } catch (const Failure&) {
-            // The device is lost: nothing is at work any more.
-        }
+        submission_.wait_to_the_end();
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,12 +74,20 @@ public:
                                             VkMemoryPropertyFlags preferred) const;
     [[nodiscard]] VkMemoryPropertyFlags memory_flags(std::uint32_t type) const;
 
-    /// Tells the host, if it wants to know, what `words()` returns.
+    /// Tells the host, if it wants to know, what `words()` returns; says nothing where there is no
+    /// memory for words.
     template <class Words>
-    void log(LogLevel level, const Words& words) const {
-        if (host_.log.write != nullptr) {
-            host_.log.write(host_.log.user, level, words().c_str());
+    void log(LogLevel level, const Words& words) const noexcept {
+        if (host_.log.write == nullptr) {
+            return;
         }
+        std::string text;
+        try {
+            text = words();
+        } catch (const std::bad_alloc&) {
+            return;
+        }
+        host_.log.write(host_.log.user, level, text.c_str());
     }
 
     /// Names an object for debuggers and validation; nothing where the host has no debug utils.

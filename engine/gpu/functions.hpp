@@ -10,7 +10,6 @@
     X(vkGetPhysicalDeviceMemoryProperties)      \
     X(vkGetPhysicalDeviceQueueFamilyProperties) \
     X(vkGetPhysicalDeviceFormatProperties)      \
-    X(vkGetPhysicalDeviceImageFormatProperties) \
     X(vkGetDeviceProcAddr)
 
 #define NEARFIELD_DEVICE_FUNCTIONS(X) \

@@ -1,9 +1,10 @@
-#include <engine/failure.hpp>
 #include <engine/gpu/instance.hpp>
+#include <engine/guarded.hpp>
 #include <nearfield/context.hpp>
 
-#include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace nearfield {
 namespace {
@@ -30,9 +31,9 @@ std::string driver_text(const VkPhysicalDeviceProperties& properties) {
 }  // namespace
 
 Expected<std::vector<DeviceReport>> list_devices() {
-    try {
+    std::vector<DeviceReport> reports;
+    Status status = guarded([&] {
         const gpu::Instance instance;
-        std::vector<DeviceReport> reports;
         for (gpu::Candidate& candidate : instance.candidates()) {
             DeviceReport& report = reports.emplace_back();
             report.name = candidate.properties.deviceName;
@@ -46,13 +47,11 @@ Expected<std::vector<DeviceReport>> list_devices() {
                     {strategy, gpu::missing_for(strategy, candidate.support)});
             }
         }
-        return reports;
-    } catch (const Failure& failure) {
-        return failure.status();
-    } catch (const std::exception& error) {
-        return Status(StatusCode::out_of_memory,
-                      std::string("devices could not be listed: ") + error.what());
+    });
+    if (!status.ok()) {
+        return status;
     }
+    return reports;
 }
 
 }  // namespace nearfield

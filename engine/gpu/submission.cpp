@@ -2,7 +2,9 @@
 #include <engine/gpu/submission.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <thread>
 
 namespace nearfield::gpu {
 
@@ -130,6 +132,28 @@ void Submission::wait() {
     const VkFence fence = fence_.get();
     check(device_->functions().vkWaitForFences(device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX),
           "vkWaitForFences", "a submission");
+}
+
+void Submission::wait_to_the_end() noexcept {
+    const Functions& functions = device_->functions();
+    const VkFence fence = fence_.get();
+    const auto out_of_memory = [](VkResult result) {
+        return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    };
+    // A driver without the memory to wait may have enough to be asked. One that has neither for so
+    // long will not have it later.
+    constexpr int most_refusals = 1000;
+    int refusals = 0;
+    while (refusals < most_refusals && out_of_memory(functions.vkWaitForFences(
+                                           device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX))) {
+        const VkResult status = functions.vkGetFenceStatus(device_->handle(), fence);
+        if (out_of_memory(status)) {
+            ++refusals;
+        } else if (status != VK_NOT_READY) {
+            return;
+        }
+        std::this_thread::yield();
+    }
 }
 
 }  // namespace nearfield::gpu

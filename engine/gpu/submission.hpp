@@ -30,6 +30,9 @@ public:
     [[nodiscard]] bool is_done() const;
     /// Waits until the device has done the work.
     void wait();
+    /// The same before all goes, whatever the driver says: returns where the work is done, where
+    /// the device is lost, and where neither can be found out.
+    void wait_to_the_end() noexcept;
 
 private:
     void send(const nearfield::Submission& order, std::uint32_t command_buffers, VkFence fence);

@@ -86,8 +86,9 @@ gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device, const Graph
     gpu::check(device.functions().vkCreateRenderPass(device.handle(), &info, device.allocator(),
                                                      &render_pass),
                "vkCreateRenderPass", name);
+    gpu::Owned<VkRenderPass> owned(device, render_pass);
     device.name_object(VK_OBJECT_TYPE_RENDER_PASS, render_pass, name);
-    return {device, render_pass};
+    return owned;
 }
 
 }  // namespace nearfield::graph

@@ -103,6 +103,10 @@ enum class GraphFormat {
 /// and frees all it made. It does not wait for what was recorded: the device must have done that,
 /// or never begin it. A command buffer with a batch of a context that is gone must not be
 /// submitted; resetting or freeing it is all that is left to do with it.
+///
+/// After any error but device_lost a context goes on: the next batch is answered. Once the device
+/// is lost it stays lost: whatever can fail says device_lost, and no more work goes to Vulkan;
+/// destroy the context (that is still done properly) and make another on another device.
 class NEARFIELD_EXPORT Context {
 public:
     /// Adopts a host's device. Fails with every reason where the device does not suffice.

@@ -45,6 +45,9 @@ public:
     /// Success.
     Status() = default;
 
+    /// An error without words, for where there is no memory for any.
+    explicit Status(StatusCode code) noexcept : code_(code) {}
+
     /// An error. `message` says what failed, where and why; `reasons` lists each cause where
     /// there can be several (all the features a device lacks, say).
     Status(StatusCode code, std::string message, std::vector<std::string> reasons = {});

@@ -126,6 +126,13 @@ struct Event {
     }
 };
 
+const char* hazard(bool wrote, bool writes) {
+    if (!wrote) {
+        return "write after read";
+    }
+    return writes ? "write after write" : "read after write";
+}
+
 /// What images of a slot share, or a buffer has for itself.
 struct Memory {
     std::vector<Event> events;
@@ -265,7 +272,7 @@ private:
         for (const Event& event : memory.events) {
             expect((!event.writes && !use.write) ||
                        event.is_settled_for(resource, wanted.stages, wanted.access),
-                   resource, pass + " has a hazard with something earlier");
+                   resource, pass + " has a hazard: " + hazard(event.writes, use.write));
         }
         add_event(resource, wanted);
         versions_[resource] += use.write ? 1 : 0;

@@ -52,15 +52,24 @@ check_tidy() {
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
 
-# The rooms that need no driver, with every memory access, leak and undefined operation watched. What
-# runs graphs on a device is left out: drivers leak on their own account.
+# The rooms that need no driver, and whole queries on a mock one, with every memory access, leak and
+# undefined operation watched. What runs graphs on a device is left out: drivers leak on their own
+# account.
 check_sanitized() {
-    local test tests=(test_geometry test_localize test_exact test_graph)
+    local test tests=(test_geometry test_localize test_exact test_graph test_driver)
     configure sanitize >/dev/null
     build sanitize --target "${tests[@]}"
     for test in "${tests[@]}"; do
         "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
     done
+}
+
+# Contexts on several threads, with every access to memory that two of them share watched.
+check_threads() {
+    configure threads >/dev/null
+    build threads --target test_threads
+    TSAN_OPTIONS="suppressions=$root/tests/threads/suppressions.txt halt_on_error=1" \
+        "$root/build/threads/tests/threads/test_threads" --gtest_brief=1
 }
 
 # expect_none WHAT LINES: fails where there are lines, and shows them.
@@ -123,6 +132,7 @@ step "Symbols of the libraries" check_symbols
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
+step "Threads" check_threads
 printf '\n== All checks passed; the tests again\n'
 tail -n 4 "$log"
 print_counts
