@@ -129,7 +129,7 @@ BacktrackingReport move_without_penetration(Proximity& proximity, const Scene& s
         remaining -= clear;
         const std::vector<Contact> contacts =
             contacts_of(proximity.contacts(2.0 * proximity.tolerance()), scene);
-        resolve(contacts, scene.touch, gap, std::max(remaining, 0.25 * time));
+        resolve(contacts, scene.touch, gap, {time, std::max(remaining, 0.01 * time)});
         report.contacts += contacts.size();
         ++report.events;
     }

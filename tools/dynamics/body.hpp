@@ -49,6 +49,8 @@ public:
     virtual void push(const Grip& grip, Vector2 force) = 0;
     /// A force on every part of it, as an acceleration: gravity.
     virtual void pull(Vector2 acceleration) = 0;
+    /// A force against its motion as a whole, as a deceleration by speed.
+    virtual void slow_down(double drag) = 0;
     /// A sudden change of velocity.
     virtual void kick(const Grip& grip, Vector2 impulse) = 0;
 

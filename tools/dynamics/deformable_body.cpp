@@ -149,6 +149,10 @@ void DeformableBody::pull(Vector2 acceleration) {
     }
 }
 
+void DeformableBody::slow_down(double drag) {
+    pull(-drag * mean_of(velocities_));
+}
+
 void DeformableBody::kick(const Grip& grip, Vector2 impulse) {
     const std::size_t second = after(grip.edge);
     velocities_[grip.edge] += ((1.0 - grip.part) * inverse_mass(grip.edge)) * impulse;

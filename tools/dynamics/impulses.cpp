@@ -27,14 +27,16 @@ double resistance(const Contact& contact, Vector2 direction) {
 }
 
 /// Contacts that are too close are opened slowly, a part of what is missing a step: more would be
-/// energy out of nothing.
-double wanted_speed(const Contact& contact, const Touch& touch, double gap, double time) {
-    constexpr double opened_a_step = 0.1;
+/// energy out of nothing. The others may close as far as the gap.
+double wanted_speed(const Contact& contact, const Touch& touch, double gap,
+                    const StepTimes& times) {
+    constexpr double opened_a_step = 0.05;
     const double room = contact.distance - gap;
-    const double least = room > 0.0 ? -room / time : -opened_a_step * room / time;
-    // Slower than crossing the gap in a step is resting, not bouncing.
+    const double least = room > 0.0 ? -room / times.remaining : -opened_a_step * room / times.step;
+    // So slow is resting, not bouncing.
+    const double resting = 0.2 * gap / times.step;
     const double approach = -parting_speed(contact, contact.normal);
-    const double rebound = approach > gap / time ? touch.restitution * approach : 0.0;
+    const double rebound = approach > resting ? touch.restitution * approach : 0.0;
     return rebound > 0.0 && room < gap ? std::max(least, rebound) : least;
 }
 
@@ -90,14 +92,15 @@ std::vector<Contact> contacts_of(std::span<const Proximity::Touching> touching,
     return contacts;
 }
 
-void resolve(std::span<const Contact> contacts, const Touch& touch, double gap, double time) {
+void resolve(std::span<const Contact> contacts, const Touch& touch, double gap,
+             const StepTimes& times) {
     constexpr int rounds = 60;
     std::vector<Constraint> constraints;
     constraints.reserve(contacts.size());
     for (const Contact& contact : contacts) {
         constraints.push_back({&contact, resistance(contact, contact.normal),
                                resistance(contact, left_of(contact.normal)),
-                               wanted_speed(contact, touch, gap, time)});
+                               wanted_speed(contact, touch, gap, times)});
     }
     // To and fro, so that no end of a chain is favoured.
     for (int round = 0; round < rounds; ++round) {

@@ -23,8 +23,14 @@ struct Contact {
 [[nodiscard]] std::vector<Contact> contacts_of(std::span<const Proximity::Touching> touching,
                                                const Scene& scene);
 
-/// Changes velocities by impulses at all contacts together, so that until `time` has gone by none
+struct StepTimes {
+    double step = 0.0;       ///< length of the step
+    double remaining = 0.0;  ///< what is left of it, > 0
+};
+
+/// Changes velocities by impulses at all contacts together, so that until the end of the step none
 /// comes closer than `gap`, and those that met with some speed part again (Touch::restitution).
-void resolve(std::span<const Contact> contacts, const Touch& touch, double gap, double time);
+void resolve(std::span<const Contact> contacts, const Touch& touch, double gap,
+             const StepTimes& times);
 
 }  // namespace nearfield::dynamics

@@ -53,6 +53,11 @@ void RigidBody::pull(Vector2 acceleration) {
     force_ += mass_ * acceleration;
 }
 
+void RigidBody::slow_down(double drag) {
+    force_ -= (drag * mass_) * velocity_;
+    torque_ -= drag * inertia_ * spin_;
+}
+
 void RigidBody::kick(const Grip& grip, Vector2 impulse) {
     velocity_ += inverse_mass_ * impulse;
     spin_ += inverse_inertia_ * cross(grip.point - position_, impulse);

@@ -32,6 +32,7 @@ public:
     [[nodiscard]] double yielding(const Grip& grip, Vector2 direction) const override;
     void push(const Grip& grip, Vector2 force) override;
     void pull(Vector2 acceleration) override;
+    void slow_down(double drag) override;
     void kick(const Grip& grip, Vector2 impulse) override;
     void accelerate(double time) override;
     void move(double time) override;

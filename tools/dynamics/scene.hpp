@@ -16,7 +16,7 @@ struct Surroundings {
     Vector2 gravity;          ///< acceleration
     Vector2 middle;           ///< pulls everything to it:
     double attraction = 0.0;  ///< acceleration by distance from the middle
-    double drag = 0.0;        ///< deceleration by speed, of rigid bodies
+    double drag = 0.0;        ///< deceleration by speed, of a body as a whole
 };
 
 /// What happens where bodies touch.

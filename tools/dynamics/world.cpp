@@ -1,7 +1,6 @@
 #include <tools/dynamics/backtracking.hpp>
 #include <tools/dynamics/penalty.hpp>
 #include <tools/dynamics/plane.hpp>
-#include <tools/dynamics/rigid_body.hpp>
 #include <tools/dynamics/world.hpp>
 
 #include <algorithm>
@@ -26,10 +25,8 @@ void World::apply_surroundings() {
     for (const std::unique_ptr<Body>& body : scene_.bodies) {
         body->pull(surroundings.gravity +
                    surroundings.attraction * (surroundings.middle - body->center()));
-        auto* const rigid = dynamic_cast<RigidBody*>(body.get());
-        if (rigid != nullptr && surroundings.drag > 0.0) {
-            rigid->pull(-surroundings.drag * rigid->velocity());
-            rigid->twist(-surroundings.drag * rigid->inertia() * rigid->spin());
+        if (surroundings.drag > 0.0) {
+            body->slow_down(surroundings.drag);
         }
     }
 }

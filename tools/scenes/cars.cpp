@@ -43,7 +43,7 @@ void drive(RigidBody& car, Vector2 goal) {
 }
 
 Ring car_outline(std::size_t vertices) {
-    constexpr double size = 0.5;
+    constexpr double size = 0.62;
     Ring ring = benchmark::car(vertices);
     for (Vector2& vertex : ring) {
         vertex = size * vertex;
@@ -65,15 +65,15 @@ Scene cars_scene() {
                                                 Pose{place, std::atan2(way.y, way.x)});
         bodies.push_back(body.get());
         scene.bodies.push_back(std::move(body));
-        scene.looks.push_back({static_cast<double>(i) * 0.618, 0.34});
+        scene.looks.push_back({static_cast<double>(i) * 0.618, 0.42});
     }
-    scene.touch = {3000.0, 20.0, 0.5, 0.2};
+    scene.touch = {12000.0, 60.0, 0.5, 0.2};
     scene.act = [bodies](double time) {
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             drive(*bodies[i], goal_of(i, time));
         }
     };
-    scene.view = {{-6.2, -4.6}, {6.2, 4.6}};
+    scene.view = {{-6.3, -4.5}, {6.3, 4.9}};
     return scene;
 }
 

@@ -42,6 +42,23 @@ bool crosses_without(const Ring& ring, std::size_t vertex) {
     return false;
 }
 
+/// The vertex that matters least, of those that are not needed.
+std::size_t least_vertex(const Ring& ring, const std::vector<bool>& needed) {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t chosen = 0;
+    const std::size_t n = ring.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vector2 before = ring[i == 0 ? n - 1 : i - 1];
+        const Vector2 after = ring[i + 1 == n ? 0 : i + 1];
+        const double area = std::abs(cross(ring[i] - before, after - before));
+        if (area < least && !needed[i]) {
+            least = area;
+            chosen = i;
+        }
+    }
+    return chosen;
+}
+
 Ring country(const std::string& text, std::size_t vertices, double area) {
     Ring ring = tools::parse_geojson(text, "country").front();
     if (ring.front() == ring.back()) {
@@ -58,19 +75,16 @@ Ring country(const std::string& text, std::size_t vertices, double area) {
 }  // namespace
 
 Ring thinned(Ring ring, std::size_t count) {
+    std::vector<bool> needed(ring.size(), false);
     while (ring.size() > count) {
-        double least = std::numeric_limits<double>::infinity();
-        std::size_t chosen = 0;
-        const std::size_t n = ring.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const Vector2 before = ring[(i + n - 1) % n];
-            const double area = std::abs(cross(ring[i] - before, ring[(i + 1) % n] - before));
-            if (area < least && !crosses_without(ring, i)) {
-                least = area;
-                chosen = i;
-            }
+        const std::size_t chosen = least_vertex(ring, needed);
+        if (crosses_without(ring, chosen)) {
+            needed[chosen] = true;
+            continue;
         }
-        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(chosen));
+        const auto place = static_cast<std::ptrdiff_t>(chosen);
+        ring.erase(ring.begin() + place);
+        needed.erase(needed.begin() + place);
     }
     return ring;
 }

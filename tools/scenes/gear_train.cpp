@@ -33,13 +33,13 @@ TrainGear driven(const std::vector<TrainGear>& train, std::size_t driver, std::s
 }  // namespace
 
 Ring gear_outline(std::size_t teeth) {
-    constexpr double tip = 0.2;    // beyond the pitch radius
-    constexpr double root = 0.26;  // short of it
+    constexpr double tip = 0.18;   // beyond the pitch radius
+    constexpr double root = 0.28;  // short of it
     struct Corner {
         double part;  // of a pitch, from the middle of the tooth
         double height;
     };
-    constexpr Corner corners[] = {{-0.30, -root}, {-0.115, tip}, {0.115, tip}, {0.30, -root}};
+    constexpr Corner corners[] = {{-0.27, -root}, {-0.11, tip}, {0.11, tip}, {0.27, -root}};
     Ring ring;
     for (std::size_t tooth = 0; tooth < teeth; ++tooth) {
         for (const Corner& corner : corners) {

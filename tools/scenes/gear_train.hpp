@@ -7,7 +7,7 @@
 
 namespace nearfield::scenes {
 
-/// Radians a second of the first gear of the train.
+/// Radians a second of the first gear of the train, once it has started.
 inline constexpr double driver_spin = 0.8;
 
 /// A gear in mesh with the one that drives it.

@@ -3,6 +3,7 @@
 #include <tools/scenes/gear_train.hpp>
 #include <tools/scenes/scenes.hpp>
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
@@ -23,15 +24,18 @@ dynamics::Scene gears_scene() {
         auto body = std::make_unique<RigidBody>(std::move(rings), Pose{gear.place, gear.angle},
                                                 driver ? Freedom::directed : Freedom::turning);
         if (driver) {
-            body->set_motion({}, driver_spin);
+            scene.act = [motor = body.get()](double time) {
+                motor->set_motion({}, driver_spin * std::min(1.0, time));
+            };
         }
         scene.bodies.push_back(std::move(body));
         scene.looks.push_back({driver ? 0.08 : 0.5 + 0.03 * static_cast<double>(gear.teeth)});
         ++number;
     }
     scene.surroundings.drag = 0.5;
-    scene.touch = {5000.0, 40.0, 0.0, 0.05};
-    scene.view = {{-4.9, -4.9}, {4.9, 4.9}};
+    scene.touch = {30000.0, 300.0, 0.0, 0.05};
+    scene.steps = 6;
+    scene.view = {{-5.6, -4.9}, {5.6, 4.9}};
     return scene;
 }
 

@@ -25,7 +25,7 @@ void add_arc(Ring& ring, Vector2 middle, double radius, double from, double to,
 /// A socket about the origin, open above, and a ball below that fits into it and not through its
 /// opening.
 Ring link_outline(std::size_t ball_vertices) {
-    constexpr double opening = 44.0;  // degrees to either side of straight up
+    constexpr double opening = 38.0;  // degrees to either side of straight up
     constexpr double inner = 0.205;
     constexpr double outer = 0.33;
     constexpr double ball = 0.175;
@@ -64,8 +64,8 @@ Scene links_scene() {
     }
     scene.surroundings.gravity = {0.0, -5.0};
     scene.surroundings.drag = 0.1;
-    scene.touch = {12000.0, 30.0, 0.1, 0.1};
-    scene.steps = 8;
+    scene.touch = {60000.0, 80.0, 0.1, 0.1};
+    scene.steps = 10;
     scene.act = [ends](double time) {
         constexpr double reach = 0.7;
         constexpr double pace = 2.2;  // radians a second

@@ -17,7 +17,7 @@ dynamics::Scene map_scene() {
     std::vector<RigidBody*> bodies;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         const double turn = static_cast<double>(i) / static_cast<double>(outlines.size());
-        const Pose pose{polar(3.2, 2.0 * std::numbers::pi * turn), 0.6 * std::sin(5.0 * turn)};
+        const Pose pose{polar(3.9, 2.0 * std::numbers::pi * turn), 0.6 * std::sin(5.0 * turn)};
         auto body = std::make_unique<RigidBody>(std::vector<Ring>{std::move(outlines[i])}, pose);
         bodies.push_back(body.get());
         scene.bodies.push_back(std::move(body));
@@ -25,7 +25,8 @@ dynamics::Scene map_scene() {
     }
     scene.surroundings.attraction = 1.0;
     scene.surroundings.drag = 0.15;
-    scene.touch = {2500.0, 25.0, 0.2, 0.2};
+    scene.touch = {6000.0, 60.0, 0.2, 0.2};
+    scene.steps = 6;
     scene.act = [bodies](double time) {
         // Stirred one way and the other, the outer ones as much as the inner ones.
         constexpr double strength = 1.2;

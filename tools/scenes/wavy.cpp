@@ -79,8 +79,8 @@ Scene wavy_scene() {
     scene.act = [source](double time) {
         // A short push to the left, low on the free face, every few seconds.
         constexpr double every = 5.0;
-        constexpr double strength = 1.6;
-        const double since = (std::fmod(time, every) - 0.35) / 0.12;
+        constexpr double strength = 0.75;
+        const double since = (std::fmod(time, every) - 0.3) / 0.1;
         const double now = strength * std::exp(-since * since);
         for (std::size_t i = 0; i < vertices; ++i) {
             const Vector2 place = source->rest()[i] + Vector2{0.66, -0.9};
@@ -90,7 +90,7 @@ Scene wavy_scene() {
             }
         }
     };
-    scene.view = {{-3.2, -3.4}, {3.2, 3.4}};
+    scene.view = {{-3.4, -3.3}, {3.4, 3.3}};
     return scene;
 }
 
@@ -101,7 +101,9 @@ Scene overlap_scene() {
     scene.bodies.push_back(std::make_unique<DeformableBody>(bar({{-1.6, -1.5}, {0.3, 1.9}}), soft));
     scene.bodies.push_back(std::make_unique<DeformableBody>(bar({{-0.3, -1.9}, {1.6, 1.5}}), soft));
     scene.looks = {{0.05}, {0.6}};
-    scene.touch = {60.0, 1.0, 0.0, 0.2};
+    scene.surroundings.attraction = 0.5;
+    scene.surroundings.drag = 0.6;
+    scene.touch = {40.0, 2.0, 0.0, 0.2};
     scene.steps = 8;
     scene.view = {{-4.0, -3.0}, {4.0, 3.0}};
     return scene;
