@@ -26,18 +26,22 @@ double resistance(const Contact& contact, Vector2 direction) {
     return yielding > 0.0 ? 1.0 / yielding : 0.0;
 }
 
-/// Contacts that are too close are opened slowly, a part of what is missing a step: more would be
-/// energy out of nothing. The others may close as far as the gap.
+/// The closest points of a stretch may come no closer, and are opened slowly where they are too
+/// close: a part of what is missing a step, since more would be energy out of nothing. The others
+/// may come as close as these: what faces a corner at a slant is no wall.
 double wanted_speed(const Contact& contact, const Touch& touch, double gap,
                     const StepTimes& times) {
     constexpr double opened_a_step = 0.05;
-    const double room = contact.distance - gap;
-    const double least = room > 0.0 ? -room / times.remaining : -opened_a_step * room / times.step;
+    const double room = contact.distance - std::min(gap, contact.closest);
+    if (room > 0.05 * gap) {
+        return -room / times.remaining;
+    }
     // So slow is resting, not bouncing.
     const double resting = 0.2 * gap / times.step;
     const double approach = -parting_speed(contact, contact.normal);
     const double rebound = approach > resting ? touch.restitution * approach : 0.0;
-    return rebound > 0.0 && room < gap ? std::max(least, rebound) : least;
+    const double opening = opened_a_step * std::max(0.0, gap - contact.distance) / times.step;
+    return std::max(rebound, opening);
 }
 
 void kick_apart(const Contact& contact, Vector2 impulse) {
@@ -60,14 +64,14 @@ void improve(Constraint& constraint, double friction) {
     constraint.across = across;
 }
 
-Contact contact_at(const ContactRecord& record, Body& a, Body& b) {
+Contact contact_at(const ContactRecord& record, double closest, Body& a, Body& b) {
     const bool on_a = record.on == Side::a;
     const Vector2 point_a = on_a ? record.point : record.nearest;
     const Vector2 point_b = on_a ? record.nearest : record.point;
     const Vector2 normal = record.distance > 0.0 && !record.inside
                                ? (1.0 / record.distance) * (point_a - point_b)
                                : record.normal;
-    return {&a, &b, a.grip(point_a), b.grip(point_b), normal, record.distance};
+    return {&a, &b, a.grip(point_a), b.grip(point_b), normal, record.distance, closest};
 }
 
 }  // namespace
@@ -79,12 +83,13 @@ std::vector<Contact> contacts_of(std::span<const Proximity::Touching> touching,
         Body& a = *scene.bodies[pair.pair.first];
         Body& b = *scene.bodies[pair.pair.second];
         for (const ContactCluster& cluster : pair.contacts->manifold) {
-            contacts.push_back(contact_at(cluster.extreme, a, b));
+            const double closest = cluster.extreme.distance;
+            contacts.push_back(contact_at(cluster.extreme, closest, a, b));
             for (const ContactRecord& record : pair.contacts->records) {
                 const bool is_an_end = record.on == Side::a && (record.point == cluster.first ||
                                                                 record.point == cluster.last);
                 if (is_an_end && record.point != cluster.extreme.point) {
-                    contacts.push_back(contact_at(record, a, b));
+                    contacts.push_back(contact_at(record, closest, a, b));
                 }
             }
         }
