@@ -26,7 +26,7 @@ double resistance(const Contact& contact, Vector2 direction) {
     return yielding > 0.0 ? 1.0 / yielding : 0.0;
 }
 
-/// The closest points of a stretch may come no closer, and are opened slowly where they are too
+/// The closest points hereabouts may come no closer, and are opened slowly where they are too
 /// close: a part of what is missing a step, since more would be energy out of nothing. The others
 /// may come as close as these: what faces a corner at a slant is no wall.
 double wanted_speed(const Contact& contact, const Touch& touch, double gap,
@@ -64,14 +64,25 @@ void improve(Constraint& constraint, double friction) {
     constraint.across = across;
 }
 
-Contact contact_at(const ContactRecord& record, double closest, Body& a, Body& b) {
+Contact contact_at(const ContactRecord& record, Body& a, Body& b) {
     const bool on_a = record.on == Side::a;
     const Vector2 point_a = on_a ? record.point : record.nearest;
     const Vector2 point_b = on_a ? record.nearest : record.point;
     const Vector2 normal = record.distance > 0.0 && !record.inside
                                ? (1.0 / record.distance) * (point_a - point_b)
                                : record.normal;
-    return {&a, &b, a.grip(point_a), b.grip(point_b), normal, record.distance, closest};
+    return {&a, &b, a.grip(point_a), b.grip(point_b), normal, record.distance, record.distance};
+}
+
+/// Contacts of one pair find out about each other: only those close to each other matter.
+void compare(std::span<Contact> contacts, double reach) {
+    for (Contact& contact : contacts) {
+        for (const Contact& other : contacts) {
+            if (length(other.on_a.point - contact.on_a.point) <= reach) {
+                contact.closest = std::min(contact.closest, other.distance);
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -82,17 +93,18 @@ std::vector<Contact> contacts_of(std::span<const Proximity::Touching> touching,
     for (const Proximity::Touching& pair : touching) {
         Body& a = *scene.bodies[pair.pair.first];
         Body& b = *scene.bodies[pair.pair.second];
+        const std::size_t first = contacts.size();
         for (const ContactCluster& cluster : pair.contacts->manifold) {
-            const double closest = cluster.extreme.distance;
-            contacts.push_back(contact_at(cluster.extreme, closest, a, b));
+            contacts.push_back(contact_at(cluster.extreme, a, b));
             for (const ContactRecord& record : pair.contacts->records) {
                 const bool is_an_end = record.on == Side::a && (record.point == cluster.first ||
                                                                 record.point == cluster.last);
                 if (is_an_end && record.point != cluster.extreme.point) {
-                    contacts.push_back(contact_at(record, closest, a, b));
+                    contacts.push_back(contact_at(record, a, b));
                 }
             }
         }
+        compare(std::span(contacts).subspan(first), 2.0 * scene.tolerance);
     }
     return contacts;
 }

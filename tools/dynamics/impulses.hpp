@@ -16,7 +16,7 @@ struct Contact {
     Grip on_b;
     Vector2 normal;         ///< from B to A, unit
     double distance = 0.0;  ///< between the two points
-    double closest = 0.0;   ///< the least distance of the stretch it belongs to
+    double closest = 0.0;   ///< the least distance of the contacts close by
 };
 
 /// The contacts of a scene that stand for all of them: the ends and the closest point of every
