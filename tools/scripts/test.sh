@@ -53,18 +53,32 @@ check_tidy() {
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
 
-# The rooms that need no driver, with every memory access, leak and undefined operation watched. What
-# runs graphs on a device is left out: drivers leak on their own account.
-# Warnings are not errors here: the sanitizers' own code sets off false ones.
-check_sanitized() {
-    local test tests=(test_geometry test_localize test_exact test_graph)
-    configure sanitize -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1" \
-        "-DNEARFIELD_SANITIZE=address,undefined" -DNEARFIELD_BUILD_TOOLS=OFF \
+# configure_sanitized FOLDER SANITIZERS FLAGS: makes build/FOLDER. Warnings are not errors there: the
+# sanitizers' own code sets off false ones. Rooms are compiled as few files, to save time.
+configure_sanitized() {
+    configure "$1" -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=$3" "-DNEARFIELD_SANITIZE=$2" \
+        -DCMAKE_UNITY_BUILD=ON -DNEARFIELD_BUILD_TOOLS=OFF \
         -DNEARFIELD_WARNINGS_AS_ERRORS=OFF >/dev/null
+}
+
+# The rooms that need no driver, and whole queries on a mock one, with every memory access, leak and
+# undefined operation watched. What runs graphs on a device is left out: drivers leak on their own
+# account.
+check_sanitized() {
+    local test tests=(test_geometry test_localize test_exact test_graph test_driver)
+    configure_sanitized sanitize address,undefined "-O1 -g1"
     build sanitize --target "${tests[@]}"
     for test in "${tests[@]}"; do
         "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
     done
+}
+
+# Contexts on several threads, with every access to memory that two of them share watched.
+check_threads() {
+    configure_sanitized threads thread "-O1 -g0"
+    build threads --target test_threads
+    TSAN_OPTIONS="suppressions=$root/tests/threads/suppressions.txt halt_on_error=1" \
+        "$root/build/threads/tests/threads/test_threads" --gtest_brief=1
 }
 
 # A host gives the Vulkan entry points at run time: the library defines none and asks for none.
@@ -87,6 +101,7 @@ step "No Vulkan symbols in the library" check_symbols
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
+step "Threads" check_threads
 printf '\n== All checks passed; the tests again\n'
 tail -n 4 "$log"
 print_counts
