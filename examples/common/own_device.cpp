@@ -23,6 +23,7 @@ std::vector<std::string> surface_extensions() {
 
 OwnInstance::OwnInstance(const std::vector<std::string>& extensions) {
     std::vector<const char*> names;
+    names.reserve(extensions.size());
     for (const std::string& extension : extensions) {
         names.push_back(extension.c_str());
     }
