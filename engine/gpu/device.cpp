@@ -48,8 +48,15 @@ Device::Device(const HostDevice& host) : host_(host) {
     functions_.vkGetPhysicalDeviceProperties(host.physical_device, &properties_);
     functions_.vkGetPhysicalDeviceMemoryProperties(host.physical_device, &memory_);
     name_ = properties_.deviceName;
-    missing = missing_requirements(host.get_instance_proc_addr, host.instance, host.physical_device,
-                                   host.queue_family);
+    PhysicalDevice asked;
+    asked.queue_family = host.queue_family;
+    asked.instance = host.instance;
+    asked.physical_device = host.physical_device;
+    asked.get_instance_proc_addr = host.get_instance_proc_addr;
+    asked.api_version = host.api_version;
+    Requirements found;
+    survey_base(asked, found);
+    missing = std::move(found.unmet);
     load_device_functions(missing);
     refuse_if_any(std::move(missing), "device '" + name_ + "'");
 
@@ -59,12 +66,9 @@ Device::Device(const HostDevice& host) : host_(host) {
                                               host.physical_device, host.logic_op);
     gradient_format_ =
         find_gradient_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
-    std::uint32_t count = 0;
-    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count,
-                                                        families.data());
-    timestamp_bits_ = families[host.queue_family].timestampValidBits;
+    timestamp_bits_ = queue_families(functions_.vkGetPhysicalDeviceQueueFamilyProperties,
+                                     host.physical_device)[host.queue_family]
+                          .timestampValidBits;
 }
 
 void Device::load_instance_functions(std::vector<std::string>& missing) {

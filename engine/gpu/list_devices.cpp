@@ -37,8 +37,9 @@ Expected<std::vector<DeviceReport>> list_devices() {
             DeviceReport& report = reports.emplace_back();
             report.name = candidate.properties.deviceName;
             report.driver = driver_text(candidate.properties);
-            report.usable = candidate.missing.empty();
-            report.missing = std::move(candidate.missing);
+            report.usable = candidate.requirements.met();
+            report.missing = std::move(candidate.requirements.unmet);
+            report.optional = std::move(candidate.requirements.optional);
             for (std::size_t i = 0; i < intersection_strategies; ++i) {
                 const auto strategy = static_cast<IntersectionStrategy>(i);
                 report.strategies.push_back(

@@ -33,7 +33,9 @@ Owned<VkShaderModule> make_shader_module(const Device& device, Spirv shader,
     check(device.functions().vkCreateShaderModule(device.handle(), &info, device.allocator(),
                                                   &shader_module),
           "vkCreateShaderModule", "pipeline '" + name + "'");
-    return {device, shader_module};
+    Owned<VkShaderModule> owned(device, shader_module);
+    device.name_object(VK_OBJECT_TYPE_SHADER_MODULE, shader_module, name);
+    return owned;
 }
 
 VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,

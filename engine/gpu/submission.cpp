@@ -40,6 +40,7 @@ Submission::Submission(const Device& device) : device_(&device) {
     check(functions.vkCreateCommandPool(device.handle(), &pool_info, device.allocator(), &pool),
           "vkCreateCommandPool", "a submission");
     pool_ = Owned<VkCommandPool>(device, pool);
+    device.name_object(VK_OBJECT_TYPE_COMMAND_POOL, pool, "nearfield command pool");
 
     VkCommandBufferAllocateInfo commands_info{};
     commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -48,6 +49,7 @@ Submission::Submission(const Device& device) : device_(&device) {
     commands_info.commandBufferCount = 1;
     check(functions.vkAllocateCommandBuffers(device.handle(), &commands_info, &commands_),
           "vkAllocateCommandBuffers", "a submission");
+    device.name_object(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "nearfield commands");
 
     // Signalled, so that waiting before the first submission returns at once.
     VkFenceCreateInfo fence_info{};
@@ -57,6 +59,7 @@ Submission::Submission(const Device& device) : device_(&device) {
     check(functions.vkCreateFence(device.handle(), &fence_info, device.allocator(), &fence),
           "vkCreateFence", "a submission");
     fence_ = Owned<VkFence>(device, fence);
+    device.name_object(VK_OBJECT_TYPE_FENCE, fence, "nearfield fence");
 }
 
 VkCommandBuffer Submission::begin() {

@@ -4,6 +4,7 @@
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/requirements.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -60,6 +61,8 @@ struct DeviceReport {
     std::string driver;  ///< driver version and Vulkan version
     bool usable = false;
     std::vector<std::string> missing;  ///< what the base needs and the device lacks
+    /// What more there may be (Requirements::optional).
+    std::vector<OptionalPart> optional;
     /// Every strategy, for a headless context, which enables the features there are.
     std::vector<StrategyReport> strategies;
 };

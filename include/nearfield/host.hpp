@@ -86,8 +86,8 @@ struct HostDevice {
     /// Pipelines are made with it, all of them when the context is made. Borrowed and never
     /// destroyed. The host must not have created it as externally synchronised.
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-    QueueAccess queue_access;
-    Log log;
+    QueueAccess queue_access = {};
+    Log log = {};
 };
 
 /// Which device a headless context takes.
@@ -96,7 +96,7 @@ struct HeadlessOptions {
     /// A part of the device's name, case-sensitive; null or empty: the best kind there is
     /// (discrete, integrated, virtual, then a CPU implementation such as lavapipe).
     const char* device_name = nullptr;
-    Log log;
+    Log log = {};
 };
 
 }  // namespace nearfield

@@ -8,6 +8,7 @@
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/requirements.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>

@@ -234,7 +234,8 @@ struct Timings {
     double plan = 0.0;      ///< choice of techniques, simplification, meshes, atlas, upload
     double record = 0.0;    ///< commands
     /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
-    /// in collect(): with other frames in between it holds what the caller did meanwhile.
+    /// in collect(): with other frames in between it holds what the caller did meanwhile. 0 for what
+    /// was recorded, since the host submits it; `passes` are measured all the same.
     double device = 0.0;
     double decode = 0.0;  ///< reading results and making them exact; what the CPU answers alone
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting

@@ -1,12 +1,10 @@
-#include <engine/gpu/functions.hpp>
-
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
-#include <tests/support/fake_loader.hpp>
 #include <tests/support/host_frames.hpp>
+#include <tests/support/watched_loader.hpp>
 
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace nearfield::test {
@@ -18,67 +16,18 @@ namespace {
 std::uint64_t allocations_below = 0;
 std::vector<std::string> created;  // entry points called that make or destroy something
 
-void note(std::string_view name) {
-    for (const std::string_view verb : {"vkCreate", "vkAllocate", "vkDestroy", "vkFree", "vkMap"}) {
-        if (name.starts_with(verb)) {
-            created.emplace_back(name);
-        }
+void note_call(const test_support::WatchedCall& call) {
+    allocations_below += call.allocations;
+    if (call.makes() || call.destroys() || call.name.starts_with("vkMap")) {
+        created.emplace_back(call.name);
     }
-}
-
-/// Stands between the library and one entry point; `Tag` tells those of one type apart.
-template <class Tag, class Function>
-struct Between;
-
-template <class Tag, class Result, class... Arguments>
-struct Between<Tag, Result(VKAPI_PTR*)(Arguments...)> {
-    static inline Result(VKAPI_PTR* below)(Arguments...) = nullptr;
-
-    static Result VKAPI_CALL call(Arguments... arguments) {
-        const std::uint64_t before = test_support::allocation_count_of_this_thread();
-        struct Account {
-            std::uint64_t before;
-            ~Account() {
-                allocations_below += test_support::allocation_count_of_this_thread() - before;
-            }
-        } const account{before};
-        note(Tag::name);
-        return below(arguments...);
-    }
-};
-
-#define NEARFIELD_TAG(function)                        \
-    struct Tag_##function {                            \
-        static constexpr const char* name = #function; \
-    };
-NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_TAG)
-NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_TAG)
-#undef NEARFIELD_TAG
-
-template <class Tag, class Function>
-void lay_between(const HostDevice& host, test_support::Lies& lies) {
-    using Here = Between<Tag, Function>;
-    Here::below = reinterpret_cast<Function>(host.get_instance_proc_addr(host.instance, Tag::name));
-    if (Here::below != nullptr) {
-        lies.entry_points[Tag::name] = reinterpret_cast<PFN_vkVoidFunction>(&Here::call);
-    }
-}
-
-/// Between the library and every entry point of the host's device.
-test_support::Lies between(const HostDevice& host) {
-    test_support::Lies lies;
-#define NEARFIELD_BETWEEN(function) lay_between<Tag_##function, PFN_##function>(host, lies);
-    NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_BETWEEN)
-    NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_BETWEEN)
-#undef NEARFIELD_BETWEEN
-    return lies;
 }
 
 class SteadyState : public QueryTest {
 protected:
     void SetUp() override {
         QueryTest::SetUp();
-        loader_.emplace(host_device(), between(host_device()));
+        loader_.emplace(host_device(), test_support::watched(host_device(), note_call));
         Expected<Context> made = Context::create(loader_->host(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();
         watched_.emplace(std::move(*made));

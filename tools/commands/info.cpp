@@ -26,6 +26,14 @@ int run_info() {
         for (const std::string& reason : device.missing) {
             std::cout << "  missing: " << reason << '\n';
         }
+        for (const OptionalPart& part : device.optional) {
+            std::cout << "  optional " << part.name << ": "
+                      << (part.available ? "available" : "not available") << "; unlocks "
+                      << part.unlocks << '\n';
+            for (const std::string& reason : part.missing) {
+                std::cout << "    missing: " << reason << '\n';
+            }
+        }
         for (const StrategyReport& report : device.strategies) {
             std::cout << "  strategy " << name_of(report.strategy) << ": "
                       << (report.missing.empty() ? "available" : "not available") << '\n';
