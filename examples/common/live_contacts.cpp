@@ -1,5 +1,7 @@
 #include "live_contacts.hpp"
 
+#include "value_of.hpp"
+
 namespace nearfield::examples {
 namespace {
 
