@@ -1,5 +1,7 @@
 #include "live_contacts.hpp"
 
+#include "value_of.hpp"
+
 namespace nearfield::examples {
 namespace {
 
@@ -9,7 +11,7 @@ Settings settings(std::uint32_t frames_in_flight) {
     return settings;
 }
 
-void require(const Status& status) {
+void require_ok(const Status& status) {
     if (!status.ok()) {
         throw std::runtime_error(status.text());
     }
@@ -52,9 +54,9 @@ void LiveContacts::record(VkCommandBuffer commands, std::uint64_t frame, const S
 }
 
 void LiveContacts::take_over(const Pending& pending) {
-    require(context_.collect(pending.ticket, results_));
+    require_ok(context_.collect(pending.ticket, results_));
     const ContactResult& result = results_[query_];
-    require(result.status);
+    require_ok(result.status);
     snapshot_ = pending.asked;
     snapshot_.contacts = result.records;
 }

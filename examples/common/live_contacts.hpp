@@ -9,8 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 namespace nearfield::examples {
@@ -56,14 +54,5 @@ private:
     std::deque<Pending> pending_;  ///< oldest first
     Snapshot snapshot_;
 };
-
-/// The value, or the library's error thrown: an example has nothing better to do with it.
-template <class Value>
-Value value_of(Expected<Value> expected) {
-    if (!expected.ok()) {
-        throw std::runtime_error(expected.status().text());
-    }
-    return std::move(*expected);
-}
 
 }  // namespace nearfield::examples

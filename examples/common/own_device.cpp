@@ -1,6 +1,9 @@
 #include "own_device.hpp"
 
 #include "owned.hpp"
+#include "value_of.hpp"
+
+#include <nearfield/requirements.hpp>
 
 namespace nearfield::examples {
 
@@ -23,6 +26,7 @@ std::vector<std::string> surface_extensions() {
 
 OwnInstance::OwnInstance(const std::vector<std::string>& extensions) {
     std::vector<const char*> names;
+    names.reserve(extensions.size());
     for (const std::string& extension : extensions) {
         names.push_back(extension.c_str());
     }
@@ -57,28 +61,39 @@ OwnDevice::OwnDevice(VkInstance instance, const CanPresent& can_present) {
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 }
 
+// The first family that nearfield can work in and that can present.
 void OwnDevice::choose(VkInstance instance, const CanPresent& can_present) {
     std::uint32_t count = 0;
     require(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
     std::vector<VkPhysicalDevice> devices(count);
     require(vkEnumeratePhysicalDevices(instance, &count, devices.data()),
             "vkEnumeratePhysicalDevices");
+    std::string reasons;
     for (VkPhysicalDevice device : devices) {
         std::uint32_t family_count = 0;
         vkGetPhysicalDeviceQueueFamilyProperties(device, &family_count, nullptr);
-        std::vector<VkQueueFamilyProperties> families(family_count);
-        vkGetPhysicalDeviceQueueFamilyProperties(device, &family_count, families.data());
         for (std::uint32_t family = 0; family < family_count; ++family) {
-            constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-            if ((families[family].queueFlags & needed) == needed && can_present(device, family)) {
+            PhysicalDevice asked;
+            asked.instance = instance;
+            asked.physical_device = device;
+            asked.queue_family = family;
+            asked.get_instance_proc_addr = vkGetInstanceProcAddr;
+            asked.api_version = VK_API_VERSION_1_1;
+            const Requirements needed = value_of(requirements(asked));
+            if (needed.met() && can_present(device, family)) {
                 physical_device_ = device;
                 queue_family_ = family;
                 return;
             }
+            for (const std::string& unmet : needed.unmet) {
+                reasons += "\n- " + unmet;
+            }
         }
     }
     throw std::runtime_error("none of " + std::to_string(count) +
-                             " Vulkan devices draws, computes and presents in one queue family");
+                             " Vulkan devices has a queue family that will do and that presents to "
+                             "this window" +
+                             reasons);
 }
 
 HostDevice host_device(VkInstance instance, const OwnDevice& device) {
@@ -89,6 +104,7 @@ HostDevice host_device(VkInstance instance, const OwnDevice& device) {
     host.queue = device.queue();
     host.queue_family = device.queue_family();
     host.get_instance_proc_addr = vkGetInstanceProcAddr;
+    host.api_version = VK_API_VERSION_1_1;
     return host;
 }
 

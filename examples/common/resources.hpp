@@ -11,7 +11,7 @@ namespace nearfield::examples {
 /// A buffer that stays mapped.
 struct HostBuffer {
     HostBuffer() = default;
-    HostBuffer(VkPhysicalDevice physical_device, VkDevice device, VkDeviceSize size,
+    HostBuffer(VkPhysicalDevice physical_device, VkDevice device, VkDeviceSize bytes,
                VkBufferUsageFlags usage);
 
     Memory memory;

@@ -81,7 +81,7 @@ void send_mouse(QQuickView& view, QEvent::Type type, const nearfield::Vector2& w
 
 void take_screenshot(Way& way, const ContactsItem& item, const Options& options) {
     const auto render = [&way, &item] {
-        const QImage picture = way.render();
+        QImage picture = way.render();
         QCoreApplication::processEvents();  // what the render thread has to tell
         if (!item.error().isEmpty()) {
             throw std::runtime_error(item.error().toStdString());

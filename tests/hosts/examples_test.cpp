@@ -18,12 +18,12 @@ struct Example {
     int width = 640;
     int height = 480;
     Vector2 label;  ///< as compare() takes it
-};
 
-/// For the messages of a failure.
-void PrintTo(const Example& example, std::ostream* out) {
-    *out << example.name;
-}
+    /// For the messages of a failure.
+    friend std::ostream& operator<<(std::ostream& out, const Example& example) {
+        return out << example.name;
+    }
+};
 
 const Vector2 label_of_qt{140.0, 420.0};
 

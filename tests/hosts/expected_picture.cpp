@@ -1,5 +1,7 @@
 #include "expected_picture.hpp"
 
+#include "examples/common/value_of.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

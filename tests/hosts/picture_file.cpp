@@ -18,16 +18,16 @@ Pixels read_picture(const std::filesystem::path& file) {
     Pixels pixels;
     pixels.width = cairo_image_surface_get_width(surface.get());
     pixels.height = cairo_image_surface_get_height(surface.get());
-    const unsigned char* rows = cairo_image_surface_get_data(surface.get());
+    const unsigned char* row = cairo_image_surface_get_data(surface.get());
     for (int y = 0; y < pixels.height; ++y) {
         for (int x = 0; x < pixels.width; ++x) {
             std::uint32_t word = 0;
-            std::memcpy(&word, rows + y * cairo_image_surface_get_stride(surface.get()) + 4 * x,
-                        sizeof(word));
+            std::memcpy(&word, row + std::size_t{4} * static_cast<std::size_t>(x), sizeof(word));
             pixels.colors.push_back({static_cast<std::uint8_t>(word >> 16U),
                                      static_cast<std::uint8_t>(word >> 8U),
                                      static_cast<std::uint8_t>(word), 255});
         }
+        row += cairo_image_surface_get_stride(surface.get());
     }
     return pixels;
 }
