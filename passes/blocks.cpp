@@ -59,9 +59,9 @@ void Blocks::record_blocks(VkCommandBuffer commands, const gpu::Owned<VkPipeline
     const auto end = static_cast<std::uint32_t>(work.blocks.size()) * threads_per_block;
     bind(commands, pipeline);
     dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
-        const std::uint32_t push[4] = {
+        const std::uint32_t push[5] = {
             first, end, static_cast<std::uint32_t>(round.lists.geometry().size()),
-            static_cast<std::uint32_t>(work.mask_words + work.run_words)};
+            static_cast<std::uint32_t>(work.mask_words + work.run_words), round.resident ? 1U : 0U};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
     });

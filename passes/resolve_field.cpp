@@ -71,8 +71,8 @@ void ResolveField::record(VkCommandBuffer commands) const {
             continue;
         }
         bind_field_set(functions, commands, layout_, *frame_, tile.sign);
-        const std::uint32_t push[4] = {tile.tile, sign_mask(tile.sign), tile.first_value,
-                                       tile.first_feature};
+        const std::uint32_t push[5] = {tile.tile, sign_mask(tile.sign), tile.first_value,
+                                       tile.first_feature, frame_->round->resident ? 1U : 0U};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
         dispatch_cells(functions, commands, tile.width, tile.height);

@@ -50,28 +50,16 @@ struct Nearest {
     float distance;
     vec2 point;
     uint edge;
-    float along;  // the edge: 0 at its first vertex, 1 at its last
-    vec2 way;     // of the edge, from its first vertex to its last
 };
 
-const Nearest nothing_near = Nearest(infinity, vec2(0.0), 0u, 0.0, vec2(0.0));
+const Nearest nothing_near = Nearest(infinity, vec2(0.0), 0u);
 
 void consider(vec2 p, vec2 a, vec2 b, uint edge, inout Nearest nearest) {
-    float along = along_segment(p, a, b);
-    vec2 q = a + along * (b - a);
+    vec2 q = nearest_on_segment(p, a, b);
     float d = distance(p, q);
     if (d < nearest.distance) {
-        nearest = Nearest(d, q, edge, along, b - a);
+        nearest = Nearest(d, q, edge);
     }
-}
-
-// Where an edge's vertex is nearest, a word of a field says so in the bits that edges leave free.
-const uint first_vertex_flag = 1u << 28;
-const uint last_vertex_flag = 1u << 29;
-
-uint vertex_flags(Nearest nearest) {
-    return nearest.along <= 0.0 ? first_vertex_flag
-                                : (nearest.along >= 1.0 ? last_vertex_flag : 0u);
 }
 
 void consider_run(vec2 p, Edge edge, inout Nearest nearest) {
@@ -146,4 +134,47 @@ bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
         }
     }
     return false;
+}
+
+// Where on its edge the nearest point lies. Asked for afterwards, and only of what stays on the
+// device: others are not to pay for carrying it through the search.
+struct OnEdge {
+    float along;  // 0 at the edge's first vertex, 1 at its last
+    vec2 way;     // of the edge, from its first vertex to its last
+};
+
+OnEdge on_segment(vec2 p, vec2 a, vec2 b) {
+    return OnEdge(along_segment(p, a, b), b - a);
+}
+
+// `list`: one that the nearest edge is in, on its own or in a run.
+OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
+    // The nearest point lies in the box of its edge but for rounding.
+    float slack = 0.25 + nearest.distance / 65536.0;
+    for (uint first = 0u; first < list.count; first += cluster_size) {
+        uint box = list.clusters + first / cluster_size * 2u;
+        if (distance_to_box(nearest.point, geometry[box], geometry[box + 1u]) > slack) {
+            continue;
+        }
+        uint end = min(first + cluster_size, list.count);
+        for (uint i = first; i < end; ++i) {
+            Edge edge = list_edge(list, i);
+            uint in_run = nearest.edge - edge.first_edge;  // huge where the run comes after
+            if (in_run < edge.run_count) {
+                return edge.run_count == 1u ? on_segment(p, edge.a, edge.b)
+                                            : on_segment(p, geometry[edge.run + in_run],
+                                                         geometry[edge.run + in_run + 1u]);
+            }
+        }
+    }
+    return OnEdge(0.5, vec2(0.0));
+}
+
+// Where an edge's vertex is nearest, a word of a field says so in the bits that edges leave free.
+const uint first_vertex_flag = 1u << 28;
+const uint last_vertex_flag = 1u << 29;
+
+uint vertex_flags(vec2 p, EdgeList list, Nearest nearest) {
+    float along = on_edge(p, list, nearest).along;
+    return along <= 0.0 ? first_vertex_flag : (along >= 1.0 ? last_vertex_flag : 0u);
 }

@@ -20,6 +20,7 @@ layout(push_constant) uniform Push {
     uint end;
     uint blocks;  // where they start in the geometry array
     uint lists;   // where their lists start in the scratch memory
+    uint resident;  // 1: features stay on the device, and say which vertices are nearest
 } push;
 
 struct List {
@@ -82,7 +83,8 @@ uint feature_at(Tile part, List list, vec2 p, uvec2 cell) {
                     nearest.distance + margin &&
                 run_has_rival(p, edge, nearest, margin);
     }
-    return feature_word(part, p, cell, nearest, rival);
+    uint word = feature_word(part, p, cell, nearest, rival);
+    return push.resident == 0u ? word : word | vertex_flags(p, part.nearest, nearest);
 }
 
 void main() {

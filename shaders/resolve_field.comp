@@ -19,6 +19,7 @@ layout(push_constant) uniform Push {
     uint sign_mask;
     uint first_value;    // where the tile's values start; not_asked
     uint first_feature;  // where its features start; not_asked
+    uint resident;       // 1: they stay on the device, and say which vertices are nearest
 } push;
 
 #include "field.glsl"
@@ -36,6 +37,12 @@ void main() {
         field.words[push.first_value + index] = floatBitsToUint(field_value(tile, cell));
     }
     if (push.first_feature != not_asked) {
-        field.words[push.first_feature + index] = field_feature(tile, vec2(cell) + 0.5, cell);
+        Nearest nearest;
+        vec2 centre = vec2(cell) + 0.5;
+        uint word = field_feature(tile, centre, cell, nearest);
+        if (push.resident != 0u) {
+            word |= vertex_flags(centre, tile.nearest, nearest);
+        }
+        field.words[push.first_feature + index] = word;
     }
 }

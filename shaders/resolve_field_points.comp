@@ -48,7 +48,8 @@ void main() {
     ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
     uint word = push.first_word + (index - push.origin) * push.words_per_point;
     ivec2 own = clamp(ivec2(floor(point.position)), ivec2(0), last);
-    field.words[word] = field_feature(tile, point.position, own);
+    Nearest nearest;
+    field.words[word] = field_feature(tile, point.position, own, nearest);
     for (uint i = 0u; i < push.cells_per_point; ++i) {
         field.words[word + 1u + i] = floatBitsToUint(field_value(tile, low + around[i]));
     }

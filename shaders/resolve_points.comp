@@ -58,7 +58,7 @@ uint resolve(uint index, Point point) {
         return 0u;
     }
     nearest = find_nearest(p, tile.nearest, nearest);
-    write_details(index, p, nearest, tile.crossing);
+    write_details(index, p, nearest, tile);
     uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
     return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
 }

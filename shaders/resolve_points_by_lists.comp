@@ -37,7 +37,7 @@ uint resolve(uint index, Point point) {
         return 0u;
     }
     Nearest nearest = find_nearest(point.position, tile.nearest, nothing_near);
-    write_details(index, point.position, nearest, tile.crossing);
+    write_details(index, point.position, nearest, tile);
     uint unique =
         has_rival(point.position, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
     return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;

@@ -22,6 +22,13 @@ namespace {
 constexpr double bytes_per_point =
     sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
 
+// The same of one that stays on the device: its details, its place in the tables, its record.
+constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
+
+double bytes_of_point(const PlannedQuery& query) {
+    return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
+}
+
 Box grown(Box box, double by) {
     box.min().array() -= by;
     box.max().array() += by;
@@ -96,8 +103,8 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     samples_.clear();
     if (vertices) {
         vertices_of_chains(a, chains_, samples_);
-        require_memory(bytes_per_point * static_cast<double>(samples_.size()), query.tolerance,
-                       1.0);
+        require_memory(bytes_of_point(planned) * static_cast<double>(samples_.size()),
+                       query.tolerance, 1.0);
     } else {
         sample_boundary(a, box_b, result);
     }
@@ -117,7 +124,8 @@ std::uint32_t Planner::add_reverse() {
 
 void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within,
                               const ResultSummary& result) {
-    require_memory(bytes_per_point * most_samples(polygon, chains_, result.cell, within),
+    require_memory(bytes_of_point(plan_->queries[query_]) *
+                       most_samples(polygon, chains_, result.cell, within),
                    result.tolerance, 1.0);
     samples_.clear();
     sample_chains(polygon, chains_, result.cell, within, samples_);

@@ -509,6 +509,8 @@ TEST_F(Frames, OfALostDeviceAllSaySo) {
     EXPECT_EQ(first.code(), StatusCode::device_lost);
     EXPECT_NE(first.message().find("vkWaitForFences"), std::string::npos) << first.message();
     EXPECT_TRUE(watched().is_ready(tickets[0]));
+    EXPECT_EQ(watched().resident(tickets[0], QueryHandle<DistanceFieldQuery>{0}).status().code(),
+              StatusCode::device_lost);
     EXPECT_EQ(watched().collect(tickets[0], results).code(), StatusCode::device_lost);
     EXPECT_EQ(watched().collect(tickets[2], results).code(), StatusCode::device_lost);
     EXPECT_EQ(watched().collect(tickets[2], results).code(), StatusCode::unknown_ticket);

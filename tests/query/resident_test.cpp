@@ -1,3 +1,4 @@
+#include <tests/query/all_numbers.hpp>
 #include <tests/query/pair.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/query/resident_reader.hpp>
@@ -475,6 +476,47 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     }
     Results results;
     ASSERT_TRUE(made->collect(former.ticket, results).ok());
+}
+
+TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
+    Random random(seed);
+    const Rings rings = with_holes(random, 3);
+    const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.01};
+    for (const Technique technique : on_device) {
+        // With a context of its own: the samples of the intersection, most cells of its regions,
+        // find no room in the first submission, and their rounds are submitted again.
+        Expected<Context> made = Context::create(host_device(), drawing());
+        ASSERT_TRUE(made.ok()) << made.status().text();
+        const PlacedPair pair(*made, shapes, technique);
+        const auto ask_all = [&](bool resident, std::size_t& records) {
+            DistanceFieldQuery field = field_of(pair, technique);
+            field.resident = resident;
+            const std::vector<Vector2> points{field.rectangle->min};
+            PenetrationQuery depths = pair.penetration();
+            depths.resident = resident;
+            ContactQuery contacts = pair.contacts(0.05);
+            contacts.resident = resident;
+            Batch batch;
+            batch.add(pair.intersection(IntersectionKind::volume_volume));
+            batch.add(field);
+            const auto of_depths = batch.add(depths);
+            batch.add(contacts);
+            field.resident = false;
+            field.points = points;
+            batch.add(field);
+            Results results;
+            const Expected<Ticket> ticket = made->submit(batch);
+            EXPECT_TRUE(ticket.ok()) << ticket.status().text();
+            EXPECT_TRUE(made->collect(*ticket, results).ok());
+            records = results[of_depths].records.size();
+            return all_numbers(results);
+        };
+        std::size_t with = 0;
+        std::size_t without = 0;
+        const std::vector<double> first = ask_all(true, with);
+        EXPECT_EQ(first, ask_all(false, without));
+        EXPECT_GT(with, 50U);
+    }
 }
 
 TEST_F(Resident, ImagesOnlyGrow) {
