@@ -115,7 +115,7 @@ void measure_growth(QueryStopwatch& stopwatch, Measured& measured) {
         measured.lines.push_back(
             {static_cast<double>(2 * n), stopwatch.measure_still(two_coasts(n, 0.01))});
     }
-    for (const double d : {0.1, 0.03162, 0.01, 0.003162, 0.001, 0.0003162}) {
+    for (const double d : {0.0003162, 0.001, 0.003162, 0.01, 0.03162, 0.1}) {
         show("growth: tolerance " + std::to_string(d));
         measured.tolerances.push_back({d, stopwatch.measure_still(two_coasts(500, d))});
     }

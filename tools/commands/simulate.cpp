@@ -101,7 +101,11 @@ public:
             drawing_.cells(field_overlay(context, world, view_));
         }
         draw_bodies(drawing_, world.scene(), view_);
-        draw_observations(drawing_, observe(world), view_);
+        // Among very many bodies marks would hide all of them.
+        constexpr std::size_t most_bodies_with_marks = 100;
+        if (world.scene().bodies.size() <= most_bodies_with_marks) {
+            draw_observations(drawing_, observe(world), view_);
+        }
         const FrameImage image = paint(drawing_, view_);
         if (in_a_file) {
             outputs_.files->write(frame, png_of(image));
