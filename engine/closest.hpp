@@ -30,9 +30,12 @@ private:
                 SeparationResult& result);
     void answer_small(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
                       const exact::PlacedEdges& b, SeparationResult& result);
+    /// Of complete shapes that are apart. `at_most`: as far as is known.
+    void answer_apart(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
+                      const exact::PlacedEdges& b, double at_most, SeparationResult& result);
     /// Of shapes that intersect.
-    void find_common_point(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                           double rounding, SeparationResult& result);
+    void find_common_point(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
+                           SeparationResult& result);
 
     exact::ClosestPairFinder finder_;
     exact::ClosestEdges edges_;

@@ -31,6 +31,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         result.status = std::move(status);
         return;
     }
+    complete_if_near(pair, instances);
     const bool reversed = pair.is_reverse_of(last_.index);
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
@@ -95,7 +96,7 @@ std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& 
         nearest_.resize(exact::padded(points.count));
     }
     if (!exact::is_small(b)) {
-        boundary_.set(b.placed);
+        boundary_.set(b);
         const std::uint32_t in_box =
             exact::kernels::find_points_in(points, exact::extent_of(b.box), inside_.data());
         const auto end = std::remove_if(

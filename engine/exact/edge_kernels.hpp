@@ -76,6 +76,10 @@ namespace kernels {
 [[nodiscard]] Extent place_points(const double* interleaved, std::uint32_t count,
                                   const Placement& placement, double* x, double* y);
 
+/// The box around the same points, bit for bit.
+[[nodiscard]] Extent find_extent(const double* interleaved, std::uint32_t count,
+                                 const Placement& placement);
+
 /// Writes EdgeArrays::inverse_length of whole lanes.
 void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 
