@@ -96,15 +96,6 @@ void ClosestDecoder::find_common_point(const PlacedEdges& a, const PlacedEdges& 
     }
 }
 
-void ClosestDecoder::answer_small(const PlannedQuery& query, const PlacedEdges& a,
-                                  const PlacedEdges& b, SeparationResult& result) {
-    const ClosestPair closest = edges_.find(a, b);
-    write_pair(a.placed, b.placed, closest, result);
-    result.sampled_distance = result.distance;
-    result.unique = edges_.is_unique(a, b, closest, side_of(query),
-                                     result.tolerance * plan::uniqueness_margin, result.tolerance);
-}
-
 void ClosestDecoder::answer_apart(const PlannedQuery& query, const PlacedEdges& a,
                                   const PlacedEdges& b, double at_most, SeparationResult& result) {
     const double margin = result.tolerance * plan::uniqueness_margin;
@@ -122,16 +113,11 @@ void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& i
         result.status = std::move(status);
         return;
     }
-    const bool both_small = is_small(a) && is_small(b);
-    if (!both_small) {
-        complete(pair, instances);
-    }
+    complete(pair, instances);
     result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     result.intersects = meeting_.intersect(a, b);
     if (result.intersects) {
         find_common_point(a, b, result);
-    } else if (both_small) {
-        answer_small(query, a, b, result);
     } else {
         answer_apart(query, a, b, infinity, result);
         result.sampled_distance = result.distance;

@@ -22,12 +22,19 @@ std::uint32_t stride_of(const Polygon& polygon) {
     return std::max(1U, polygon.size() / looked_at);
 }
 
-/// The box of some of the vertices.
+// So many vertices are boxed sooner than some of them are picked out.
+constexpr std::uint32_t boxed_at_once = 4096;
+
+/// The box of all vertices, or of some of very many.
 Box rough_box(const PlacedPolygon& placed, double grow) {
     Box box;
     const Polygon& polygon = placed.polygon();
-    for (std::uint32_t i = 0; i < polygon.size(); i += stride_of(polygon)) {
-        box.extend(placed.vertex(i));
+    if (polygon.size() <= boxed_at_once) {
+        box = placed.box();
+    } else {
+        for (std::uint32_t i = 0; i < polygon.size(); i += stride_of(polygon)) {
+            box.extend(placed.vertex(i));
+        }
     }
     box.min().array() -= grow;
     box.max().array() += grow;
@@ -36,6 +43,9 @@ Box rough_box(const PlacedPolygon& placed, double grow) {
 
 /// How many samples a cell apart the boundary has within a box.
 double boundary_samples(const PlacedPolygon& placed, const Box& within, double cell) {
+    if (!rough_box(placed, 0.0).intersects(within)) {
+        return 0.0;
+    }
     const Polygon& polygon = placed.polygon();
     const std::uint32_t stride = stride_of(polygon);
     double samples = 0.0;
@@ -59,7 +69,7 @@ double cells_of(const Box& box, double cell) {
     return (sides.x() + 1.0) * (sides.y() + 1.0);
 }
 
-/// Where both shapes can be; the boxes are rough, so a little too small.
+/// Where both shapes can be; rough boxes are a little too small.
 Box common_box(const PlacedPolygon& a, const PlacedPolygon& b, double grow) {
     return rough_box(a, grow).intersection(rough_box(b, grow));
 }

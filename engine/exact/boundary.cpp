@@ -46,6 +46,29 @@ NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) c
     return {edge, nearest_on(edge, point)};
 }
 
+std::uint32_t Boundary::keep_inside(const PointArrays& points,
+                                    std::span<std::uint32_t> listed) const {
+    // Points in one box that no edge's box meets lie on one side, like the last point before them
+    // where that is in the box as well.
+    constexpr std::size_t together = 8;
+    std::uint32_t kept = 0;
+    bool inside = false;
+    for (std::size_t first = 0; first < listed.size(); first += together) {
+        const auto group = listed.subspan(first, std::min(together, listed.size() - first));
+        geometry::Box box;
+        for (std::size_t i = first == 0 ? 0 : first - 1; i < first + group.size(); ++i) {
+            box.extend(Vector(points.x[listed[i]], points.y[listed[i]]));
+        }
+        const bool on_one_side = first > 0 && !kernels::meets(*tree_, extent_of(box));
+        for (const std::uint32_t point : group) {
+            inside = on_one_side ? inside : contains({points.x[point], points.y[point]});
+            listed[kept] = point;
+            kept += inside ? 1 : 0;
+        }
+    }
+    return kept;
+}
+
 bool Boundary::is_unique(const Vector& point, const NearestPoint& nearest, double margin) {
     const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin;
     // What is clearly farther needs no closer look.

@@ -83,6 +83,9 @@ void find_boxes(const EdgeArrays& edges, double* boxes);
 [[nodiscard]] std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box,
                                           std::uint32_t* found);
 
+/// True where the box of an edge meets a box.
+[[nodiscard]] bool meets(const BoxTree& tree, const Extent& box);
+
 /// Calls `sink` for all pairs of edges that may come as close together as `margin`, until it says
 /// no; returns whether it did.
 bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margin,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace nearfield::exact {
 namespace {
@@ -54,6 +56,11 @@ ClosestPair ClosestPairFinder::find(const PlacedEdges& a, const PlacedEdges& b, 
         kernels::for_closest(a.tree(), b.tree(), most, 2.0 * rounding + margin, {keep, &near_});
     const double loose = square_longer(least, 2.0 * rounding + margin);
     std::erase_if(near_, [loose](const VertexAndEdge& found) { return found.squared > loose; });
+    // In what order they came depends on how many the machine looks at together.
+    std::sort(near_.begin(), near_.end(), [](const VertexAndEdge& i, const VertexAndEdge& j) {
+        return std::tie(i.vertex_of_first, i.vertex, i.edge) <
+               std::tie(j.vertex_of_first, j.vertex, j.edge);
+    });
     // Of all that may be the closest, which the kernels cannot tell apart, the closest.
     const double close = square_longer(least, rounding);
     ClosestPair best;

@@ -1,7 +1,6 @@
 #include <engine/exact/edge_kernels.hpp>
 
 #include <bit>
-#include <cstring>
 #include <limits>
 
 // Highway compiles what follows once for every instruction set, by including this file again.
@@ -14,80 +13,6 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace nearfield::exact::kernels::HWY_NAMESPACE {
-
-struct PlacedPoints {
-    Lanes x;
-    Lanes y;
-};
-
-HWY_INLINE PlacedPoints place_lanes(const double* interleaved, const Placement& placement) {
-    const Tag tag;
-    Lanes x;
-    Lanes y;
-    hn::LoadInterleaved2(tag, interleaved, x, y);
-    const auto placed = [&](int axis) HWY_ATTR {
-        const Lanes turned = hn::Add(hn::Mul(hn::Set(tag, placement.x_axis[axis]), x),
-                                     hn::Mul(hn::Set(tag, placement.y_axis[axis]), y));
-        return hn::Add(turned, hn::Set(tag, placement.translation[axis]));
-    };
-    return {placed(0), placed(1)};
-}
-
-/// Places points from lane to lane and calls `use(i, placed)` with those from point i on; the last
-/// lanes may hold some of the points before once more. Returns the box around them.
-template <class Use>
-HWY_INLINE Extent place_all(const double* interleaved, std::uint32_t count,
-                            const Placement& placement, const Use& use) {
-    const Tag tag;
-    const std::size_t lanes = hn::Lanes(tag);
-    double padded_points[2 * most_lanes];
-    if (count < lanes) {
-        for (std::size_t i = 0; i < lanes; ++i) {
-            std::memcpy(padded_points + 2 * i, interleaved + 2 * (i < count ? i : 0),
-                        2 * sizeof(double));
-        }
-        interleaved = padded_points;
-    }
-    Lanes low_x = hn::Set(tag, std::numeric_limits<double>::infinity());
-    Lanes low_y = low_x;
-    Lanes high_x = hn::Neg(low_x);
-    Lanes high_y = high_x;
-    for (std::size_t i = 0; i < count; i += lanes) {
-        const std::size_t from = i + lanes <= count || i == 0 ? i : count - lanes;
-        const PlacedPoints placed = place_lanes(interleaved + 2 * from, placement);
-        low_x = hn::Min(low_x, placed.x);
-        low_y = hn::Min(low_y, placed.y);
-        high_x = hn::Max(high_x, placed.x);
-        high_y = hn::Max(high_y, placed.y);
-        use(from, placed);
-    }
-    return {least_lane(low_x), least_lane(low_y), greatest_lane(high_x), greatest_lane(high_y)};
-}
-
-Extent PlacePoints(const double* interleaved, std::uint32_t count, const Placement& placement,
-                   double* x, double* y) {
-    const Tag tag;
-    if (count < hn::Lanes(tag)) {
-        return place_all(interleaved, count, placement,
-                         [&](std::size_t, const PlacedPoints& placed) HWY_ATTR {
-                             double placed_x[most_lanes];
-                             double placed_y[most_lanes];
-                             hn::StoreU(placed.x, tag, placed_x);
-                             hn::StoreU(placed.y, tag, placed_y);
-                             std::memcpy(x, placed_x, count * sizeof(double));
-                             std::memcpy(y, placed_y, count * sizeof(double));
-                         });
-    }
-    return place_all(interleaved, count, placement,
-                     [&](std::size_t i, const PlacedPoints& placed) HWY_ATTR {
-                         hn::StoreU(placed.x, tag, x + i);
-                         hn::StoreU(placed.y, tag, y + i);
-                     });
-}
-
-Extent FindExtent(const double* interleaved, std::uint32_t count, const Placement& placement) {
-    return place_all(interleaved, count, placement, [](std::size_t, const PlacedPoints&) {});
-}
 
 void FindInverseLengths(const EdgeArrays& edges, double* inverse_length) {
     const Tag tag;
@@ -256,42 +181,12 @@ std::uint32_t FindPointNearestTo(const PointArrays& points, const Extent& box) {
     return found < points.count ? found : points.count - 1;
 }
 
-std::uint32_t FindPointsWithin(const PointArrays& points, const Extent& box, double most,
-                               std::uint32_t* found) {
-    const Tag tag;
-    const LanesOfExtent bounds = lanes_of(box);
-    const Lanes limit = hn::Set(tag, most);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < points.count; i += hn::Lanes(tag)) {
-        const Lanes squared =
-            squared_to(bounds, hn::LoadU(tag, points.x + i), hn::LoadU(tag, points.y + i));
-        count = append_lanes(hn::Le(squared, limit), i, points.count, found, count);
-    }
-    return count;
-}
-
-void FindDistances(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                   const EdgeArrays& edges, double* squared) {
-    const Tag tag;
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const Lanes x = hn::Set(tag, points.x[listed[k]]);
-        const Lanes y = hn::Set(tag, points.y[listed[k]]);
-        Lanes least = squared_distances(edges, 0, x, y);
-        for (std::size_t i = hn::Lanes(tag); i < edges.count; i += hn::Lanes(tag)) {
-            least = hn::Min(least, squared_distances(edges, i, x, y));
-        }
-        squared[k] = least_lane(least);
-    }
-}
-
 }  // namespace nearfield::exact::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nearfield::exact::kernels {
 
-HWY_EXPORT(PlacePoints);
-HWY_EXPORT(FindExtent);
 HWY_EXPORT(FindInverseLengths);
 HWY_EXPORT(FindPointsIn);
 HWY_EXPORT(FindPointsInside);
@@ -302,17 +197,6 @@ HWY_EXPORT(FindEdgesWithin);
 HWY_EXPORT(FindEdgesIn);
 HWY_EXPORT(FindMeetingPair);
 HWY_EXPORT(FindPointNearestTo);
-HWY_EXPORT(FindPointsWithin);
-HWY_EXPORT(FindDistances);
-
-Extent place_points(const double* interleaved, std::uint32_t count, const Placement& placement,
-                    double* x, double* y) {
-    return HWY_DYNAMIC_DISPATCH(PlacePoints)(interleaved, count, placement, x, y);
-}
-
-Extent find_extent(const double* interleaved, std::uint32_t count, const Placement& placement) {
-    return HWY_DYNAMIC_DISPATCH(FindExtent)(interleaved, count, placement);
-}
 
 void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length) {
     HWY_DYNAMIC_DISPATCH(FindInverseLengths)(edges, inverse_length);
@@ -356,16 +240,6 @@ bool find_meeting_pair(const EdgeArrays& first, const EdgeArrays& second, double
 
 std::uint32_t find_point_nearest_to(const PointArrays& points, const Extent& box) {
     return HWY_DYNAMIC_DISPATCH(FindPointNearestTo)(points, box);
-}
-
-std::uint32_t find_points_within(const PointArrays& points, const Extent& box, double most,
-                                 std::uint32_t* found) {
-    return HWY_DYNAMIC_DISPATCH(FindPointsWithin)(points, box, most, found);
-}
-
-void find_distances(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                    const EdgeArrays& edges, double* squared) {
-    HWY_DYNAMIC_DISPATCH(FindDistances)(points, listed, count, edges, squared);
 }
 
 }  // namespace nearfield::exact::kernels

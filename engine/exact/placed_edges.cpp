@@ -31,16 +31,6 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     return hash ^ (hash >> 32U);
 }
 
-Placement placement_of(const PlacedPolygon& placed) {
-    const Eigen::Matrix2d& turn = placed.rotation();
-    const Vector& move = placed.translation();
-    return {{turn(0, 0), turn(1, 0)}, {turn(0, 1), turn(1, 1)}, {move.x(), move.y()}};
-}
-
-Box box_of(const Extent& extent) {
-    return {Vector(extent.low_x, extent.low_y), Vector(extent.high_x, extent.high_y)};
-}
-
 /// Where every edge ends, from where they start, ring by ring.
 void copy_ends(const Polygon& polygon, const double* start, double* end) {
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
@@ -76,8 +66,10 @@ std::size_t PlacedInstances::slot_of(const Polygon& polygon, const Pose& pose) c
 }
 
 std::uint32_t PlacedInstances::place(const Polygon& polygon, const Pose& pose) {
-    for (const std::uint32_t index : recent_) {
+    for (const std::uint32_t index : std::array(recent_)) {
         if (index < entries_.size() && is(entries_[index], polygon, pose)) {
+            // Who is in one pair after the other stays.
+            recent_ = {recent_[0] == index ? recent_[1] : recent_[0], index};
             return index;
         }
     }
@@ -149,8 +141,7 @@ void PlacedInstances::add(const PlacedPolygon& placed, const Pose& pose) {
         find_arrays(entry);
         edges.box = write_arrays(entry);
     } else {
-        edges.box = box_of(kernels::find_extent(polygon.vertices().front().data(), edges.count,
-                                                placement_of(placed)));
+        edges.box = placed.box();
     }
     edges.rounding = localize::placement_rounding(placed, edges.box);
     edges.magnitude = geometry::largest_magnitude(placed, pose, edges.box);
@@ -180,8 +171,8 @@ Box PlacedInstances::write_arrays(const Entry& entry) {
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;
     double* const end_y = end_x + length;
-    const Extent extent = kernels::place_points(polygon.vertices().front().data(), count,
-                                                placement_of(entry.edges.placed), start_x, start_y);
+    const Extent extent = geometry::kernels::place_points(
+        polygon.vertices(), entry.edges.placed.placement(), start_x, start_y);
     copy_ends(polygon, start_x, end_x);
     copy_ends(polygon, start_y, end_y);
     // What fills up the last lanes is the last edge's end once more: an edge of no length.
@@ -192,7 +183,7 @@ Box PlacedInstances::write_arrays(const Entry& entry) {
     if (entry.edges.inverse_length != nullptr) {
         kernels::find_inverse_lengths(entry.edges, end_y + length);
     }
-    return box_of(extent);
+    return geometry::box_of(extent);
 }
 
 }  // namespace nearfield::exact

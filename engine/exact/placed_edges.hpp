@@ -39,9 +39,7 @@ inline constexpr std::uint32_t most_edges_one_by_one = 256;
     return edges.count <= most_edges_one_by_one;
 }
 
-[[nodiscard]] inline Extent extent_of(const geometry::Box& box) {
-    return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
-}
+using geometry::extent_of;
 
 /// The instances of a batch, each placed once, however many pairs it is in. Keeps its memory.
 class PlacedInstances {

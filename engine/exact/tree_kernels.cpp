@@ -132,7 +132,7 @@ void FindBoxes(const EdgeArrays& edges, double* boxes) {
 // ---- one point -----------------------------------------------------------------------------
 
 /// Calls `use(i)` for the first edge of each box of the lowest level that is entered with all boxes
-/// above it; `enter(boxes)` says which of some boxes are.
+/// above it, as long as it says so; `enter(boxes)` says which of some boxes are.
 template <class Enter, class Use>
 HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& use) {
     // A stack of what is left of eight boxes, a level each.
@@ -158,7 +158,9 @@ HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& u
             fan_out * (first[level] + static_cast<std::uint32_t>(std::countr_zero(bits[level])));
         bits[level] &= bits[level] - 1;
         if (level == 0) {
-            use(child);
+            if (!use(child)) {
+                return;
+            }
         } else {
             --level;
             open(level, child);
@@ -181,6 +183,7 @@ bool ContainByTree(const BoxTree& tree, double point_x, double point_y) {
             for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
                 odd = hn::Xor(odd, crossings(EdgeLanes(tree.edges(), leaf + i), x, y));
             }
+            return true;
         });
     return (std::popcount(bits_of(are_negative(odd))) & 1) != 0;
 }
@@ -202,6 +205,7 @@ std::uint32_t FindEdgesWithinByTree(const BoxTree& tree, double point_x, double 
                 count = append_lanes(hn::Le(squared, limit), leaf + i, tree.edges().count, found,
                                      count);
             }
+            return true;
         });
     return count;
 }
@@ -216,8 +220,23 @@ std::uint32_t FindEdgesInByTree(const BoxTree& tree, const Extent& box, std::uin
                 count = append_lanes(meet(bounds, EdgeLanes(tree.edges(), leaf + i)), leaf + i,
                                      tree.edges().count, found, count);
             }
+            return true;
         });
     return count;
+}
+
+bool Meets(const BoxTree& tree, const Extent& box) {
+    const LanesOfExtent bounds = lanes_of(box);
+    bool found = false;
+    for_leaves(
+        tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
+        [&](std::uint32_t leaf) HWY_ATTR {
+            found = bits_of_eight([&](std::size_t i) HWY_ATTR {
+                        return meet(bounds, EdgeLanes(tree.edges(), leaf + i));
+                    }) != 0;
+            return !found;
+        });
+    return found;
 }
 
 /// The nearest edge to a point, the nearest box first.
@@ -517,6 +536,7 @@ HWY_EXPORT(ContainByTree);
 HWY_EXPORT(FindNearer);
 HWY_EXPORT(FindEdgesWithinByTree);
 HWY_EXPORT(FindEdgesInByTree);
+HWY_EXPORT(Meets);
 HWY_EXPORT(ForMeetingPairs);
 HWY_EXPORT(ForClosest);
 
@@ -539,6 +559,10 @@ std::uint32_t find_edges_within(const BoxTree& tree, double x, double y, double 
 
 std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box, std::uint32_t* found) {
     return HWY_DYNAMIC_DISPATCH(FindEdgesInByTree)(tree, box, found);
+}
+
+bool meets(const BoxTree& tree, const Extent& box) {
+    return HWY_DYNAMIC_DISPATCH(Meets)(tree, box);
 }
 
 bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margin,

@@ -1,6 +1,5 @@
 #include "shape_samples.hpp"
 
-#include <engine/exact/closest_edges.hpp>
 #include <engine/exact/closest_pair.hpp>
 #include <engine/exact/meeting.hpp>
 #include <engine/geometry/segment.hpp>
@@ -130,40 +129,6 @@ TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
     EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
     EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
-}
-
-TEST(ClosestEdges, FindWhatTheTreesFind) {
-    samples::Random random(79);
-    ClosestPairFinder finder;
-    ClosestEdges small;
-    int unique = 0;
-    int tried = 0;
-    while (tried < 300) {
-        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 60.0)); };
-        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
-        const Polygon b = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
-        const Pose pose{{random.between(-3.0, 3.0), random.between(-3.0, 3.0)}, 0.4};
-        const PlacedPair placed(a, {}, b, pose);
-        const PlacedEdges& edges_a = placed.a();
-        const PlacedEdges& edges_b = placed.b();
-        if (brute_force_squared_distance(edges_a.placed, edges_b.placed) == 0.0) {
-            continue;
-        }
-        ++tried;
-        const double margin = tried % 3 == 0 ? 1e-3 : 0.1;
-        const ClosestPair expected = finder.find(edges_a, edges_b, infinity, margin);
-        const ClosestPair found = small.find(edges_a, edges_b);
-        EXPECT_EQ(found.squared_distance, expected.squared_distance);
-        EXPECT_EQ((found.point_a - found.point_b).squaredNorm(), found.squared_distance);
-        for (const Side side : {Side::a, Side::either}) {
-            const bool is_unique = finder.is_unique(expected, side, margin, 0.3);
-            EXPECT_EQ(small.is_unique(edges_a, edges_b, found, side, margin, 0.3), is_unique);
-            unique += is_unique ? 1 : 0;
-        }
-        EXPECT_EQ(small.find(edges_b, edges_a).squared_distance, expected.squared_distance);
-    }
-    EXPECT_GT(unique, 100);
-    EXPECT_LT(unique, 500);
 }
 
 }  // namespace
