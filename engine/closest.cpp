@@ -1,5 +1,4 @@
 #include <engine/closest.hpp>
-#include <engine/localize/hierarchy.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/placed_pair.hpp>
 
@@ -84,25 +83,10 @@ void write_pair(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPai
 
 }  // namespace
 
-void ClosestDecoder::find_common_point(const PlacedPolygon& a, const PlacedPolygon& b,
-                                       double rounding, SeparationResult& result) {
-    const ClosestPair closest = finder_.find(a, b, infinity);
-    const bool boundaries_meet = std::sqrt(closest.squared_distance) <= rounding;
-    write_common_point(boundaries_meet ? closest.point_a : vertex_of_both(a, b, closest.point_a),
-                       result);
-}
-
-void ClosestDecoder::answer_small(const PlannedQuery& query, const PlacedEdges& a,
-                                  const PlacedEdges& b, SeparationResult& result) {
+void ClosestDecoder::find_common_point(const PlacedEdges& a, const PlacedEdges& b,
+                                       SeparationResult& result) {
     exact::EdgePair met;
-    if (!result.intersects) {
-        const ClosestPair closest = edges_.find(a, b);
-        write_pair(a.placed, b.placed, closest, result);
-        result.sampled_distance = result.distance;
-        result.unique =
-            edges_.is_unique(a, b, closest, side_of(query),
-                             result.tolerance * plan::uniqueness_margin, result.tolerance);
-    } else if (meeting_.boundaries_meet(a, b, met)) {
+    if (meeting_.boundaries_meet(a, b, met)) {
         write_common_point(geometry::closest_of_segments(a.start(met.first), a.end(met.first),
                                                          b.start(met.second), b.end(met.second))
                                .first,
@@ -110,6 +94,14 @@ void ClosestDecoder::answer_small(const PlannedQuery& query, const PlacedEdges& 
     } else {
         write_common_point(vertex_of_both(a.placed, b.placed, a.start(0)), result);
     }
+}
+
+void ClosestDecoder::answer_apart(const PlannedQuery& query, const PlacedEdges& a,
+                                  const PlacedEdges& b, double at_most, SeparationResult& result) {
+    const double margin = result.tolerance * plan::uniqueness_margin;
+    const ClosestPair closest = finder_.find(a, b, at_most, margin);
+    write_pair(a.placed, b.placed, closest, result);
+    result.unique = finder_.is_unique(closest, side_of(query), margin, result.tolerance);
 }
 
 void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& instances,
@@ -121,19 +113,14 @@ void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& i
         result.status = std::move(status);
         return;
     }
-    const double rounding = a.rounding + b.rounding;
-    result.error_bound = rounding + query.deviations.a + query.deviations.b;
+    complete(pair, instances);
+    result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     result.intersects = meeting_.intersect(a, b);
-    if (is_small(a) && is_small(b)) {
-        answer_small(query, a, b, result);
-    } else if (result.intersects) {
-        find_common_point(a.placed, b.placed, rounding, result);
+    if (result.intersects) {
+        find_common_point(a, b, result);
     } else {
-        const ClosestPair closest = finder_.find(a.placed, b.placed, infinity);
-        write_pair(a.placed, b.placed, closest, result);
+        answer_apart(query, a, b, infinity, result);
         result.sampled_distance = result.distance;
-        result.unique = finder_.is_unique(
-            closest, side_of(query), result.tolerance * plan::uniqueness_margin, result.tolerance);
     }
 }
 
@@ -144,24 +131,21 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
         answer(query, instances, result);
         return;
     }
-    const PlacedPolygon a(*query.a, query.pose_a);
-    const PlacedPolygon b(*query.b, query.pose_b);
-    const double rounding =
-        localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box());
-    result.error_bound = rounding + query.deviations.a + query.deviations.b;
+    const InstancePairIndex pair = place_pair(query, instances);
+    complete(pair, instances);
+    const PlacedEdges& a = instances[pair.a];
+    const PlacedEdges& b = instances[pair.b];
+    result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     if (result.intersects) {
-        find_common_point(a, b, rounding, result);
+        find_common_point(a, b, result);
         return;
     }
     double sampled = sampled_distance(plan, query, words);
     if (query.reverse != PlannedQuery::none) {
         sampled = std::min(sampled, sampled_distance(plan, plan.queries[query.reverse], words));
     }
-    const ClosestPair closest = finder_.find(a, b, sampled);
-    write_pair(a, b, closest, result);
+    answer_apart(query, a, b, sampled, result);
     result.sampled_distance = sampled;
-    result.unique = finder_.is_unique(closest, side_of(query),
-                                      result.tolerance * plan::uniqueness_margin, result.tolerance);
 }
 
 void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <engine/exact/closest_edges.hpp>
 #include <engine/exact/closest_pair.hpp>
 #include <engine/exact/meeting.hpp>
 #include <engine/plan/gpu_layout.hpp>
@@ -28,14 +27,14 @@ private:
     /// Technique::cpu: all from the shapes themselves.
     void answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                 SeparationResult& result);
-    void answer_small(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
-                      const exact::PlacedEdges& b, SeparationResult& result);
+    /// Of complete shapes that are apart. `at_most`: as far as is known.
+    void answer_apart(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
+                      const exact::PlacedEdges& b, double at_most, SeparationResult& result);
     /// Of shapes that intersect.
-    void find_common_point(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                           double rounding, SeparationResult& result);
+    void find_common_point(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
+                           SeparationResult& result);
 
     exact::ClosestPairFinder finder_;
-    exact::ClosestEdges edges_;
     exact::MeetingFinder meeting_;
 };
 

@@ -43,6 +43,12 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
 
 void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
                           std::span<const std::uint32_t> words, double cell) {
+    const PlannedQuery& reverse = plan.queries[query.reverse];
+    if (query.point_count == 0 && reverse.point_count == 0) {
+        of_a_.clear();
+        of_b_.clear();
+        return;
+    }
     const geometry::PlacedPolygon a(*query.a, query.pose_a);
     const geometry::PlacedPolygon b(*query.b, query.pose_b);
     touching_ =
@@ -50,7 +56,7 @@ void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
                                                   localize::placement_rounding(b, b.box())));
     const double near = std::get<ContactQuery>(*query.query).contact_distance;
     find_contacts_of_a(plan, query, words, near);
-    find_contacts_of_b(plan, plan.queries[query.reverse], words, near);
+    find_contacts_of_b(plan, reverse, words, near);
 }
 
 void ContactDecoder::append_points(std::vector<Vector2>& points) const {

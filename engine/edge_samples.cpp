@@ -6,6 +6,9 @@ namespace nearfield {
 
 exact::PointArrays EdgeSamples::sample(const exact::PlacedEdges& edges, const geometry::Box& within,
                                        double spacing) {
+    if (near_.size() < exact::padded(edges.count)) {
+        near_.resize(exact::padded(edges.count));
+    }
     const std::uint32_t near =
         exact::kernels::find_edges_in(edges, exact::extent_of(within), near_.data());
     places_.clear();

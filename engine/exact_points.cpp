@@ -25,7 +25,11 @@ void ExactPoints::answer(const plan::Plan& plan, exact::PlacedInstances& instanc
                          std::span<std::uint32_t> words) {
     for (const plan::PlannedQuery& query : plan.queries) {
         if (query.on_cpu && query.point_count > 0) {
-            answer(plan, query, instances[instances.place(*query.b, query.pose_b)], words);
+            const std::uint32_t b = instances.place(*query.b, query.pose_b);
+            if (!exact::is_small(instances[b])) {
+                instances.complete(b);
+            }
+            answer(plan, query, instances[b], words);
         }
     }
 }
@@ -34,7 +38,7 @@ void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query
                          const exact::PlacedEdges& b, std::span<std::uint32_t> words) {
     const geometry::PlacedPolygon a(*query.a, query.pose_a);
     if (!exact::is_small(b)) {
-        boundary_.set(b.placed);
+        boundary_.set(b);
     }
     const double margin = query.budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin;
     const double reach = reach_of(query);

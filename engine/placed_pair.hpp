@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/exact/placed_edges.hpp>
+#include <engine/localize/hierarchy.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/plan.hpp>
 
@@ -24,6 +25,22 @@ struct InstancePairIndex {
                                                   exact::PlacedInstances& instances) {
     const std::uint32_t a = instances.place(*query.a, query.pose_a);
     return {a, instances.place(*query.b, query.pose_b)};
+}
+
+inline void complete(const InstancePairIndex& pair, exact::PlacedInstances& instances) {
+    instances.complete(pair.a);
+    instances.complete(pair.b);
+}
+
+/// Completes a pair of which either is not small, where their boxes meet: what can be said of such
+/// a pair takes more than its boxes.
+inline void complete_if_near(const InstancePairIndex& pair, exact::PlacedInstances& instances) {
+    const exact::PlacedEdges& a = instances[pair.a];
+    const exact::PlacedEdges& b = instances[pair.b];
+    if (!(is_small(a) && is_small(b)) &&
+        localize::boxes_meet(a.box, b.box, a.rounding + b.rounding)) {
+        complete(pair, instances);
+    }
 }
 
 /// Whether deviations and coordinates leave room for the tolerance.

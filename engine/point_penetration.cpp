@@ -31,6 +31,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         result.status = std::move(status);
         return;
     }
+    complete_if_near(pair, instances);
     const bool reversed = pair.is_reverse_of(last_.index);
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
@@ -40,8 +41,9 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
             if (asked.points == PenetrationPoints::vertices) {
                 find_penetrating(a.starts(), b, touching, b, result, asked.records);
             } else {
-                find_penetrating(samples_.sample(a, b.box, result.cell), edges_beside(a, b),
-                                 touching, b, result, asked.records);
+                find_penetrating(samples_.sample(a, b.box, result.cell),
+                                 is_small(b) ? edges_beside(a, b) : EdgeArrays(b), touching, b,
+                                 result, asked.records);
             }
         }
         // Of a ring of A that lies in B some point is found: it has a vertex that is a sample.
@@ -95,13 +97,11 @@ std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& 
         nearest_.resize(exact::padded(points.count));
     }
     if (!exact::is_small(b)) {
-        boundary_.set(b.placed);
+        boundary_.set(b);
         const std::uint32_t in_box =
             exact::kernels::find_points_in(points, exact::extent_of(b.box), inside_.data());
-        const auto end = std::remove_if(
-            inside_.begin(), inside_.begin() + in_box,
-            [&](std::uint32_t i) { return !boundary_.contains(point_of(points, i)); });
-        return {inside_.begin(), end};
+        near_last_ = 0;
+        return {inside_.data(), boundary_.keep_inside(points, std::span(inside_).first(in_box))};
     }
     const std::uint32_t count =
         exact::kernels::find_points_inside(points, exact::extent_of(b.box), beside, inside_.data());
@@ -115,7 +115,9 @@ std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& 
 exact::NearestPoint PointPenetration::find_nearest(const PlacedEdges& b, std::size_t i,
                                                    const Vector& point) {
     if (!exact::is_small(b)) {
-        return boundary_.nearest(point);
+        const exact::NearestPoint nearest = boundary_.nearest(point, near_last_);
+        near_last_ = nearest.edge;
+        return nearest;
     }
     const std::uint32_t edge = near_b_.index(nearest_[i].edge);
     return {edge, geometry::nearest_on_segment(point, b.start(edge), b.end(edge))};

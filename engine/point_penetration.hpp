@@ -17,10 +17,10 @@
 
 namespace nearfield {
 
-/// Penetration by Technique::cpu of the vertices of A, or of samples of its boundary where both
-/// shapes are small, from query to result: nothing is planned and no tree is made for polygons of
-/// few edges, so that a batch of many small pairs costs little more than placing its vertices and
-/// looking at the points found. Keeps its memory from batch to batch.
+/// Penetration by Technique::cpu of the vertices of A, or of samples of its boundary where they are
+/// not too many to keep, from query to result: nothing is planned and no boxes are made for
+/// polygons of few edges, so that a batch of many small pairs costs little more than placing its
+/// vertices and looking at the points found. Keeps its memory from batch to batch.
 class PointPenetration {
 public:
     /// Forgets the pair before: shapes may have moved or deformed since.
@@ -50,7 +50,7 @@ private:
     [[nodiscard]] std::span<const std::uint32_t> find_inside(const exact::PointArrays& points,
                                                              const exact::EdgeArrays& beside,
                                                              const exact::PlacedEdges& b);
-    /// Of the point that was listed as number i.
+    /// Of the point that was listed as number i; in order, so that each is near the one before.
     [[nodiscard]] exact::NearestPoint find_nearest(const exact::PlacedEdges& b, std::size_t i,
                                                    const geometry::Vector& point);
     [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, const geometry::Vector& point,
@@ -65,6 +65,7 @@ private:
     EdgesNearPoints near_b_;                // of a small B, near the points inside
     std::vector<std::uint32_t> inside_;     // points of A
     std::vector<exact::NearEdge> nearest_;  // to them, of near_b_
+    std::uint32_t near_last_ = 0;           // an edge of B near the last point
     double margin_ = 0.0;                   // of uniqueness
     Pair last_;
 };

@@ -18,9 +18,9 @@ constexpr CostModel on_software{
                 .field = {1.8, 0.027, 0.018},
                 .features = {16.0, 0.34, 0.13}},
     .cpu = {.submission = 0.6,
-            .points = {0.0, 0.014, 0.025},
-            .closest = {0.0, 0.0234, 0.0},
-            .intersection = {6.4, 0.032, 0.00015},
+            .points = {0.4, 0.002, 0.024},
+            .closest = {0.3, 0.0033, 0.0},
+            .intersection = {6.4, 0.022, 0.00017},
             .field = {0.77, 0.032, 0.0033},
             .features = {0.4, 0.073, 0.025}},
 };

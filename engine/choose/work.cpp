@@ -22,20 +22,35 @@ std::uint32_t stride_of(const Polygon& polygon) {
     return std::max(1U, polygon.size() / looked_at);
 }
 
-/// The box of some of the vertices.
-Box rough_box(const PlacedPolygon& placed, double grow) {
+// So many vertices are boxed sooner than some of them are picked out.
+constexpr std::uint32_t boxed_at_once = 4096;
+
+/// The box of all vertices, or of some of very many.
+Box rough_box(const PlacedPolygon& placed) {
     Box box;
     const Polygon& polygon = placed.polygon();
-    for (std::uint32_t i = 0; i < polygon.size(); i += stride_of(polygon)) {
-        box.extend(placed.vertex(i));
+    if (polygon.size() <= boxed_at_once) {
+        box = placed.box();
+    } else {
+        for (std::uint32_t i = 0; i < polygon.size(); i += stride_of(polygon)) {
+            box.extend(placed.vertex(i));
+        }
     }
-    box.min().array() -= grow;
-    box.max().array() += grow;
     return box;
 }
 
-/// How many samples a cell apart the boundary has within a box.
-double boundary_samples(const PlacedPolygon& placed, const Box& within, double cell) {
+Box grown(Box box, double by) {
+    box.min().array() -= by;
+    box.max().array() += by;
+    return box;
+}
+
+/// How many samples a cell apart the boundary has within a box. `own`: its rough box.
+double boundary_samples(const PlacedPolygon& placed, const Box& own, const Box& within,
+                        double cell) {
+    if (!own.intersects(within)) {
+        return 0.0;
+    }
     const Polygon& polygon = placed.polygon();
     const std::uint32_t stride = stride_of(polygon);
     double samples = 0.0;
@@ -59,9 +74,9 @@ double cells_of(const Box& box, double cell) {
     return (sides.x() + 1.0) * (sides.y() + 1.0);
 }
 
-/// Where both shapes can be; the boxes are rough, so a little too small.
+/// Where both shapes can be; rough boxes are a little too small.
 Box common_box(const PlacedPolygon& a, const PlacedPolygon& b, double grow) {
-    return rough_box(a, grow).intersection(rough_box(b, grow));
+    return grown(rough_box(a), grow).intersection(grown(rough_box(b), grow));
 }
 
 struct Estimate {
@@ -79,20 +94,22 @@ struct Estimate {
             return {&TechniqueCost::points, edges(), static_cast<double>(a->size())};
         }
         const PlacedPolygon placed(*a, query.a.pose);
-        const Box within = rough_box(PlacedPolygon(b, query.b.pose), 0.0);
+        const Box within = rough_box(PlacedPolygon(b, query.b.pose));
         return {&TechniqueCost::points, edges(),
-                boundary_samples(placed, within, query.tolerance * std::numbers::sqrt2)};
+                boundary_samples(placed, rough_box(placed), within,
+                                 query.tolerance * std::numbers::sqrt2)};
     }
 
     Work operator()(const ContactQuery& query) const {
         const PlacedPolygon placed_a(*a, query.a.pose);
         const PlacedPolygon placed_b(b, query.b.pose);
         const double cell = query.tolerance * std::numbers::sqrt2;
-        const Box near_a = rough_box(placed_a, query.contact_distance);
-        const Box near_b = rough_box(placed_b, query.contact_distance);
-        return {
-            &TechniqueCost::points, edges(),
-            boundary_samples(placed_a, near_b, cell) + boundary_samples(placed_b, near_a, cell)};
+        const Box box_a = rough_box(placed_a);
+        const Box box_b = rough_box(placed_b);
+        const double reach = query.contact_distance;
+        return {&TechniqueCost::points, edges(),
+                boundary_samples(placed_a, box_a, grown(box_b, reach), cell) +
+                    boundary_samples(placed_b, box_b, grown(box_a, reach), cell)};
     }
 
     Work operator()(const ClosestPointQuery&) const { return {&TechniqueCost::closest, edges()}; }

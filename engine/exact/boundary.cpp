@@ -1,6 +1,6 @@
 #include <engine/exact/boundary.hpp>
-#include <engine/exact/leaf.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -10,94 +10,81 @@ using geometry::Vector;
 
 namespace {
 
-constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
-
 /// True where the ray from `point` towards growing coordinate `along` crosses the edge. Half open
 /// across, so that a vertex on the ray counts once.
-bool crosses(const Edge& edge, const Vector& point, int along) {
+bool crosses(const Vector& start, const Vector& end, const Vector& point, int along) {
     const int across = 1 - along;
-    if ((edge.start[across] > point[across]) == (edge.end[across] > point[across])) {
+    if ((start[across] > point[across]) == (end[across] > point[across])) {
         return false;
     }
-    const double side = geometry::cross(edge.end - edge.start, point - edge.start);
-    const bool upward = edge.end[across] > edge.start[across];
+    const double side = geometry::cross(end - start, point - start);
+    const bool upward = end[across] > start[across];
     // Left of an edge that goes up means before it on the x axis; on the y axis it is after.
     return along == 0 ? (side > 0.0) == upward : (side < 0.0) == upward;
 }
 
 }  // namespace
 
+void Boundary::set(const PlacedEdges& edges) {
+    edges_ = &edges;
+    tree_.emplace(edges.tree());
+    if (near_.size() < padded(edges.count)) {
+        near_.resize(padded(edges.count));
+    }
+}
+
 void Boundary::set(const geometry::PlacedPolygon& polygon) {
-    tree_.plant(polygon, std::numeric_limits<std::uint32_t>::max());
+    own_.clear();
+    const std::uint32_t index = own_.place(polygon);
+    own_.complete(index);
+    set(own_[index]);
 }
 
-NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) {
-    NearestPoint best{first_guess, geometry::nearest_on_segment(
-                                       point, polygon().vertex(first_guess),
-                                       polygon().vertex(polygon().polygon().next(first_guess)))};
-    find_nearest(localize::LazyTree::root, point, best);
-    return best;
+NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) const {
+    const NearEdge guess{first_guess, nearest_on(first_guess, point).squared_distance};
+    const std::uint32_t edge = kernels::find_nearer(*tree_, point.x(), point.y(), guess).edge;
+    return {edge, nearest_on(edge, point)};
 }
 
-void Boundary::find_nearest(std::uint32_t node, const Vector& point, NearestPoint& best) {
-    if (Leaf::is_leaf(tree_[node])) {
-        const Leaf leaf(polygon(), tree_[node]);
-        for (std::uint32_t i = 0; i < leaf.count(); ++i) {
-            const Edge edge = leaf.edge(i);
-            const auto nearest = geometry::nearest_on_segment(point, edge.start, edge.end);
-            if (nearest.squared_distance < best.on_edge.squared_distance) {
-                best = {edge.index, nearest};
-            }
+std::uint32_t Boundary::keep_inside(const PointArrays& points,
+                                    std::span<std::uint32_t> listed) const {
+    // Points in one box that no edge's box meets lie on one side, like the last point before them
+    // where that is in the box as well.
+    constexpr std::size_t together = 8;
+    std::uint32_t kept = 0;
+    bool inside = false;
+    for (std::size_t first = 0; first < listed.size(); first += together) {
+        const auto group = listed.subspan(first, std::min(together, listed.size() - first));
+        geometry::Box box;
+        for (std::size_t i = first == 0 ? 0 : first - 1; i < first + group.size(); ++i) {
+            box.extend(Vector(points.x[listed[i]], points.y[listed[i]]));
         }
-        return;
+        const bool on_one_side = first > 0 && !kernels::meets(*tree_, extent_of(box));
+        for (const std::uint32_t point : group) {
+            inside = on_one_side ? inside : contains({points.x[point], points.y[point]});
+            listed[kept] = point;
+            kept += inside ? 1 : 0;
+        }
     }
-    const std::uint32_t first = tree_.first_half(node);
-    const double to_first = tree_[first].box.squaredExteriorDistance(point);
-    const double to_second = tree_[first + 1].box.squaredExteriorDistance(point);
-    const std::uint32_t nearer = to_first <= to_second ? first : first + 1;
-    const std::uint32_t farther = nearer == first ? first + 1 : first;
-    if (std::min(to_first, to_second) < best.on_edge.squared_distance) {
-        find_nearest(nearer, point, best);
-    }
-    if (std::max(to_first, to_second) < best.on_edge.squared_distance) {
-        find_nearest(farther, point, best);
-    }
+    return kept;
 }
 
 bool Boundary::is_unique(const Vector& point, const NearestPoint& nearest, double margin) {
     const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin;
-    return !has_rival(localize::LazyTree::root, point, nearest, limit);
-}
-
-bool Boundary::has_rival(std::uint32_t node, const Vector& point, const NearestPoint& nearest,
-                         double limit) {
-    if (tree_[node].box.squaredExteriorDistance(point) > limit * limit) {
-        return false;
+    // What is clearly farther needs no closer look.
+    const std::uint32_t count = kernels::find_edges_within(*tree_, point.x(), point.y(),
+                                                           1.001 * limit * limit, near_.data());
+    if (count <= 1) {
+        return true;  // none but the nearest
     }
-    if (!Leaf::is_leaf(tree_[node])) {
-        const std::uint32_t first = tree_.first_half(node);
-        return has_rival(first, point, nearest, limit) ||
-               has_rival(first + 1, point, nearest, limit);
-    }
-    const Leaf leaf(polygon(), tree_[node]);
-    for (std::uint32_t i = 0; i < leaf.count(); ++i) {
-        const Edge edge = leaf.edge(i);
-        if (is_rival(geometry::nearest_on_segment(point, edge.start, edge.end), nearest.on_edge,
-                     limit)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool Boundary::contains(const Vector& point) {
-    return crossings_are_odd(localize::LazyTree::root, point, 0, no_edge);
+    return std::none_of(near_.begin(), near_.begin() + count, [&](std::uint32_t edge) {
+        return is_rival(nearest_on(edge, point), nearest.on_edge, limit);
+    });
 }
 
 Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
-    const Vector start = polygon().vertex(edge);
-    const Vector end = polygon().vertex(polygon().polygon().next(edge));
-    const Vector direction = end - start;
+    const Vector start = edges_->start(edge);
+    const Vector direction = edges_->end(edge) - start;
     const double length = direction.norm();
     if (length == 0.0) {
         return Vector::Zero();
@@ -105,32 +92,19 @@ Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
     const Vector left(-direction.y() / length, direction.x() / length);
     // The ray leaves the edge across its longer extent; what lies just beyond the edge decides.
     const int along = std::abs(direction.y()) >= std::abs(direction.x()) ? 0 : 1;
-    const bool inside_ahead =
-        crossings_are_odd(localize::LazyTree::root, start + parameter * direction, along, edge);
+    const bool inside_ahead = crossings_are_odd(start + parameter * direction, along, edge);
     const bool left_is_ahead = left[along] > 0.0;
     return inside_ahead == left_is_ahead ? Vector(-left) : left;
 }
 
-bool Boundary::crossings_are_odd(std::uint32_t node, const Vector& point, int along,
-                                 std::uint32_t left_out) {
-    const geometry::Box& box = tree_[node].box;
-    const int across = 1 - along;
-    if (box.max()[along] < point[along] || box.min()[across] > point[across] ||
-        box.max()[across] < point[across]) {
-        return false;
-    }
-    if (!Leaf::is_leaf(tree_[node])) {
-        const std::uint32_t first = tree_.first_half(node);
-        return crossings_are_odd(first, point, along, left_out) !=
-               crossings_are_odd(first + 1, point, along, left_out);
-    }
-    bool odd = false;
-    const Leaf leaf(polygon(), tree_[node]);
-    for (std::uint32_t i = 0; i < leaf.count(); ++i) {
-        const Edge edge = leaf.edge(i);
-        odd = odd != (edge.index != left_out && crosses(edge, point, along));
-    }
-    return odd;
+bool Boundary::crossings_are_odd(const Vector& point, int along, std::uint32_t left_out) {
+    Extent ray{point.x(), point.y(), point.x(), point.y()};
+    (along == 0 ? ray.high_x : ray.high_y) = std::numeric_limits<double>::infinity();
+    const std::uint32_t count = kernels::find_edges_in(*tree_, ray, near_.data());
+    const auto crossed = std::count_if(near_.begin(), near_.begin() + count, [&](std::uint32_t i) {
+        return i != left_out && crosses(edges_->start(i), edges_->end(i), point, along);
+    });
+    return crossed % 2 != 0;
 }
 
 }  // namespace nearfield::exact

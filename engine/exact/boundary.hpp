@@ -1,9 +1,11 @@
 #pragma once
 
+#include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/lazy_tree.hpp>
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace nearfield::exact {
@@ -24,20 +26,22 @@ struct NearestPoint {
            (other.point - nearest.point).squaredNorm() > 4.0 * along_wall;
 }
 
-/// Exact answers about single points and one boundary, in double precision, from its hierarchy
-/// driven down to single edges: the time grows with what lies near, not with the shape. Keeps its
-/// memory from polygon to polygon.
+/// Exact answers about single points and one boundary, in double precision, from boxes over its
+/// edges: the time grows with what lies near, not with the shape. Keeps its memory from polygon to
+/// polygon.
 class Boundary {
 public:
-    /// The polygon must outlive the questions.
+    /// Complete edges, which must stay where they are as long as there are questions.
+    void set(const PlacedEdges& edges);
+    /// The same of edges that are placed for this alone.
     void set(const geometry::PlacedPolygon& polygon);
 
-    [[nodiscard]] const geometry::PlacedPolygon& polygon() const { return tree_.polygon(); }
+    [[nodiscard]] const geometry::PlacedPolygon& polygon() const { return edges_->placed; }
 
-    /// The nearest point; of equally near ones any. The nearer `first_guess`, an edge, is to the
-    /// point, the less is looked at.
+    /// The nearest point; of those that are equally near up to rounding any. The nearer
+    /// `first_guess`, an edge, is to the point, the less is looked at.
     [[nodiscard]] NearestPoint nearest(const geometry::Vector& point,
-                                       std::uint32_t first_guess = 0);
+                                       std::uint32_t first_guess = 0) const;
 
     /// False where another boundary point is as near to `point` as `nearest` up to `margin` and
     /// farther from it than the same straight wall explains (PenetrationRecord::unique).
@@ -45,7 +49,14 @@ public:
                                  double margin);
 
     /// By the odd-even rule; for a point on the boundary either answer may come.
-    [[nodiscard]] bool contains(const geometry::Vector& point);
+    [[nodiscard]] bool contains(const geometry::Vector& point) const {
+        return kernels::contain(*tree_, point.x(), point.y());
+    }
+
+    /// Keeps of a list of points those inside, and returns how many. The nearer each is to the one
+    /// before, the less is looked at.
+    [[nodiscard]] std::uint32_t keep_inside(const PointArrays& points,
+                                            std::span<std::uint32_t> listed) const;
 
     /// The unit normal of an edge that points out of the polygon at a place on the edge,
     /// `parameter` of the way along it; the side changes where the boundary crosses itself. Where
@@ -54,13 +65,18 @@ public:
     [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge, double parameter);
 
 private:
-    void find_nearest(std::uint32_t node, const geometry::Vector& point, NearestPoint& best);
-    [[nodiscard]] bool has_rival(std::uint32_t node, const geometry::Vector& point,
-                                 const NearestPoint& nearest, double limit);
-    [[nodiscard]] bool crossings_are_odd(std::uint32_t node, const geometry::Vector& point,
-                                         int along, std::uint32_t left_out);
+    [[nodiscard]] geometry::NearestOnSegment nearest_on(std::uint32_t edge,
+                                                        const geometry::Vector& point) const {
+        return geometry::nearest_on_segment(point, edges_->start(edge), edges_->end(edge));
+    }
+    /// Of the ray from a point along an axis with all edges but one.
+    [[nodiscard]] bool crossings_are_odd(const geometry::Vector& point, int along,
+                                         std::uint32_t left_out);
 
-    localize::LazyTree tree_;
+    const PlacedEdges* edges_ = nullptr;
+    std::optional<BoxTree> tree_;      // over them
+    PlacedInstances own_;              // where they were placed for this alone
+    std::vector<std::uint32_t> near_;  // edges; scratch
 };
 
 }  // namespace nearfield::exact

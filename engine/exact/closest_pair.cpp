@@ -1,119 +1,112 @@
 #include <engine/exact/closest_pair.hpp>
-#include <engine/exact/leaf.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/localize/pair_search.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace nearfield::exact {
 namespace {
 
-using geometry::PlacedPolygon;
+using geometry::NearestOnSegment;
 using geometry::Vector;
-using localize::LazyTree;
 
-/// Calls `use(edge of A, its ends, edge of B, its ends)` for all edges of two leaves.
-template <class Use>
-void for_each_pair(const LazyTree& tree_a, std::uint32_t node_a, const LazyTree& tree_b,
-                   std::uint32_t node_b, const Use& use) {
-    const Leaf a(tree_a.polygon(), tree_a[node_a]);
-    const Leaf b(tree_b.polygon(), tree_b[node_b]);
-    for (std::uint32_t i = 0; i < a.count(); ++i) {
-        for (std::uint32_t j = 0; j < b.count(); ++j) {
-            use(a.edge(i), b.edge(j));
-        }
-    }
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The square of a length that is longer by so much.
+double square_longer(double squared, double by) {
+    const double longer = std::sqrt(squared) + by;
+    return longer * longer;
 }
-
-struct Nearer {
-    LazyTree& tree_a;
-    LazyTree& tree_b;
-    ClosestPair best;
-    double bound;
-
-    // Nothing is closer than a common point.
-    [[nodiscard]] double squared_bound() const {
-        return best.squared_distance == 0.0 ? -1.0 : bound;
-    }
-    [[nodiscard]] static bool is_leaf(const LazyTree& tree, std::uint32_t node) {
-        return Leaf::is_leaf(tree[node]);
-    }
-
-    void use(std::uint32_t node_a, std::uint32_t node_b, double) {
-        for_each_pair(tree_a, node_a, tree_b, node_b, [this](const Edge& a, const Edge& b) {
-            const auto closest = geometry::closest_of_segments(a.start, a.end, b.start, b.end);
-            if (closest.squared_distance < best.squared_distance) {
-                best = {a.index,
-                        b.index,
-                        closest.first,
-                        closest.second,
-                        closest.first_parameter,
-                        closest.second_parameter,
-                        closest.squared_distance};
-                bound = std::min(bound, best.squared_distance);
-            }
-        });
-    }
-};
-
-/// Looks for an end of an edge that is close to the other boundary and not near the closest pair.
-/// Where more than one pair is closest, an end is among them: the distance of two straight edges
-/// is least at an end of one of them, and where that is not the only place they run in parallel.
-struct Rival {
-    LazyTree& tree_a;
-    LazyTree& tree_b;
-    const ClosestPair& closest;
-    Side side;
-    double squared_limit;
-    double squared_apart;
-    bool found = false;
-
-    [[nodiscard]] double squared_bound() const { return found ? -1.0 : squared_limit; }
-    [[nodiscard]] static bool is_leaf(const LazyTree& tree, std::uint32_t node) {
-        return Leaf::is_leaf(tree[node]);
-    }
-
-    void consider(const Vector& on_a, const Vector& on_b, double squared) {
-        const bool elsewhere =
-            (on_a - closest.point_a).squaredNorm() > squared_apart ||
-            (side == Side::either && (on_b - closest.point_b).squaredNorm() > squared_apart);
-        found = found || (squared <= squared_limit && elsewhere);
-    }
-
-    void use(std::uint32_t node_a, std::uint32_t node_b, double) {
-        for_each_pair(tree_a, node_a, tree_b, node_b, [this](const Edge& a, const Edge& b) {
-            for (const Vector& end : {a.start, a.end}) {
-                const auto nearest = geometry::nearest_on_segment(end, b.start, b.end);
-                consider(end, nearest.point, nearest.squared_distance);
-            }
-            for (const Vector& end : {b.start, b.end}) {
-                const auto nearest = geometry::nearest_on_segment(end, a.start, a.end);
-                consider(nearest.point, end, nearest.squared_distance);
-            }
-        });
-    }
-};
 
 }  // namespace
 
-ClosestPair ClosestPairFinder::find(const PlacedPolygon& a, const PlacedPolygon& b,
-                                    double at_most) {
-    constexpr std::uint32_t no_limit = std::numeric_limits<std::uint32_t>::max();
-    tree_a_.plant(a, no_limit);
-    tree_b_.plant(b, no_limit);
-    // A little more than what is known, so that the pair it is known from is found again.
-    const double bound = at_most * (1.0 + 1e-12);
-    Nearer nearer{tree_a_, tree_b_, {}, bound * bound};
-    localize::PairSearch(tree_a_, tree_b_, nearer).run();
-    return nearer.best;
+double ClosestPairFinder::squared_bound() const {
+    // From a vertex near the other's box to the other and back, which soon comes close.
+    const PlacedEdges* from = a_;
+    const PlacedEdges* to = b_;
+    std::uint32_t vertex = kernels::find_point_nearest_to(a_->starts(), extent_of(b_->box));
+    double least = infinity;
+    for (int turn = 0; turn < 4; ++turn) {
+        const NearEdge nearest = kernels::find_nearer(to->tree(), from->start_x[vertex],
+                                                      from->start_y[vertex], {0, infinity});
+        if (nearest.squared >= least) {
+            break;
+        }
+        least = nearest.squared;
+        vertex = nearest.edge;
+        std::swap(from, to);
+    }
+    return least;
+}
+
+ClosestPair ClosestPairFinder::find(const PlacedEdges& a, const PlacedEdges& b, double at_most,
+                                    double margin) {
+    a_ = &a;
+    b_ = &b;
+    near_.clear();
+    // More than what the kernels, or placing the vertices, may have rounded.
+    const double rounding = a.rounding + b.rounding;
+    const double most = std::min(at_most * at_most, squared_bound());
+    const auto keep = [](void* near, const VertexAndEdge& found) {
+        static_cast<std::vector<VertexAndEdge>*>(near)->push_back(found);
+    };
+    const double least =
+        kernels::for_closest(a.tree(), b.tree(), most, 2.0 * rounding + margin, {keep, &near_});
+    const double loose = square_longer(least, 2.0 * rounding + margin);
+    std::erase_if(near_, [loose](const VertexAndEdge& found) { return found.squared > loose; });
+    // In what order they came depends on how many the machine looks at together.
+    std::sort(near_.begin(), near_.end(), [](const VertexAndEdge& i, const VertexAndEdge& j) {
+        return std::tie(i.vertex_of_first, i.vertex, i.edge) <
+               std::tie(j.vertex_of_first, j.vertex, j.edge);
+    });
+    // Of all that may be the closest, which the kernels cannot tell apart, the closest.
+    const double close = square_longer(least, rounding);
+    ClosestPair best;
+    for (const VertexAndEdge& found : near_) {
+        if (found.squared <= close) {
+            const ClosestPair pair = pair_of(found);
+            if (pair.squared_distance < best.squared_distance) {
+                best = pair;
+            }
+        }
+    }
+    return best;
+}
+
+ClosestPair ClosestPairFinder::pair_of(const VertexAndEdge& found) const {
+    const PlacedEdges& vertices = found.vertex_of_first ? *a_ : *b_;
+    const PlacedEdges& edges = found.vertex_of_first ? *b_ : *a_;
+    const Vector vertex = vertices.start(found.vertex);
+    const NearestOnSegment nearest =
+        geometry::nearest_on_segment(vertex, edges.start(found.edge), edges.end(found.edge));
+    if (found.vertex_of_first) {
+        return {found.vertex,
+                found.edge,
+                vertex,
+                nearest.point,
+                0.0,
+                nearest.parameter,
+                nearest.squared_distance};
+    }
+    return {found.edge,        found.vertex, nearest.point,           vertex,
+            nearest.parameter, 0.0,          nearest.squared_distance};
 }
 
 bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double margin,
-                                  double apart) {
-    const double limit = std::sqrt(closest.squared_distance) + margin;
-    Rival rival{tree_a_, tree_b_, closest, side, limit * limit, apart * apart};
-    localize::PairSearch(tree_a_, tree_b_, rival).run();
-    return !rival.found;
+                                  double apart) const {
+    const double limit = square_longer(closest.squared_distance, margin);
+    const double squared_apart = apart * apart;
+    // Where more than one pair is closest, a vertex is in another: the distance of two straight
+    // edges is least at an end of one of them, and where not only there they run in parallel.
+    return std::none_of(near_.begin(), near_.end(), [&](const VertexAndEdge& found) {
+        const ClosestPair other = pair_of(found);
+        const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
+                               (side == Side::either &&
+                                (other.point_b - closest.point_b).squaredNorm() > squared_apart);
+        return other.squared_distance <= limit && elsewhere;
+    });
 }
 
 }  // namespace nearfield::exact

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <engine/localize/lazy_tree.hpp>
+#include <engine/exact/placed_edges.hpp>
 
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace nearfield::exact {
 
@@ -21,24 +22,33 @@ struct ClosestPair {
 /// Whose closest point is asked about.
 enum class Side : std::uint8_t { a, either };
 
-/// The closest points of two boundaries, exact up to the rounding of double precision: the
-/// hierarchies of localisation, driven down to single edges. Keeps its memory from call to call.
+/// The closest points of two boundaries that do not meet, exact up to the rounding of double
+/// precision: segments that do not cross are closest at an end of one of them, so the vertices of
+/// either are held against the edges of the other, as far as the boxes over them say that they can
+/// be the closest. Swapping the shapes leaves the distance the same, bit for bit. Keeps its memory
+/// from call to call.
 class ClosestPairFinder {
 public:
-    /// `at_most`: some two boundary points are known to be no farther apart; infinity where nothing
-    /// is known. The tighter, the less is looked at.
-    ClosestPair find(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                     double at_most);
+    /// Of complete edges whose boundaries do not meet. `at_most`: some two boundary points are
+    /// known to be no farther apart; infinity where nothing is known. `margin`: the largest that
+    /// is_unique() will be asked with.
+    ClosestPair find(const PlacedEdges& a, const PlacedEdges& b, double at_most, double margin);
 
     /// Of the pair that the last find() gave: false where two other boundary points are no farther
     /// apart than it and `margin`, and the one of A, or one of either, is more than `apart` away
-    /// from the pair's own. The polygons are still those of find().
+    /// from the pair's own. The edges are still those of find().
     [[nodiscard]] bool is_unique(const ClosestPair& closest, Side side, double margin,
-                                 double apart);
+                                 double apart) const;
 
 private:
-    localize::LazyTree tree_a_;
-    localize::LazyTree tree_b_;
+    /// A vertex and an edge as points of A and B.
+    [[nodiscard]] ClosestPair pair_of(const VertexAndEdge& found) const;
+    /// Of some vertices to edges near them: no less than the least distance.
+    [[nodiscard]] double squared_bound() const;
+
+    const PlacedEdges* a_ = nullptr;
+    const PlacedEdges* b_ = nullptr;
+    std::vector<VertexAndEdge> near_;  // all that may be as close as the closest and the margin
 };
 
 }  // namespace nearfield::exact

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/geometry/vertex_kernels.hpp>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -17,13 +19,7 @@ inline constexpr std::size_t most_lanes = 8;
     return (count + most_lanes - 1) / most_lanes * most_lanes;
 }
 
-/// A box without any class around it.
-struct Extent {
-    double low_x = 0.0;
-    double low_y = 0.0;
-    double high_x = 0.0;
-    double high_y = 0.0;
-};
+using geometry::Extent;
 
 /// Points, an array for each coordinate.
 struct PointArrays {
@@ -47,13 +43,6 @@ struct EdgeArrays {
     [[nodiscard]] PointArrays starts() const { return {count, start_x, start_y}; }
 };
 
-/// A rotation, then a translation: x is turned to `x_axis`, y to `y_axis`.
-struct Placement {
-    double x_axis[2];
-    double y_axis[2];
-    double translation[2];
-};
-
 /// An edge and its squared distance from a point, up to rounding.
 struct NearEdge {
     std::uint32_t edge = 0;
@@ -70,11 +59,6 @@ namespace kernels {
 
 // Lists are written to arrays with room for padded(count) entries, in ascending order; the number
 // of entries is returned.
-
-/// Places points, given x y x y ..., and returns the box around them. At least one point; writes no
-/// more than `count`.
-[[nodiscard]] Extent place_points(const double* interleaved, std::uint32_t count,
-                                  const Placement& placement, double* x, double* y);
 
 /// Writes EdgeArrays::inverse_length of whole lanes.
 void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
@@ -113,15 +97,6 @@ void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std
 
 /// The point nearest to a box; of equally near ones the first. At least one point.
 [[nodiscard]] std::uint32_t find_point_nearest_to(const PointArrays& points, const Extent& box);
-
-/// Lists the points whose squared distance from a box is at most `most`.
-[[nodiscard]] std::uint32_t find_points_within(const PointArrays& points, const Extent& box,
-                                               double most, std::uint32_t* found);
-
-/// Writes, for each of the `count` points that `listed` lists, its squared distance from the edges,
-/// up to rounding.
-void find_distances(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                    const EdgeArrays& edges, double* squared);
 
 }  // namespace kernels
 

@@ -10,8 +10,9 @@ namespace nearfield::exact {
 
 /// Finds out whether two closed shapes share a point, as localize::intersects: boundaries meet
 /// (touching counts, and so does a gap that the rounding of the placed vertices can account for),
-/// or one shape holds the other. Small shapes are looked at edge by edge, others by their
-/// hierarchies. Keeps its memory from pair to pair.
+/// or one shape holds the other. Two small shapes are looked at edge by edge, others by boxes over
+/// their edges: where either is not small, both have to be complete if their boxes meet. Keeps its
+/// memory from pair to pair.
 class MeetingFinder {
 public:
     [[nodiscard]] bool intersect(const PlacedEdges& a, const PlacedEdges& b);
@@ -19,10 +20,13 @@ public:
     /// The same of shapes of which no vertex of A lies in B, which leaves less to look at.
     [[nodiscard]] bool intersect_without_vertex_inside(const PlacedEdges& a, const PlacedEdges& b);
 
-    /// Of small shapes: true where their boundaries meet, with a pair of edges that do.
+    /// True where their boundaries meet, with a pair of edges that do.
     [[nodiscard]] bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges);
 
 private:
+    [[nodiscard]] bool small_boundaries_meet(const PlacedEdges& a, const PlacedEdges& b,
+                                             EdgePair& edges);
+
     PickedEdges of_a_;
     PickedEdges of_b_;
 };

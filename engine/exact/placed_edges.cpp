@@ -16,7 +16,10 @@ using geometry::Polygon;
 using geometry::Vector;
 
 constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t arrays = 5;  // start and end, x and y; inverse length
+/// How many arrays the edges take: start and end, x and y; inverse lengths where they are read.
+std::size_t arrays_of(std::uint32_t count) {
+    return count <= most_edges_one_by_one ? 5 : 4;
+}
 
 bool same(const Pose& a, const Pose& b) {
     return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
@@ -26,12 +29,6 @@ bool same(const Pose& a, const Pose& b) {
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
     hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
     return hash ^ (hash >> 32U);
-}
-
-Placement placement_of(const PlacedPolygon& placed) {
-    const Eigen::Matrix2d& turn = placed.rotation();
-    const Vector& move = placed.translation();
-    return {{turn(0, 0), turn(1, 0)}, {turn(0, 1), turn(1, 1)}, {move.x(), move.y()}};
 }
 
 /// Where every edge ends, from where they start, ring by ring.
@@ -69,8 +66,10 @@ std::size_t PlacedInstances::slot_of(const Polygon& polygon, const Pose& pose) c
 }
 
 std::uint32_t PlacedInstances::place(const Polygon& polygon, const Pose& pose) {
-    for (const std::uint32_t index : recent_) {
+    for (const std::uint32_t index : std::array(recent_)) {
         if (index < entries_.size() && is(entries_[index], polygon, pose)) {
+            // Who is in one pair after the other stays.
+            recent_ = {recent_[0] == index ? recent_[1] : recent_[0], index};
             return index;
         }
     }
@@ -86,7 +85,7 @@ std::uint32_t PlacedInstances::find_or_add(const Polygon& polygon, const Pose& p
     std::uint32_t& slot = slots_[slot_of(polygon, pose)];
     if (slot == empty_slot) {
         slot = static_cast<std::uint32_t>(entries_.size());
-        add(polygon, pose);
+        add(PlacedPolygon(polygon, pose), pose);
     }
     return slot;
 }
@@ -98,12 +97,22 @@ void PlacedInstances::rehash() {
     }
 }
 
-EdgeArrays PlacedInstances::arrays_at(std::size_t first, std::uint32_t count) const {
-    const std::size_t length = padded(count) / most_lanes;
-    const auto array = [&](std::size_t number) {
-        return coordinates_[first + number * length].values;
-    };
-    return {count, array(0), array(1), array(2), array(3), array(4)};
+void PlacedInstances::find_arrays(Entry& entry) const {
+    if (entry.first != nowhere) {
+        const std::uint32_t count = entry.edges.count;
+        const std::size_t length = padded(count) / most_lanes;
+        const auto array = [&](std::size_t number) {
+            return coordinates_[entry.first + number * length].values;
+        };
+        static_cast<EdgeArrays&>(entry.edges) = {count,    array(0), array(1),
+                                                 array(2), array(3), nullptr};
+        if (arrays_of(count) > 4) {
+            entry.edges.inverse_length = array(4);
+        }
+    }
+    if (entry.first_boxes != nowhere) {
+        entry.edges.boxes = coordinates_[entry.first_boxes].values;
+    }
 }
 
 std::size_t PlacedInstances::grow(std::size_t by) {
@@ -111,24 +120,59 @@ std::size_t PlacedInstances::grow(std::size_t by) {
     if (used_ > coordinates_.size()) {
         coordinates_.resize(std::max(used_, 2 * coordinates_.size()));
         for (Entry& entry : entries_) {
-            static_cast<EdgeArrays&>(entry.edges) = arrays_at(entry.first, entry.edges.count);
+            find_arrays(entry);
         }
     }
     return first;
 }
 
-void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
-    const PlacedPolygon placed(polygon, pose);
+std::uint32_t PlacedInstances::place(const PlacedPolygon& placed) {
+    add(placed, {});
+    return static_cast<std::uint32_t>(entries_.size()) - 1;
+}
+
+void PlacedInstances::add(const PlacedPolygon& placed, const Pose& pose) {
+    const Polygon& polygon = placed.polygon();
+    Entry& entry = entries_.emplace_back(Entry{pose, nowhere, nowhere, {{}, placed, {}}});
+    PlacedEdges& edges = entry.edges;
+    edges.count = polygon.size();
+    if (is_small(edges)) {
+        entry.first = grow(arrays_of(edges.count) * padded(edges.count) / most_lanes);
+        find_arrays(entry);
+        edges.box = write_arrays(entry);
+    } else {
+        edges.box = placed.box();
+    }
+    edges.rounding = localize::placement_rounding(placed, edges.box);
+    edges.magnitude = geometry::largest_magnitude(placed, pose, edges.box);
+}
+
+void PlacedInstances::complete(std::uint32_t index) {
+    Entry& entry = entries_[index];
+    if (entry.first_boxes != nowhere) {
+        return;
+    }
+    const std::uint32_t count = entry.edges.count;
+    if (entry.first == nowhere) {
+        entry.first = grow(arrays_of(count) * padded(count) / most_lanes);
+        find_arrays(entry);
+        static_cast<void>(write_arrays(entry));
+    }
+    entry.first_boxes = grow(BoxTree::room(count) / most_lanes);
+    find_arrays(entry);
+    kernels::find_boxes(entry.edges, coordinates_[entry.first_boxes].values);
+}
+
+Box PlacedInstances::write_arrays(const Entry& entry) {
+    const Polygon& polygon = entry.edges.placed.polygon();
     const std::uint32_t count = polygon.size();
     const std::size_t length = padded(count);
-    const std::size_t first = grow(arrays * length / most_lanes);
-    double* const start_x = coordinates_[first].values;
+    double* const start_x = coordinates_[entry.first].values;
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;
     double* const end_y = end_x + length;
-    double* const inverse_length = end_y + length;
-    const Extent extent = kernels::place_points(polygon.vertices().front().data(), count,
-                                                placement_of(placed), start_x, start_y);
+    const Extent extent = geometry::kernels::place_points(
+        polygon.vertices(), entry.edges.placed.placement(), start_x, start_y);
     copy_ends(polygon, start_x, end_x);
     copy_ends(polygon, start_y, end_y);
     // What fills up the last lanes is the last edge's end once more: an edge of no length.
@@ -136,13 +180,10 @@ void PlacedInstances::add(const Polygon& polygon, const Pose& pose) {
     std::fill(start_y + count, start_y + length, end_y[count - 1]);
     std::fill(end_x + count, end_x + length, end_x[count - 1]);
     std::fill(end_y + count, end_y + length, end_y[count - 1]);
-    const EdgeArrays edges = arrays_at(first, count);
-    kernels::find_inverse_lengths(edges, inverse_length);
-    const Box box(Vector(extent.low_x, extent.low_y), Vector(extent.high_x, extent.high_y));
-    entries_.push_back({pose,
-                        first,
-                        {edges, placed, box, localize::placement_rounding(placed, box),
-                         geometry::largest_magnitude(placed, pose, box)}});
+    if (entry.edges.inverse_length != nullptr) {
+        kernels::find_inverse_lengths(entry.edges, end_y + length);
+    }
+    return geometry::box_of(extent);
 }
 
 }  // namespace nearfield::exact

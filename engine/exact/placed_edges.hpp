@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/exact/edge_kernels.hpp>
+#include <engine/exact/box_tree.hpp>
 #include <engine/geometry/placed_polygon.hpp>
 
 #include <array>
@@ -12,12 +12,17 @@ namespace nearfield::exact {
 
 /// A polygon at a pose with all its edges placed in the world, a contiguous array for each
 /// coordinate, so that several are worked on at once. For polygons of few edges (see
-/// most_edges_one_by_one) that is faster than any tree.
+/// most_edges_one_by_one) that is faster than any tree; those of more edges have boxes over them,
+/// and no inverse lengths.
 struct PlacedEdges : EdgeArrays {
     geometry::PlacedPolygon placed;
     geometry::Box box;
-    double rounding = 0.0;   ///< of the vertices: localize::placement_rounding
-    double magnitude = 0.0;  ///< geometry::largest_magnitude
+    double rounding = 0.0;          ///< of the vertices: localize::placement_rounding
+    double magnitude = 0.0;         ///< geometry::largest_magnitude
+    const double* boxes = nullptr;  ///< of a BoxTree; null where there are none yet
+
+    /// Precondition: it has boxes.
+    [[nodiscard]] BoxTree tree() const { return {*this, boxes}; }
 
     [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
         return {start_x[edge], start_y[edge]};
@@ -34,25 +39,31 @@ inline constexpr std::uint32_t most_edges_one_by_one = 256;
     return edges.count <= most_edges_one_by_one;
 }
 
-[[nodiscard]] inline Extent extent_of(const geometry::Box& box) {
-    return {box.min().x(), box.min().y(), box.max().x(), box.max().y()};
-}
+using geometry::extent_of;
 
 /// The instances of a batch, each placed once, however many pairs it is in. Keeps its memory.
 class PlacedInstances {
 public:
     void clear();
-    /// The index of an instance, which is placed where it is new.
+    /// The index of an instance, which is placed where it is new. Of one with many edges nothing
+    /// but its box, rounding and magnitude is known until complete().
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
-    /// Valid until the next place().
+    /// The same of an instance that place() will not find again.
+    [[nodiscard]] std::uint32_t place(const geometry::PlacedPolygon& placed);
+    /// Places all edges, and finds the boxes over them.
+    void complete(std::uint32_t index);
+    /// Valid until the next place() or complete().
     [[nodiscard]] const PlacedEdges& operator[](std::uint32_t index) const {
         return entries_[index].edges;
     }
 
 private:
+    static constexpr std::size_t nowhere = SIZE_MAX;
+
     struct Entry {
         Pose pose;
-        std::size_t first;  // of its arrays, which follow one another
+        std::size_t first;        // of its arrays, which follow one another
+        std::size_t first_boxes;  // nowhere, like the arrays, where there are none yet
         PlacedEdges edges;
     };
     /// As many as the widest vector has, where it loads them fastest.
@@ -64,9 +75,12 @@ private:
     [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
                                  const Pose& pose);
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
-    void add(const geometry::Polygon& polygon, const Pose& pose);
+    void add(const geometry::PlacedPolygon& placed, const Pose& pose);
+    /// Writes the arrays of an entry, for which there is room; returns the box around them.
+    [[nodiscard]] geometry::Box write_arrays(const Entry& entry);
     void rehash();
-    [[nodiscard]] EdgeArrays arrays_at(std::size_t first, std::uint32_t count) const;
+    /// Says where the arrays of an entry are.
+    void find_arrays(Entry& entry) const;
     /// Makes room for so many coordinates more; returns where.
     [[nodiscard]] std::size_t grow(std::size_t by);
 

@@ -18,26 +18,7 @@ Box PlacedPolygon::box_of(std::span<const Vector> vertices) const {
     if (vertices.empty()) {
         return {};
     }
-    // In registers, and two by turns: extending one waits for the extension before.
-    Vector low = to_world(vertices.front());
-    Vector high = low;
-    Vector other_low = low;
-    Vector other_high = low;
-    std::size_t i = 1;
-    for (; i + 1 < vertices.size(); i += 2) {
-        const Vector v = to_world(vertices[i]);
-        const Vector w = to_world(vertices[i + 1]);
-        low = low.cwiseMin(v).eval();
-        high = high.cwiseMax(v).eval();
-        other_low = other_low.cwiseMin(w).eval();
-        other_high = other_high.cwiseMax(w).eval();
-    }
-    if (i < vertices.size()) {
-        const Vector v = to_world(vertices[i]);
-        low = low.cwiseMin(v).eval();
-        high = high.cwiseMax(v).eval();
-    }
-    return {low.cwiseMin(other_low), high.cwiseMax(other_high)};
+    return geometry::box_of(kernels::find_extent(vertices, placement()));
 }
 
 Box PlacedPolygon::chain_box(std::uint32_t ring, std::uint32_t first, std::uint32_t count) const {

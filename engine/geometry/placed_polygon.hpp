@@ -2,6 +2,7 @@
 
 #include <engine/geometry/polygon.hpp>
 #include <engine/geometry/vector.hpp>
+#include <engine/geometry/vertex_kernels.hpp>
 #include <nearfield/shape.hpp>
 
 #include <cstdint>
@@ -26,6 +27,12 @@ public:
     /// From coordinates relative to the polygon's centre to world coordinates.
     [[nodiscard]] Vector to_world(const Vector& v) const {
         return rotation_.col(0) * v.x() + rotation_.col(1) * v.y() + translation_;
+    }
+    /// The same for kernels.
+    [[nodiscard]] Placement placement() const {
+        return {{rotation_(0, 0), rotation_(1, 0)},
+                {rotation_(0, 1), rotation_(1, 1)},
+                {translation_.x(), translation_.y()}};
     }
     /// From world coordinates to coordinates relative to the polygon's centre.
     [[nodiscard]] Vector to_local(const Vector& v) const {

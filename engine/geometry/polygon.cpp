@@ -1,5 +1,6 @@
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/polygon.hpp>
+#include <engine/geometry/vertex_kernels.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,55 +46,24 @@ bool usable(const Vector2& v) {
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
 }
 
-/// The box of a ring's vertices, which is kept in registers.
+/// What a ring's coordinates say together.
 struct Range {
-    Vector low;
-    Vector high;
-    Vector sum;  ///< no number where a coordinate is none
+    Box box;
+    bool finite;
+    double length;
 
-    explicit Range(std::span<const Vector2> vertices) {
-        // Two by turns: extending a box waits for the extension before.
-        Part even(vertices.front());
-        Part odd(vertices.back());
-        std::size_t i = 0;
-        for (; i + 1 < vertices.size(); i += 2) {
-            even.extend(vertices[i]);
-            odd.extend(vertices[i + 1]);
-        }
-        if (i < vertices.size()) {
-            even.extend(vertices[i]);
-        }
-        low = even.low.cwiseMin(odd.low);
-        high = even.high.cwiseMax(odd.high);
-        sum = even.sum + odd.sum;
-    }
+    explicit Range(const kernels::VertexRange& range)
+        : box(box_of(range.box)), finite(range.finite), length(range.length) {}
 
-    [[nodiscard]] bool usable() const {
-        return sum.allFinite() && magnitude() <= largest_coordinate;
-    }
+    [[nodiscard]] bool usable() const { return finite && magnitude() <= largest_coordinate; }
     /// The largest coordinate.
     [[nodiscard]] double magnitude() const {
-        return low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+        return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
     }
     /// The largest difference of a coordinate from that of a vertex.
     [[nodiscard]] double reach_from(const Vector& vertex) const {
-        return (high - vertex).cwiseMax(vertex - low).maxCoeff();
+        return (box.max() - vertex).cwiseMax(vertex - box.min()).maxCoeff();
     }
-
-private:
-    struct Part {
-        Vector low;
-        Vector high;
-        Vector sum = Vector::Zero();
-
-        explicit Part(const Vector2& vertex) : low(to_vector(vertex)), high(low) {}
-        void extend(const Vector2& vertex) {
-            const Vector v = to_vector(vertex);
-            low = low.cwiseMin(v).eval();
-            high = high.cwiseMax(v).eval();
-            sum += v;
-        }
-    };
 };
 
 /// Says which vertex of a ring cannot be used; there is one.
@@ -121,6 +91,15 @@ double largest_of(const Vector2& v) {
     return std::max(std::abs(v.x), std::abs(v.y));
 }
 
+/// True where three of the vertices alone say that not all are within `rounding`, in parts of their
+/// extent, of one line: two places that are, seen from a third, span no more than six times that.
+bool clearly_spans_area(std::span<const Vector2> vertices, double extent, double rounding) {
+    const Vector origin = to_vector(vertices.front());
+    const Vector one = (to_vector(vertices[vertices.size() / 3]) - origin) / extent;
+    const Vector other = (to_vector(vertices[2 * vertices.size() / 3]) - origin) / extent;
+    return std::abs(cross(one, other)) > 8.0 * rounding;
+}
+
 /// True where no vertex is farther from one line than the rounding of its coordinates explains.
 /// The line goes through the first vertex and the one farthest from it, so its two points are at
 /// least half the ring's extent apart and their own rounding does not swing it by more. Area would
@@ -132,21 +111,24 @@ bool on_one_line(std::span<const Vector2> vertices, const Range& range) {
     };
     const double extent = range.reach_from(to_vector(origin));
     const double magnitude = range.magnitude();
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * (magnitude / extent);
+    if (clearly_spans_area(vertices, extent, rounding)) {
+        return false;
+    }
     const auto farthest = std::find_if(vertices.begin(), vertices.end(), [&](const Vector2& v) {
         return largest_of(from_origin(v)) == extent;
     });
     Vector2 along = from_origin(*farthest);
     // Divided by the extent first: the products of a tiny ring must not underflow.
     along = {along.x / extent, along.y / extent};
-    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * (magnitude / extent);
     return std::none_of(vertices.begin(), vertices.end(), [&](const Vector2& v) {
         const Vector2 d = from_origin(v);
         return std::abs(along.x * (d.y / extent) - along.y * (d.x / extent)) > rounding;
     });
 }
 
-/// Grows the box to hold the rings.
-Status check(std::span<const Ring> rings, Box& box) {
+/// Grows the box to hold the rings, and adds up their lengths.
+Status check(std::span<const Ring> rings, Box& box, double& length) {
     if (rings.empty()) {
         return invalid("the shape has no ring");
     }
@@ -163,12 +145,12 @@ Status check(std::span<const Ring> rings, Box& box) {
         if (vertices.empty()) {
             return invalid(ring_name(r) + " has fewer than three different vertices");
         }
-        const Range range(vertices);
+        const Range range(kernels::find_range(vertices));
         if (!range.usable()) {
             return bad_coordinates(r, vertices);
         }
-        box.extend(range.low);
-        box.extend(range.high);
+        box.extend(range.box);
+        length += range.length;
         if (!has_three_different(vertices)) {
             return invalid(ring_name(r) + " has fewer than three different vertices");
         }
@@ -183,7 +165,8 @@ Status check(std::span<const Ring> rings, Box& box) {
 
 Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     Box box;
-    if (Status status = check(rings, box); !status.ok()) {
+    double length = 0.0;
+    if (Status status = check(rings, box, length); !status.ok()) {
         return status;
     }
     if (!(deviation >= 0.0 && deviation <= largest_coordinate)) {
@@ -201,15 +184,15 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
 
     centre_ = 0.5 * (box.min() + box.max());
     deviation_ = deviation;
+    length_along_axes_ = length;
     vertices_.resize(total);
     ring_ends_.clear();
-    auto vertex = vertices_.begin();
+    std::size_t first = 0;
     for (const Ring& ring : rings) {
         const std::span<const Vector2> open = open_ring(ring);
-        vertex = std::transform(
-            open.begin(), open.end(), vertex,
-            [centre = centre_](const Vector2& v) -> Vector { return to_vector(v) - centre; });
-        ring_ends_.push_back(static_cast<std::uint32_t>(vertex - vertices_.begin()));
+        kernels::subtract(open, centre_, vertices_.data() + first);
+        first += open.size();
+        ring_ends_.push_back(static_cast<std::uint32_t>(first));
     }
     return {};
 }

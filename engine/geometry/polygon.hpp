@@ -27,6 +27,8 @@ public:
 
     /// The centre of the bounding box, in the shape's own coordinates.
     [[nodiscard]] const Vector& centre() const { return centre_; }
+    /// Of the boundary, along both axes together: no less than its length.
+    [[nodiscard]] double length_along_axes() const { return length_along_axes_; }
     /// Vertices relative to centre().
     [[nodiscard]] std::span<const Vector> vertices() const { return vertices_; }
     [[nodiscard]] std::uint32_t size() const {
@@ -51,6 +53,7 @@ public:
 private:
     Vector centre_ = Vector::Zero();
     double deviation_ = 0.0;
+    double length_along_axes_ = 0.0;
     std::vector<Vector> vertices_;
     std::vector<std::uint32_t> ring_ends_;
 };

@@ -182,16 +182,7 @@ double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Ch
 }
 
 double most_samples(const Polygon& polygon, double spacing) {
-    double length = 0.0;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        Vector last = polygon.vertices()[polygon.ring_end(ring) - 1];
-        for (std::uint32_t i = polygon.ring_begin(ring); i < polygon.ring_end(ring); ++i) {
-            // The sum of the coordinates is no less than the length, and costs no root.
-            length += (polygon.vertices()[i] - last).lpNorm<1>();
-            last = polygon.vertices()[i];
-        }
-    }
-    return static_cast<double>(polygon.size()) + length / spacing;
+    return static_cast<double>(polygon.size()) + polygon.length_along_axes() / spacing;
 }
 
 }  // namespace nearfield::plan

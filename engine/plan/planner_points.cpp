@@ -1,4 +1,3 @@
-#include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
@@ -38,8 +37,8 @@ Box grown(Box box, double by) {
 // Of either boundary, for a search that is finished exactly.
 constexpr double most_search_samples = 4096.0;
 
-// Of a small shape's boundary, where all are kept at once and none is planned.
-constexpr double most_samples_at_once = 16384.0;
+// Of a boundary, where all are kept at once and none is planned.
+constexpr double most_samples_at_once = 65536.0;
 
 }  // namespace
 
@@ -64,10 +63,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const bool vertices = query.points == PenetrationPoints::vertices;
     const double most_points =
         vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
-    planned.edge_by_edge =
-        planned.on_cpu && (vertices || (std::max(planned.a->size(), planned.b->size()) <=
-                                            exact::most_edges_one_by_one &&
-                                        most_points <= most_samples_at_once));
+    planned.edge_by_edge = planned.on_cpu && (vertices || most_points <= most_samples_at_once);
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;

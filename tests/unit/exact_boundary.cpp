@@ -48,7 +48,8 @@ TEST(ExactBoundary, NearestIsThatOfBruteForce) {
         for (int i = 0; i < 200; ++i) {
             const Vector p = any_point(placed, random);
             const NearestPoint nearest = boundary.nearest(p);
-            EXPECT_EQ(nearest.on_edge.squared_distance, brute_force_squared_distance(placed, p));
+            EXPECT_NEAR(nearest.on_edge.squared_distance, brute_force_squared_distance(placed, p),
+                        1e-13);
             const auto on_edge = geometry::nearest_on_segment(
                 p, placed.vertex(nearest.edge), placed.vertex(placed.polygon().next(nearest.edge)));
             EXPECT_EQ(on_edge.point, nearest.on_edge.point);

@@ -1,7 +1,7 @@
 #include "shape_samples.hpp"
 
-#include <engine/exact/closest_edges.hpp>
 #include <engine/exact/closest_pair.hpp>
+#include <engine/exact/meeting.hpp>
 #include <engine/geometry/segment.hpp>
 
 #include <gtest/gtest.h>
@@ -30,6 +30,22 @@ double brute_force_squared_distance(const PlacedPolygon& a, const PlacedPolygon&
     }
     return least;
 }
+
+/// Two shapes placed, complete.
+struct PlacedPair {
+    PlacedInstances instances;
+    std::uint32_t index_a;
+    std::uint32_t index_b;
+
+    PlacedPair(const Polygon& polygon_a, const Pose& pose_a, const Polygon& polygon_b,
+               const Pose& pose_b)
+        : index_a(instances.place(polygon_a, pose_a)), index_b(instances.place(polygon_b, pose_b)) {
+        instances.complete(index_a);
+        instances.complete(index_b);
+    }
+    [[nodiscard]] const PlacedEdges& a() const { return instances[index_a]; }
+    [[nodiscard]] const PlacedEdges& b() const { return instances[index_b]; }
+};
 
 TEST(ClosestOfSegments, NoSampleIsCloser) {
     samples::Random random(8);
@@ -60,78 +76,59 @@ TEST(ClosestPair, IsThatOfBruteForceFarAndNear) {
     samples::Random random(77);
     const auto shapes = samples::assorted_shapes(random);
     ClosestPairFinder finder;
+    MeetingFinder meeting;
+    int apart = 0;
+    int met = 0;
     for (const auto& first : shapes) {
         for (const auto& second : shapes) {
             SCOPED_TRACE(first.name + " and " + second.name);
             const Polygon polygon_a = samples::polygon(first.rings);
             const Polygon polygon_b = samples::polygon(second.rings);
-            const PlacedPolygon a(polygon_a, {{}, random.between(-3.0, 3.0)});
-            const PlacedPolygon b(polygon_b,
-                                  {{random.between(0.0, 4.0), random.between(-1.0, 1.0)}, 0.4});
-            const double truth = brute_force_squared_distance(a, b);
-            const ClosestPair pair = finder.find(a, b, infinity);
-            EXPECT_EQ(pair.squared_distance, truth);
-            EXPECT_NEAR((pair.point_a - pair.point_b).squaredNorm(), truth, 1e-15);
-            // Known bounds leave the answer as it is.
-            EXPECT_EQ(finder.find(a, b, std::sqrt(truth)).squared_distance, truth);
-            EXPECT_EQ(finder.find(a, b, 2.0 * std::sqrt(truth) + 1e-9).squared_distance, truth);
-            EXPECT_EQ(finder.find(b, a, infinity).squared_distance, truth);
+            for (const double off : {0.0, 2.5}) {
+                const Pose pose_a{{}, random.between(-3.0, 3.0)};
+                const Pose pose_b{{off + random.between(0.0, 4.0), random.between(-1.0, 1.0)}, 0.4};
+                const PlacedPair placed(polygon_a, pose_a, polygon_b, pose_b);
+                const double truth =
+                    brute_force_squared_distance(placed.a().placed, placed.b().placed);
+                if (truth == 0.0) {
+                    EdgePair edges;
+                    EXPECT_TRUE(meeting.boundaries_meet(placed.a(), placed.b(), edges));
+                    ++met;
+                    continue;
+                }
+                ++apart;
+                const ClosestPair pair = finder.find(placed.a(), placed.b(), infinity, 0.0);
+                EXPECT_EQ(pair.squared_distance, truth);
+                EXPECT_NEAR((pair.point_a - pair.point_b).squaredNorm(), truth, 1e-15);
+                // Known bounds leave the answer as it is.
+                const auto known = [&](double at_most) {
+                    return finder.find(placed.a(), placed.b(), at_most, 0.1).squared_distance;
+                };
+                EXPECT_EQ(known(std::sqrt(truth)), truth);
+                EXPECT_EQ(known(2.0 * std::sqrt(truth) + 1e-9), truth);
+                EXPECT_EQ(finder.find(placed.b(), placed.a(), infinity, 0.0).squared_distance,
+                          truth);
+            }
         }
     }
+    EXPECT_GT(met, 20);
+    EXPECT_GT(apart, 20);
 }
 
 TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     const Polygon wall = samples::polygon({samples::rectangle(0.0, 0.0, 10.0, 1.0)});
-    const PlacedPolygon a(wall, {});
     ClosestPairFinder finder;
     const auto unique = [&](const samples::Rings& rings) {
         const Polygon polygon = samples::polygon(rings);
-        const PlacedPolygon b(polygon, {});
-        return finder.is_unique(finder.find(a, b, infinity), Side::a, 1e-3, 0.5);
+        const PlacedPair placed(wall, {}, polygon, {});
+        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, 1e-3);
+        return finder.is_unique(closest, Side::a, 1e-3, 0.5);
     };
     EXPECT_TRUE(unique({{{5.0, 2.0}, {6.0, 4.0}, {4.0, 4.0}}}));
     EXPECT_FALSE(unique({samples::rectangle(2.0, 2.0, 3.0, 4.0)}));
     EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
     EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
     EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
-}
-
-TEST(ClosestEdges, FindWhatTheTreesFind) {
-    samples::Random random(79);
-    ClosestPairFinder finder;
-    ClosestEdges small;
-    int unique = 0;
-    int tried = 0;
-    while (tried < 300) {
-        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 60.0)); };
-        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
-        const Polygon b = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
-        const Pose pose{{random.between(-3.0, 3.0), random.between(-3.0, 3.0)}, 0.4};
-        const PlacedPolygon placed_a(a, {});
-        const PlacedPolygon placed_b(b, pose);
-        const ClosestPair expected = finder.find(placed_a, placed_b, infinity);
-        if (expected.squared_distance == 0.0) {
-            continue;
-        }
-        ++tried;
-        PlacedInstances instances;
-        const std::uint32_t index_a = instances.place(a, {});
-        const std::uint32_t index_b = instances.place(b, pose);
-        const PlacedEdges& edges_a = instances[index_a];
-        const PlacedEdges& edges_b = instances[index_b];
-        const ClosestPair found = small.find(edges_a, edges_b);
-        EXPECT_EQ(found.squared_distance, expected.squared_distance);
-        EXPECT_EQ((found.point_a - found.point_b).squaredNorm(), found.squared_distance);
-        const double margin = tried % 3 == 0 ? 1e-3 : 0.1;
-        for (const Side side : {Side::a, Side::either}) {
-            const bool is_unique = finder.is_unique(expected, side, margin, 0.3);
-            EXPECT_EQ(small.is_unique(edges_a, edges_b, found, side, margin, 0.3), is_unique);
-            unique += is_unique ? 1 : 0;
-        }
-        EXPECT_EQ(small.find(edges_b, edges_a).squared_distance, expected.squared_distance);
-    }
-    EXPECT_GT(unique, 100);
-    EXPECT_LT(unique, 500);
 }
 
 }  // namespace

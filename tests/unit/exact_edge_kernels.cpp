@@ -1,5 +1,6 @@
 #include "shape_samples.hpp"
 
+#include <engine/exact/closest_pair.hpp>
 #include <engine/exact/placed_edges.hpp>
 #include <engine/geometry/segment.hpp>
 
@@ -21,8 +22,11 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
     PlacedInstances instances;
     const std::uint32_t index_a = instances.place(a, {});
     const std::uint32_t index_b = instances.place(b, pose);
+    instances.complete(index_a);
+    instances.complete(index_b);
     const PlacedEdges& edges_a = instances[index_a];
     const PlacedEdges& edges_b = instances[index_b];
+    const BoxTree tree = edges_a.tree();
     std::vector<double> said;
     for (std::uint32_t i = 0; i < edges_b.count; ++i) {
         said.insert(said.end(),
@@ -38,22 +42,33 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
     add_found(kernels::find_points_inside(edges_a.starts(), box_b, edges_b, found.data()));
     add_found(kernels::find_edges_in(edges_a, box_b, found.data()));
     said.push_back(kernels::find_point_nearest_to(edges_a.starts(), box_b));
-    const std::uint32_t within =
-        kernels::find_points_within(edges_a.starts(), box_b, 0.02, found.data());
-    add_found(within);
-    std::vector<double> squared(within);
-    kernels::find_distances(edges_a.starts(), found.data(), within, edges_b, squared.data());
-    said.insert(said.end(), squared.begin(), squared.end());
     for (const Vector& point : points) {
         said.push_back(kernels::contain(edges_a, point.x(), point.y()) ? 1.0 : 0.0);
         const NearEdge nearest = kernels::find_nearest(edges_a, point.x(), point.y());
         said.insert(said.end(), {static_cast<double>(nearest.edge), nearest.squared});
         add_found(kernels::find_edges_within(edges_a, point.x(), point.y(), 0.3, found.data()));
+        said.push_back(kernels::contain(tree, point.x(), point.y()) ? 1.0 : 0.0);
+        const NearEdge nearer = kernels::find_nearer(tree, point.x(), point.y(), {0, 0.5});
+        said.insert(said.end(), {static_cast<double>(nearer.edge), nearer.squared});
+        add_found(kernels::find_edges_within(tree, point.x(), point.y(), 0.3, found.data()));
+        said.push_back(kernels::meets(tree, {0.0, 0.0, point.x(), point.y()}) ? 1.0 : 0.0);
     }
     for (EdgePair pair; kernels::find_meeting_pair(edges_a, edges_b, 1e-15, pair); ++pair.second) {
         said.insert(said.end(),
                     {static_cast<double>(pair.first), static_cast<double>(pair.second)});
     }
+    add_found(kernels::find_edges_in(tree, box_b, found.data()));
+    const auto say_pair = [](void* numbers, const EdgePair& pair) {
+        static_cast<std::vector<double>*>(numbers)->insert(
+            static_cast<std::vector<double>*>(numbers)->end(),
+            {static_cast<double>(pair.first), static_cast<double>(pair.second)});
+        return true;
+    };
+    kernels::for_meeting_pairs(tree, edges_b.tree(), 1e-15, {say_pair, &said});
+    ClosestPairFinder finder;
+    const ClosestPair pair = finder.find(edges_a, edges_b, 10.0, 1e-3);
+    said.insert(said.end(), {static_cast<double>(pair.edge_a), static_cast<double>(pair.edge_b),
+                             pair.squared_distance});
     return said;
 }
 
@@ -64,7 +79,7 @@ TEST(EdgeKernels, SayTheSameOnEveryInstructionSet) {
         targets.push_back(left & ~(left - 1));
     }
     for (int i = 0; i < 60; ++i) {
-        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 40.0)); };
+        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 120.0)); };
         const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
         const Polygon b = samples::polygon({samples::star(random, size(), 0.1, 0.9)});
         const Pose pose{{random.between(-1.5, 1.5), random.between(-1.5, 1.5)}, 0.4};

@@ -25,7 +25,7 @@ template <class Check>
 void for_each_shape(const Check& check) {
     samples::Random random(77);
     std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
-    for (std::uint32_t size = 3; size < 10; ++size) {
+    for (const std::uint32_t size : {3U, 4U, 5U, 6U, 7U, 8U, 9U, 63U, 64U, 65U, 511U, 520U}) {
         shapes.push_back(
             {std::to_string(size) + " vertices", {samples::star(random, size, 0.4, 1.0)}});
     }
@@ -35,6 +35,7 @@ void for_each_shape(const Check& check) {
         const Pose pose{{30.0, -3.0}, 0.7};
         PlacedInstances instances;
         const std::uint32_t index = instances.place(polygon, pose);
+        instances.complete(index);
         check(instances[index], PlacedPolygon(polygon, pose), random);
     }
 }
@@ -54,41 +55,81 @@ TEST(PlacedEdges, AreThePolygonsOwn) {
     });
 }
 
+/// Checks one point against all edges of a shape. `edges`: EdgeArrays or a BoxTree over them;
+/// `nearest`: what was found the nearest.
+template <class Edges>
+void check_point(const PlacedEdges& placed, const Edges& edges, const Vector& point, double limit,
+                 const NearEdge& nearest) {
+    EXPECT_EQ(kernels::contain(edges, point.x(), point.y()),
+              geometry::contains(placed.placed, point));
+    ASSERT_LT(nearest.edge, placed.count);
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> expected;
+    const auto squared_to = [&](std::uint32_t edge) {
+        return geometry::nearest_on_segment(point, placed.start(edge), placed.end(edge))
+            .squared_distance;
+    };
+    for (std::uint32_t edge = 0; edge < placed.count; ++edge) {
+        least = std::min(least, squared_to(edge));
+        if (squared_to(edge) <= limit) {
+            expected.push_back(edge);
+        }
+    }
+    EXPECT_NEAR(nearest.squared, least, 1e-12);
+    EXPECT_NEAR(squared_to(nearest.edge), least, 1e-12);
+    std::vector<std::uint32_t> near(padded(placed.count));
+    near.resize(kernels::find_edges_within(edges, point.x(), point.y(), limit, near.data()));
+    EXPECT_EQ(near, expected);
+}
+
 TEST(PlacedEdges, ContainAndFindTheNearestAsOneByOne) {
+    int small = 0;
+    for_each_shape([&](const PlacedEdges& edges, const PlacedPolygon& placed,
+                       samples::Random& random) {
+        int inside = 0;
+        for (int i = 0; i < 200; ++i) {
+            const Vector point = any_point(placed, random);
+            const double limit = random.between(0.0, 2.0);
+            inside += geometry::contains(placed, point) ? 1 : 0;
+            const auto guess = static_cast<std::uint32_t>(random.between(0.0, edges.count - 0.01));
+            const double to_guess =
+                geometry::nearest_on_segment(point, edges.start(guess), edges.end(guess))
+                    .squared_distance;
+            check_point(
+                edges, edges.tree(), point, limit,
+                kernels::find_nearer(edges.tree(), point.x(), point.y(), {guess, to_guess}));
+            if (is_small(edges)) {
+                check_point(edges, edges, point, limit,
+                            kernels::find_nearest(edges, point.x(), point.y()));
+                ++small;
+            }
+        }
+        EXPECT_LT(inside, 200);
+    });
+    EXPECT_GT(small, 1000);
+}
+
+TEST(PlacedEdges, AreListedByTheBoxesTheyMeet) {
     for_each_shape(
         [](const PlacedEdges& edges, const PlacedPolygon& placed, samples::Random& random) {
-            std::vector<std::uint32_t> near(padded(edges.count));
-            int inside = 0;
-            for (int i = 0; i < 200; ++i) {
-                const Vector point = any_point(placed, random);
-                const bool contained = kernels::contain(edges, point.x(), point.y());
-                EXPECT_EQ(contained, geometry::contains(placed, point));
-                inside += contained ? 1 : 0;
-                const NearEdge nearest = kernels::find_nearest(edges, point.x(), point.y());
-                ASSERT_LT(nearest.edge, edges.count);
-                double least = std::numeric_limits<double>::infinity();
+            for (int i = 0; i < 20; ++i) {
+                Box box(any_point(placed, random));
+                box.extend(any_point(placed, random));
                 std::vector<std::uint32_t> expected;
-                const double limit = random.between(0.0, 2.0);
                 for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-                    const double distance =
-                        geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
-                            .squared_distance;
-                    least = std::min(least, distance);
-                    if (distance <= limit) {
+                    Box own(edges.start(edge));
+                    own.extend(edges.end(edge));
+                    if (own.intersects(box)) {
                         expected.push_back(edge);
                     }
                 }
-                EXPECT_NEAR(nearest.squared, least, 1e-12);
-                EXPECT_NEAR(geometry::nearest_on_segment(point, edges.start(nearest.edge),
-                                                         edges.end(nearest.edge))
-                                .squared_distance,
-                            least, 1e-12);
-                near.resize(padded(edges.count));
-                near.resize(
-                    kernels::find_edges_within(edges, point.x(), point.y(), limit, near.data()));
-                EXPECT_EQ(near, expected);
+                std::vector<std::uint32_t> found(padded(edges.count));
+                found.resize(kernels::find_edges_in(edges, extent_of(box), found.data()));
+                EXPECT_EQ(found, expected);
+                found.resize(padded(edges.count));
+                found.resize(kernels::find_edges_in(edges.tree(), extent_of(box), found.data()));
+                EXPECT_EQ(found, expected);
             }
-            EXPECT_LT(inside, 200);
         });
 }
 
@@ -126,6 +167,8 @@ TEST(PlacedEdges, MeetAsTheHierarchySays) {
         PlacedInstances instances;
         const std::uint32_t index_a = instances.place(a, {});
         const std::uint32_t index_b = instances.place(b, pose);
+        instances.complete(index_a);
+        instances.complete(index_b);
         const PlacedEdges& edges_a = instances[index_a];
         const PlacedEdges& edges_b = instances[index_b];
         const bool meets = localize::intersects(edges_a.placed, edges_b.placed);

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <engine/exact/edge_kernels.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nearfield::exact {
+
+/// Boxes, an array for each side. What fills an array up to a multiple of eight is a box that
+/// nothing meets.
+struct BoxArrays {
+    std::uint32_t count = 0;
+    const double* low_x = nullptr;
+    const double* low_y = nullptr;
+    const double* high_x = nullptr;
+    const double* high_y = nullptr;
+};
+
+/// Boxes over every eight edges that follow each other in their arrays, over every eight of those
+/// boxes, and so on up to eight or fewer: nothing but their coordinates is kept, so that building
+/// them anew each frame is one pass over the edges, and eight are looked at together. Rings do not
+/// count: where one begins its edges share a box with the last of the ring before.
+class BoxTree {
+public:
+    static constexpr std::uint32_t fan_out = 8;
+
+    /// How many doubles the boxes over so many edges take.
+    [[nodiscard]] static std::size_t room(std::uint32_t edges);
+
+    /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote.
+    BoxTree(const EdgeArrays& edges, const double* boxes);
+
+    [[nodiscard]] const EdgeArrays& edges() const { return edges_; }
+    /// The lowest, 0, are boxes over edges.
+    [[nodiscard]] std::uint32_t top_level() const { return top_level_; }
+    [[nodiscard]] const BoxArrays& level(std::uint32_t level) const { return levels_[level]; }
+
+private:
+    static constexpr std::size_t most_levels = 10;  // over more edges than 32 bits can count
+
+    EdgeArrays edges_;
+    std::array<BoxArrays, most_levels> levels_;
+    std::uint32_t top_level_ = 0;
+};
+
+/// A vertex (or where an edge starts) and an edge of the other shape near it.
+struct VertexAndEdge {
+    std::uint32_t vertex = 0;
+    std::uint32_t edge = 0;
+    bool vertex_of_first = true;
+    double squared = 0.0;  ///< their distance, up to rounding
+};
+
+/// What a search by pairs calls with what it finds. `use` says whether to go on.
+struct EdgePairSink {
+    bool (*use)(void* user, const EdgePair& pair) = nullptr;
+    void* user = nullptr;
+};
+struct VertexAndEdgeSink {
+    void (*use)(void* user, const VertexAndEdge& found) = nullptr;
+    void* user = nullptr;
+};
+
+namespace kernels {
+
+// As their namesakes of edge_kernels.hpp, but inverse lengths are not read, and what fills up the
+// arrays of edges is an edge of no length at the last edge's end.
+
+/// Writes the boxes of a BoxTree.
+void find_boxes(const EdgeArrays& edges, double* boxes);
+
+/// True where an even-odd ray says so, as contain().
+[[nodiscard]] bool contain(const BoxTree& tree, double x, double y);
+
+/// An edge nearer to a point than `guess`, the nearest of them, or `guess` where there is none.
+[[nodiscard]] NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess);
+
+[[nodiscard]] std::uint32_t find_edges_within(const BoxTree& tree, double x, double y, double most,
+                                              std::uint32_t* found);
+
+[[nodiscard]] std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box,
+                                          std::uint32_t* found);
+
+/// True where the box of an edge meets a box.
+[[nodiscard]] bool meets(const BoxTree& tree, const Extent& box);
+
+/// Calls `sink` for all pairs of edges that may come as close together as `margin`, until it says
+/// no; returns whether it did.
+bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margin,
+                       const EdgePairSink& sink);
+
+/// Calls `sink` for every vertex of either shape and edge of the other whose distance is no more
+/// than `margin` above the least of all, up to rounding, and for others that were the closest so
+/// far. Precondition: some are no farther apart than the root of `most`. Returns the square of the
+/// least distance.
+double for_closest(const BoxTree& first, const BoxTree& second, double most, double margin,
+                   const VertexAndEdgeSink& sink);
+
+}  // namespace kernels
+
+}  // namespace nearfield::exact

@@ -1,0 +1,200 @@
+// What the kernels have in common, for every instruction set: included by each source of kernels
+// as often as Highway includes that source.
+
+#include <engine/exact/edge_kernels.hpp>
+
+#include <bit>
+#include <limits>
+
+// A guard for each instruction set, as Highway has it.
+#if defined(NEARFIELD_EXACT_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef NEARFIELD_EXACT_LANES_INL_HPP
+#undef NEARFIELD_EXACT_LANES_INL_HPP
+#else
+#define NEARFIELD_EXACT_LANES_INL_HPP
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::exact::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, most_lanes>;
+using Lanes = hn::Vec<Tag>;
+using LaneMask = hn::Mask<Tag>;
+
+/// One bit a lane, the first lane lowest.
+HWY_INLINE std::uint32_t bits_of(LaneMask mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Tag(), mask, bits);
+    return bits[0];
+}
+
+/// Appends the lanes that are set to a list of indices, but for those from `end` on.
+HWY_INLINE std::uint32_t append_lanes(LaneMask mask, std::size_t first, std::uint32_t end,
+                                      std::uint32_t* found, std::uint32_t count) {
+    for (std::uint32_t bits = bits_of(mask); bits != 0; bits &= bits - 1) {
+        const auto index =
+            static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(bits));
+        if (index < end) {
+            found[count++] = index;
+        }
+    }
+    return count;
+}
+
+HWY_INLINE double least_lane(Lanes lanes) {
+    return hn::GetLane(hn::MinOfLanes(Tag(), lanes));
+}
+
+HWY_INLINE double greatest_lane(Lanes lanes) {
+    return hn::GetLane(hn::MaxOfLanes(Tag(), lanes));
+}
+
+/// By the sign bit, whatever the rest.
+HWY_INLINE LaneMask are_negative(Lanes lanes) {
+    const Tag tag;
+    const hn::RebindToSigned<Tag> whole;
+    return hn::RebindMask(tag, hn::Lt(hn::BitCast(whole, lanes), hn::Zero(whole)));
+}
+
+struct LanesOfExtent {
+    Lanes low_x;
+    Lanes low_y;
+    Lanes high_x;
+    Lanes high_y;
+};
+
+HWY_INLINE LanesOfExtent lanes_of(const Extent& box) {
+    const Tag tag;
+    return {hn::Set(tag, box.low_x), hn::Set(tag, box.low_y), hn::Set(tag, box.high_x),
+            hn::Set(tag, box.high_y)};
+}
+
+/// The ends of the edges i, i + 1, ...
+struct EdgeLanes {
+    Lanes start_x;
+    Lanes start_y;
+    Lanes end_x;
+    Lanes end_y;
+
+    HWY_INLINE EdgeLanes(const EdgeArrays& edges, std::size_t i)
+        : start_x(hn::LoadU(Tag(), edges.start_x + i)),
+          start_y(hn::LoadU(Tag(), edges.start_y + i)),
+          end_x(hn::LoadU(Tag(), edges.end_x + i)),
+          end_y(hn::LoadU(Tag(), edges.end_y + i)) {}
+};
+
+/// Negative in a lane where the ray from a point to the right crosses the edge.
+HWY_INLINE Lanes crossings(const EdgeLanes& edges, Lanes x, Lanes y) {
+    // Only signs count; a difference is negative just where the comparison holds.
+    const Lanes start_above = hn::Sub(y, edges.start_y);
+    const Lanes end_above = hn::Sub(y, edges.end_y);
+    const Lanes left =
+        hn::Sub(hn::Mul(hn::Sub(edges.end_y, edges.start_y), hn::Sub(x, edges.start_x)),
+                hn::Mul(hn::Sub(edges.end_x, edges.start_x), start_above));
+    // Left of an edge that goes up, right of one that goes down: the ray to the right hits it.
+    return hn::AndNot(hn::Xor(left, end_above), hn::Xor(start_above, end_above));
+}
+
+/// Edges as distances are measured to them.
+struct EdgesAlong {
+    Lanes start_x;
+    Lanes start_y;
+    Lanes along_x;
+    Lanes along_y;
+    Lanes inverse_length;  ///< 1 / squared length; for no length anything
+
+    EdgesAlong() = default;
+    HWY_INLINE EdgesAlong(const EdgeArrays& edges, std::size_t i)
+        : start_x(hn::LoadU(Tag(), edges.start_x + i)),
+          start_y(hn::LoadU(Tag(), edges.start_y + i)),
+          along_x(hn::Sub(hn::LoadU(Tag(), edges.end_x + i), start_x)),
+          along_y(hn::Sub(hn::LoadU(Tag(), edges.end_y + i), start_y)) {}
+};
+
+/// Of points to edges, lane by lane.
+HWY_INLINE Lanes squared_distances(const EdgesAlong& edges, Lanes x, Lanes y) {
+    const Tag tag;
+    const Lanes to_x = hn::Sub(x, edges.start_x);
+    const Lanes to_y = hn::Sub(y, edges.start_y);
+    const Lanes of_length = hn::Mul(
+        hn::Add(hn::Mul(edges.along_x, to_x), hn::Mul(edges.along_y, to_y)), edges.inverse_length);
+    // What is no number (an edge so short that its inverse is infinite) becomes 0.
+    const Lanes not_before = hn::IfThenElseZero(hn::Gt(of_length, hn::Zero(tag)), of_length);
+    const Lanes parameter = hn::Min(not_before, hn::Set(tag, 1.0));
+    const Lanes off_x = hn::Sub(to_x, hn::Mul(parameter, edges.along_x));
+    const Lanes off_y = hn::Sub(to_y, hn::Mul(parameter, edges.along_y));
+    return hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y));
+}
+
+/// The lane of the least value, of equal ones the one of the least index.
+HWY_INLINE NearEdge least_of(Lanes values, Lanes indices) {
+    const Tag tag;
+    const Lanes infinity = hn::Set(tag, std::numeric_limits<double>::infinity());
+    const double least = least_lane(values);
+    const LaneMask is_least = hn::Eq(values, hn::Set(tag, least));
+    return {static_cast<std::uint32_t>(least_lane(hn::IfThenElse(is_least, indices, infinity))),
+            least};
+}
+
+HWY_INLINE LaneMask meet(const LanesOfExtent& box, const EdgeLanes& edges) {
+    return hn::And(hn::And(hn::Le(hn::Min(edges.start_x, edges.end_x), box.high_x),
+                           hn::Ge(hn::Max(edges.start_x, edges.end_x), box.low_x)),
+                   hn::And(hn::Le(hn::Min(edges.start_y, edges.end_y), box.high_y),
+                           hn::Ge(hn::Max(edges.start_y, edges.end_y), box.low_y)));
+}
+
+/// The z component of the cross products.
+HWY_INLINE Lanes cross_lanes(Lanes ax, Lanes ay, Lanes bx, Lanes by) {
+    return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
+}
+
+/// True where both values are beyond the reach, on one side.
+HWY_INLINE LaneMask beyond(Lanes one, Lanes other, Lanes reach) {
+    return hn::Or(hn::Gt(hn::Min(one, other), reach), hn::Lt(hn::Max(one, other), hn::Neg(reach)));
+}
+
+/// One edge against others: false where either lies beside the other's line.
+HWY_INLINE LaneMask may_meet(const EdgeArrays& first, std::size_t edge, const EdgeLanes& second,
+                             double margin) {
+    const Tag tag;
+    const Lanes start_x = hn::Set(tag, first.start_x[edge]);
+    const Lanes start_y = hn::Set(tag, first.start_y[edge]);
+    const Lanes end_x = hn::Set(tag, first.end_x[edge]);
+    const Lanes end_y = hn::Set(tag, first.end_y[edge]);
+    const Lanes close = hn::Set(tag, margin);
+    const Lanes x = hn::Sub(end_x, start_x);
+    const Lanes y = hn::Sub(end_y, start_y);
+    const Lanes other_x = hn::Sub(second.end_x, second.start_x);
+    const Lanes other_y = hn::Sub(second.end_y, second.start_y);
+    // The sum of the coordinates is no less than the length, and costs no root.
+    const LaneMask beside_first = beyond(
+        cross_lanes(x, y, hn::Sub(second.start_x, start_x), hn::Sub(second.start_y, start_y)),
+        cross_lanes(x, y, hn::Sub(second.end_x, start_x), hn::Sub(second.end_y, start_y)),
+        hn::Mul(close, hn::Add(hn::Abs(x), hn::Abs(y))));
+    const LaneMask beside_second =
+        beyond(cross_lanes(other_x, other_y, hn::Sub(start_x, second.start_x),
+                           hn::Sub(start_y, second.start_y)),
+               cross_lanes(other_x, other_y, hn::Sub(end_x, second.start_x),
+                           hn::Sub(end_y, second.start_y)),
+               hn::Mul(close, hn::Add(hn::Abs(other_x), hn::Abs(other_y))));
+    return hn::Not(hn::Or(beside_first, beside_second));
+}
+
+HWY_INLINE Extent extent_of(const EdgeArrays& edges, std::size_t edge, double margin) {
+    const double start_x = edges.start_x[edge];
+    const double start_y = edges.start_y[edge];
+    const double end_x = edges.end_x[edge];
+    const double end_y = edges.end_y[edge];
+    return {
+        (start_x < end_x ? start_x : end_x) - margin, (start_y < end_y ? start_y : end_y) - margin,
+        (start_x < end_x ? end_x : start_x) + margin, (start_y < end_y ? end_y : start_y) + margin};
+}
+
+}  // namespace nearfield::exact::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,223 @@
+#include <engine/geometry/vertex_kernels.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+
+// Highway compiles what follows once for every instruction set, by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/geometry/vertex_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::geometry::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t most_lanes = 8;
+using Tag = hn::CappedTag<double, most_lanes>;
+using Lanes = hn::Vec<Tag>;
+
+HWY_INLINE double least_lane(Lanes lanes) {
+    return hn::GetLane(hn::MinOfLanes(Tag(), lanes));
+}
+
+HWY_INLINE double greatest_lane(Lanes lanes) {
+    return hn::GetLane(hn::MaxOfLanes(Tag(), lanes));
+}
+
+struct PlacedPoints {
+    Lanes x;
+    Lanes y;
+};
+
+HWY_INLINE PlacedPoints place_lanes(const double* interleaved, const Placement& placement) {
+    const Tag tag;
+    Lanes x;
+    Lanes y;
+    hn::LoadInterleaved2(tag, interleaved, x, y);
+    const auto placed = [&](int axis) HWY_ATTR {
+        const Lanes turned = hn::Add(hn::Mul(hn::Set(tag, placement.x_axis[axis]), x),
+                                     hn::Mul(hn::Set(tag, placement.y_axis[axis]), y));
+        return hn::Add(turned, hn::Set(tag, placement.translation[axis]));
+    };
+    return {placed(0), placed(1)};
+}
+
+/// Places points from lane to lane and calls `use(i, placed)` with those from point i on; the last
+/// lanes may hold some of the points before once more. Returns the box around them.
+template <class Use>
+HWY_INLINE Extent place_all(const double* interleaved, std::size_t count,
+                            const Placement& placement, const Use& use) {
+    const Tag tag;
+    const std::size_t lanes = hn::Lanes(tag);
+    double padded_points[2 * most_lanes];
+    if (count < lanes) {
+        for (std::size_t i = 0; i < lanes; ++i) {
+            std::memcpy(padded_points + 2 * i, interleaved + 2 * (i < count ? i : 0),
+                        2 * sizeof(double));
+        }
+        interleaved = padded_points;
+    }
+    Lanes low_x = hn::Set(tag, std::numeric_limits<double>::infinity());
+    Lanes low_y = low_x;
+    Lanes high_x = hn::Neg(low_x);
+    Lanes high_y = high_x;
+    for (std::size_t i = 0; i < count; i += lanes) {
+        const std::size_t from = i + lanes <= count || i == 0 ? i : count - lanes;
+        const PlacedPoints placed = place_lanes(interleaved + 2 * from, placement);
+        low_x = hn::Min(low_x, placed.x);
+        low_y = hn::Min(low_y, placed.y);
+        high_x = hn::Max(high_x, placed.x);
+        high_y = hn::Max(high_y, placed.y);
+        use(from, placed);
+    }
+    return {least_lane(low_x), least_lane(low_y), greatest_lane(high_x), greatest_lane(high_y)};
+}
+
+Extent PlacePoints(const double* interleaved, std::size_t count, const Placement& placement,
+                   double* x, double* y) {
+    const Tag tag;
+    if (count < hn::Lanes(tag)) {
+        return place_all(interleaved, count, placement,
+                         [&](std::size_t, const PlacedPoints& placed) HWY_ATTR {
+                             double placed_x[most_lanes];
+                             double placed_y[most_lanes];
+                             hn::StoreU(placed.x, tag, placed_x);
+                             hn::StoreU(placed.y, tag, placed_y);
+                             std::memcpy(x, placed_x, count * sizeof(double));
+                             std::memcpy(y, placed_y, count * sizeof(double));
+                         });
+    }
+    return place_all(interleaved, count, placement,
+                     [&](std::size_t i, const PlacedPoints& placed) HWY_ATTR {
+                         hn::StoreU(placed.x, tag, x + i);
+                         hn::StoreU(placed.y, tag, y + i);
+                     });
+}
+
+Extent FindExtent(const double* interleaved, std::size_t count, const Placement& placement) {
+    return place_all(interleaved, count, placement, [](std::size_t, const PlacedPoints&) {});
+}
+
+/// A range that grows vertex by vertex.
+struct GrowingRange {
+    Extent box{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+               -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    double sum = 0.0;  // no number where a coordinate is none
+    double length = 0.0;
+
+    HWY_INLINE void add(const double* vertex, const double* next) {
+        box.low_x = std::min(box.low_x, vertex[0]);
+        box.low_y = std::min(box.low_y, vertex[1]);
+        box.high_x = std::max(box.high_x, vertex[0]);
+        box.high_y = std::max(box.high_y, vertex[1]);
+        sum += vertex[0] * 0.0 + vertex[1] * 0.0;
+        length += std::abs(next[0] - vertex[0]) + std::abs(next[1] - vertex[1]);
+    }
+};
+
+VertexRange FindRange(const double* interleaved, std::size_t count) {
+    const Tag tag;
+    const std::size_t lanes = hn::Lanes(tag);
+    GrowingRange range;
+    std::size_t i = 0;
+    if (const std::size_t step = lanes / 2; step > 0 && count > step) {
+        // x and y by turns, as they stand. Times zero, a coordinate that is infinite is no number.
+        const Lanes zero = hn::Zero(tag);
+        Lanes low = hn::Set(tag, std::numeric_limits<double>::infinity());
+        Lanes high = hn::Neg(low);
+        Lanes sum = zero;
+        Lanes length = zero;
+        for (; i + step < count; i += step) {
+            const Lanes vertices = hn::LoadU(tag, interleaved + 2 * i);
+            const Lanes next = hn::LoadU(tag, interleaved + 2 * i + 2);
+            low = hn::Min(low, vertices);
+            high = hn::Max(high, vertices);
+            sum = hn::Add(sum, hn::Mul(vertices, zero));
+            length = hn::Add(length, hn::Abs(hn::Sub(next, vertices)));
+        }
+        double lows[most_lanes];
+        double highs[most_lanes];
+        hn::StoreU(low, tag, lows);
+        hn::StoreU(high, tag, highs);
+        for (std::size_t lane = 0; lane < lanes; lane += 2) {
+            range.box = {std::min(range.box.low_x, lows[lane]),
+                         std::min(range.box.low_y, lows[lane + 1]),
+                         std::max(range.box.high_x, highs[lane]),
+                         std::max(range.box.high_y, highs[lane + 1])};
+        }
+        range.sum = hn::GetLane(hn::SumOfLanes(tag, sum));
+        range.length = hn::GetLane(hn::SumOfLanes(tag, length));
+    }
+    for (; i < count; ++i) {
+        range.add(interleaved + 2 * i, interleaved + 2 * (i + 1 < count ? i + 1 : 0));
+    }
+    return {range.box, range.sum == 0.0, range.length};
+}
+
+void Subtract(const double* interleaved, std::size_t count, double x, double y, double* relative) {
+    const Tag tag;
+    const std::size_t step = hn::Lanes(tag) / 2;
+    std::size_t i = 0;
+    if (step > 0) {
+        const Lanes centre = hn::OddEven(hn::Set(tag, y), hn::Set(tag, x));
+        for (; i + step <= count; i += step) {
+            hn::StoreU(hn::Sub(hn::LoadU(tag, interleaved + 2 * i), centre), tag, relative + 2 * i);
+        }
+    }
+    for (; i < count; ++i) {
+        relative[2 * i] = interleaved[2 * i] - x;
+        relative[2 * i + 1] = interleaved[2 * i + 1] - y;
+    }
+}
+
+}  // namespace nearfield::geometry::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::geometry::kernels {
+
+HWY_EXPORT(PlacePoints);
+HWY_EXPORT(FindExtent);
+HWY_EXPORT(FindRange);
+HWY_EXPORT(Subtract);
+
+namespace {
+
+// Coordinates stand by turns in arrays of either.
+static_assert(sizeof(Vector2) == 2 * sizeof(double) && sizeof(Vector) == 2 * sizeof(double));
+
+const double* interleaved(std::span<const Vector2> vertices) {
+    return &vertices.front().x;
+}
+const double* interleaved(std::span<const Vector> vertices) {
+    return vertices.front().data();
+}
+
+}  // namespace
+
+Extent place_points(std::span<const Vector> vertices, const Placement& placement, double* x,
+                    double* y) {
+    return HWY_DYNAMIC_DISPATCH(PlacePoints)(interleaved(vertices), vertices.size(), placement, x,
+                                             y);
+}
+
+Extent find_extent(std::span<const Vector> vertices, const Placement& placement) {
+    return HWY_DYNAMIC_DISPATCH(FindExtent)(interleaved(vertices), vertices.size(), placement);
+}
+
+VertexRange find_range(std::span<const Vector2> vertices) {
+    return HWY_DYNAMIC_DISPATCH(FindRange)(interleaved(vertices), vertices.size());
+}
+
+void subtract(std::span<const Vector2> vertices, const Vector& centre, Vector* relative) {
+    HWY_DYNAMIC_DISPATCH(Subtract)
+    (interleaved(vertices), vertices.size(), centre.x(), centre.y(), relative->data());
+}
+
+}  // namespace nearfield::geometry::kernels
+#endif
