@@ -12,11 +12,16 @@ constexpr VkFormatFeatureFlags gradient_features =
     VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 
 // What the base needs of formats, with optimal tiling. Alternatives stand together.
-constexpr std::array<RequiredFormat, 9> format_table{{
+constexpr std::array<RequiredFormat, 11> format_table{{
     {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0,
      "signs and feature ids are drawn to it", false},
     {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0,
      "signs and feature ids are read by compute passes", false},
+    {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, 0,
+     "feature ids that stay on the device are written to it", false},
+    {VK_FORMAT_R32_SFLOAT, "VK_FORMAT_R32_SFLOAT",
+     VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0,
+     "signed distances that stay on the device are written to it", false},
     {VK_FORMAT_D32_SFLOAT, "VK_FORMAT_D32_SFLOAT", VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
      0, "the nearest feature wins by depth", false},
     {VK_FORMAT_R8_UNORM, "VK_FORMAT_R8_UNORM", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, 0,
@@ -39,8 +44,9 @@ constexpr std::array<RequiredFormat, 9> format_table{{
 }};
 
 std::string feature_names(VkFormatFeatureFlags features) {
-    constexpr std::array<std::pair<VkFormatFeatureFlags, const char*>, 4> table{{
+    constexpr std::array<std::pair<VkFormatFeatureFlags, const char*>, 5> table{{
         {VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT"},
+        {VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT, "VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT"},
         {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT"},
         {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
          "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT"},
@@ -137,6 +143,8 @@ void check_limits(const VkPhysicalDeviceLimits& limits, Requirements& requiremen
          "vertices are snapped to the sub-pixel grid"},
         {"maxPerStageDescriptorStorageBuffers", 4, limits.maxPerStageDescriptorStorageBuffers,
          "a compute pass uses as many storage buffers"},
+        {"maxPerStageDescriptorStorageImages", 2, limits.maxPerStageDescriptorStorageImages,
+         "a field that stays on the device is written to two images"},
         {"maxComputeWorkGroupInvocations", 64, limits.maxComputeWorkGroupInvocations,
          "compute passes work in groups of 8 by 8"},
     };

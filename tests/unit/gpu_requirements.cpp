@@ -161,6 +161,8 @@ TEST_F(GpuRequirements, EachMissingLimitIsNamedAndTheLeastIsEnough) {
         {"subPixelPrecisionBits", &VkPhysicalDeviceLimits::subPixelPrecisionBits, 4},
         {"maxPerStageDescriptorStorageBuffers",
          &VkPhysicalDeviceLimits::maxPerStageDescriptorStorageBuffers, 4},
+        {"maxPerStageDescriptorStorageImages",
+         &VkPhysicalDeviceLimits::maxPerStageDescriptorStorageImages, 2},
         {"maxComputeWorkGroupInvocations", &VkPhysicalDeviceLimits::maxComputeWorkGroupInvocations,
          64},
     };
