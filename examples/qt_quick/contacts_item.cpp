@@ -13,7 +13,7 @@ ContactsItem::ContactsItem(QQuickItem* parent) : QQuickItem(parent) {
 
 ContactsItem::~ContactsItem() {
     if (window() != nullptr) {
-        releaseResources();  // ~QQuickItem would call its own
+        ContactsItem::releaseResources();  // ~QQuickItem would call its own
     }
 }
 
