@@ -11,65 +11,64 @@ ContactsItem::ContactsItem(QQuickItem* parent) : QQuickItem(parent) {
     connect(this, &QQuickItem::windowChanged, this, &ContactsItem::attach);
 }
 
-// Direct connections: all of these are called on the render thread, in this order in each frame.
+ContactsItem::~ContactsItem() {
+    if (window() != nullptr) {
+        ContactsItem::releaseResources();  // ~QQuickItem would call its own
+    }
+}
+
+// Direct connections: called on the render thread, in this order in each frame.
 void ContactsItem::attach(QQuickWindow* window) {
     if (window == nullptr) {
         return;
     }
-    const auto on = [this, window](auto signal, auto work) {
-        connect(
-            window, signal, this, [this, work] { guarded(work); }, Qt::DirectConnection);
-    };
-    on(&QQuickWindow::beforeSynchronizing, [this] { synchronize(); });
-    on(&QQuickWindow::beforeRendering, [this] { render_side_->record(); });
-    on(&QQuickWindow::beforeRenderPassRecording, [this] { render_side_->draw(); });
-    on(&QQuickWindow::sceneGraphInvalidated, [this] { render_side_.reset(); });
-}
-
-// No exception may pass through Qt: the first one ends the work and is told to the item's thread.
-void ContactsItem::guarded(const std::function<void()>& work) {
-    if (has_failed_) {
-        return;
-    }
-    try {
-        work();
-    } catch (const std::exception& error) {
-        has_failed_ = true;
-        const QString text = QString::fromUtf8(error.what());
-        QMetaObject::invokeMethod(this, [this, text] {
-            error_ = text;
-            emit failed();
-        });
-    }
-}
-
-// The item's thread stands still meanwhile, so both sides may be looked at.
-void ContactsItem::synchronize() {
-    if (!render_side_) {
-        render_side_ = std::make_unique<RenderSide>(*window(), scene_);
-    }
-    render_side_->set_scene(scene_);
-    const auto count = static_cast<int>(render_side_->snapshot().contacts.size());
-    const bool behind = render_side_->snapshot().version != scene_.version();
-    QMetaObject::invokeMethod(
-        this,
-        [this, count, behind] {
-            if (count != count_) {
-                count_ = count;
-                emit count_changed();
-            }
-            if (behind && window() != nullptr) {
-                window()->update();  // contacts arrive some frames later
-            }
-        },
-        Qt::QueuedConnection);
+    const auto side = std::make_shared<RenderSide>(*window);
+    render_side_ = side;
+    // The item's thread stands still meanwhile, so both sides may be looked at.
+    connect(window, &QQuickWindow::beforeSynchronizing, this, &ContactsItem::synchronize,
+            Qt::DirectConnection);
+    // It runs on during these, so they have nothing to do with the item.
+    connect(
+        window, &QQuickWindow::beforeRendering, window, [side] { side->record(); },
+        Qt::DirectConnection);
+    connect(
+        window, &QQuickWindow::beforeRenderPassRecording, window, [side] { side->draw(); },
+        Qt::DirectConnection);
+    connect(
+        window, &QQuickWindow::sceneGraphInvalidated, window, [side] { side->release(); },
+        Qt::DirectConnection);
 }
 
 // Called where the item leaves its window: what belongs to the render thread dies there.
 void ContactsItem::releaseResources() {
-    window()->scheduleRenderJob(
-        QRunnable::create([side = std::shared_ptr<RenderSide>(std::move(render_side_))] {}),
-        QQuickWindow::BeforeSynchronizingStage);
+    disconnect(window(), &QQuickWindow::beforeSynchronizing, this, nullptr);
+    window()->scheduleRenderJob(QRunnable::create([side = render_side_] { side->leave(); }),
+                                QQuickWindow::BeforeSynchronizingStage);
+    render_side_.reset();
+}
+
+void ContactsItem::synchronize() {
+    render_side_->set_scene(scene_);
+    const Snapshot* snapshot = render_side_->snapshot();
+    const auto count = snapshot != nullptr ? static_cast<int>(snapshot->contacts.size()) : 0;
+    const bool is_behind = snapshot == nullptr || snapshot->version != scene_.version();
+    const QString error = QString::fromStdString(render_side_->error());
+    QMetaObject::invokeMethod(
+        this, [this, count, is_behind, error] { show(count, is_behind, error); },
+        Qt::QueuedConnection);
+}
+
+void ContactsItem::show(int count, bool is_behind, const QString& error) {
+    if (error != error_) {
+        error_ = error;
+        emit failed();
+    } else if (count != count_) {
+        count_ = count;
+        emit count_changed();
+    }
+    if (is_behind && error_.isEmpty() && window() != nullptr) {
+        window()->update();  // contacts arrive some frames later
+    }
 }
 
 Vector2 ContactsItem::to_world(const QPointF& position) const {

@@ -4,7 +4,6 @@
 #include "render_side.hpp"
 
 #include <QQuickItem>
-#include <functional>
 #include <memory>
 
 namespace nearfield::examples {
@@ -17,6 +16,7 @@ class ContactsItem : public QQuickItem {
 
 public:
     explicit ContactsItem(QQuickItem* parent = nullptr);
+    ~ContactsItem() override;
 
     /// Contacts in the last frame that was shown.
     [[nodiscard]] int count() const { return count_; }
@@ -35,19 +35,14 @@ protected:
 
 private:
     void attach(QQuickWindow* window);
+    void synchronize();
+    void show(int count, bool is_behind, const QString& error);
     [[nodiscard]] Vector2 to_world(const QPointF& position) const;
 
-    // On the render thread.
-    void guarded(const std::function<void()>& work);
-    void synchronize();
-
-    // Of the thread that the item lives on.
     Scene scene_;
     int count_ = 0;
     QString error_;
-    // Of the render thread: made in its first frame, gone with its scene graph.
-    std::unique_ptr<RenderSide> render_side_;
-    bool has_failed_ = false;
+    std::shared_ptr<RenderSide> render_side_;  ///< while the item is in a window
 };
 
 }  // namespace nearfield::examples

@@ -42,42 +42,67 @@ std::uint32_t frames_in_flight(QQuickWindow& window) {
 
 }  // namespace
 
-RenderSide::RenderSide(QQuickWindow& window, const Scene& scene)
-    : window_(window),
-      scene_(scene),
-      physical_device_(
-          resource<VkPhysicalDevice>(window, QSGRendererInterface::PhysicalDeviceResource)),
-      device_(resource<VkDevice>(window, QSGRendererInterface::DeviceResource)),
-      contacts_(host_device(window), frames_in_flight(window), scene) {}
+RenderSide::Guest::Guest(QQuickWindow& window, const Scene& scene)
+    : device(resource<VkDevice>(window, QSGRendererInterface::DeviceResource)),
+      contacts(host_device(window), frames_in_flight(window), scene),
+      painter(resource<VkPhysicalDevice>(window, QSGRendererInterface::PhysicalDeviceResource),
+              device, resource<VkRenderPass>(window, QSGRendererInterface::RenderPassResource),
+              frames_in_flight(window)) {}
 
-RenderSide::~RenderSide() {
-    vkDeviceWaitIdle(device_);  // Qt's last frames may still draw with what goes now
+RenderSide::Guest::~Guest() {
+    vkDeviceWaitIdle(device);  // Qt's last frames may still draw with what goes now
+}
+
+const Snapshot* RenderSide::snapshot() const {
+    return guest_ ? &guest_->contacts.snapshot() : nullptr;
 }
 
 // Qt numbers frames only modulo those in flight; it waited for the one that had this slot before.
 void RenderSide::record() {
-    ++frame_;
-    if (!painter_) {
-        painter_.emplace(physical_device_, device_,
-                         resource<VkRenderPass>(window_, QSGRendererInterface::RenderPassResource),
-                         frames_in_flight(window_));
-    }
-    window_.beginExternalCommands();
-    contacts_.record(resource<VkCommandBuffer>(window_, QSGRendererInterface::CommandListResource),
-                     frame_, scene_);
-    window_.endExternalCommands();
+    guarded([this] {
+        if (!guest_) {
+            guest_.emplace(window_, scene_);
+        }
+        ++guest_->frame;
+        window_.beginExternalCommands();
+        guest_->contacts.record(
+            resource<VkCommandBuffer>(window_, QSGRendererInterface::CommandListResource),
+            guest_->frame, scene_);
+        window_.endExternalCommands();
+    });
 }
 
 void RenderSide::draw() {
-    const QSize size = window_.size() * window_.effectiveDevicePixelRatio();
-    const auto slot = static_cast<std::uint32_t>(window_.graphicsStateInfo().currentFrameSlot);
-    painter_->upload(slot, examples::draw(scene_, contacts_.snapshot(),
-                                          {double(size.width()), double(size.height())}));
-    window_.beginExternalCommands();
-    painter_->draw(
-        resource<VkCommandBuffer>(window_, QSGRendererInterface::CommandListResource), slot,
-        {static_cast<std::uint32_t>(size.width()), static_cast<std::uint32_t>(size.height())});
-    window_.endExternalCommands();
+    guarded([this] {
+        const QSize size = window_.size() * window_.effectiveDevicePixelRatio();
+        const auto slot = static_cast<std::uint32_t>(window_.graphicsStateInfo().currentFrameSlot);
+        guest_->painter.upload(slot, examples::draw(scene_, guest_->contacts.snapshot(),
+                                                    {static_cast<double>(size.width()),
+                                                     static_cast<double>(size.height())}));
+        window_.beginExternalCommands();
+        guest_->painter.draw(
+            resource<VkCommandBuffer>(window_, QSGRendererInterface::CommandListResource), slot,
+            {static_cast<std::uint32_t>(size.width()), static_cast<std::uint32_t>(size.height())});
+        window_.endExternalCommands();
+    });
+}
+
+void RenderSide::leave() {
+    release();
+    has_left_ = true;
+}
+
+void RenderSide::guarded(const std::function<void()>& work) {
+    if (has_left_ || !error_.empty()) {
+        return;
+    }
+    try {
+        work();
+    } catch (const std::exception& error) {
+        error_ = error.what();
+        // One more frame, in which the item hears of it.
+        QMetaObject::invokeMethod(&window_, &QQuickWindow::update, Qt::QueuedConnection);
+    }
 }
 
 }  // namespace nearfield::examples
