@@ -86,6 +86,14 @@ TEST_F(Simulate, RefusesWhatItCannotDoBeforeItStarts) {
                    {"overlap", "backtracking"});
 }
 
+TEST_F(Simulate, ThePapersTablesAreNoneOfAScene) {
+    expect_refused({"bench", "--paper", "--scene", folder_.path("scene.json")}, {"--paper"});
+    expect_refused({"bench", "--paper", "--filter", "gears"}, {"--paper"});
+    expect_refused({"bench", "--curves", folder_.path("curves.png")}, {"--curves", "--paper"});
+    expect_refused({"bench", "--paper", "--curves", folder_.path("no/such.png")},
+                   {"no/such.png", "cannot be written"});
+}
+
 TEST_F(Simulate, WithoutFfmpegAVideoIsRefusedByName) {
     Surroundings surroundings;
     surroundings.environment = {{"PATH", folder_.path("")}};

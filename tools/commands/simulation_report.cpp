@@ -19,6 +19,7 @@ double worst_penetration(const SimulationReport& report) {
 
 benchmark::Spread query_times(const SimulationReport& report) {
     std::vector<double> times;
+    times.reserve(report.frames.size());
     for (const dynamics::FrameReport& frame : report.frames) {
         times.push_back(frame.queries.milliseconds);
     }

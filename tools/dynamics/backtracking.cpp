@@ -95,6 +95,7 @@ public:
 private:
     static std::vector<InstancePair> pairs_of(const std::vector<Watched>& watched) {
         std::vector<InstancePair> pairs;
+        pairs.reserve(watched.size());
         for (const Watched& each : watched) {
             pairs.push_back(each.pair);
         }

@@ -19,6 +19,7 @@ namespace {
 /// Starts ffmpeg with its standard input at the reading end of a pipe; 0 or an error number.
 int start(const std::vector<std::string>& arguments, int input, pid_t& process) {
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (const std::string& argument : arguments) {
         pointers.push_back(const_cast<char*>(argument.c_str()));
     }

@@ -98,6 +98,7 @@ void draw_line_chart(Canvas& canvas, const LineChart& chart, const Rectangle& pa
     });
     for (const ChartLine* line : by_end) {
         std::vector<Vector2> points;
+        points.reserve(line->points.size());
         for (const Vector2& point : line->points) {
             points.push_back(axes.place(point));
         }

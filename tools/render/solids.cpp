@@ -24,6 +24,7 @@ Vector2 raised(const View& view, Vector2 ground, double height) {
 
 Ring outline_of(const dynamics::Body& body, double scale, double ahead) {
     Ring ring;
+    ring.reserve(body.rings().front().size());
     const Pose pose = body.pose();
     for (const Vector2& vertex : body.rings().front()) {
         ring.push_back(dynamics::placed(pose, {scale * vertex.x + ahead, 0.86 * scale * vertex.y}));
@@ -54,6 +55,7 @@ void draw_prism(Drawing& drawing, const View& view, const Ring& lower, const Rin
         }
     }
     Ring top;
+    top.reserve(n);
     for (const Vector2& vertex : upper) {
         top.push_back(raised(view, vertex, high));
     }
@@ -63,6 +65,7 @@ void draw_prism(Drawing& drawing, const View& view, const Ring& lower, const Rin
 
 void draw_shadow(Drawing& drawing, const dynamics::Body& body, double height, const View& view) {
     Ring shadow;
+    shadow.reserve(body.rings().front().size());
     const Pose pose = body.pose();
     for (const Vector2& vertex : body.rings().front()) {
         shadow.push_back(view.to_page(dynamics::placed(pose, vertex) - 0.35 * height * light));
@@ -81,6 +84,7 @@ void draw_car(Drawing& drawing, const dynamics::Body& body, const dynamics::Look
     draw_prism(drawing, view, sill, roof, waist, 0.85 * look.height, look.hue + 0.02, 0.55, 0.03);
     // The roof in the colour of the car, and lamps ahead.
     Ring top;
+    top.reserve(roof.size());
     for (const Vector2& vertex : roof) {
         top.push_back(raised(view, vertex, 0.86 * look.height));
     }
