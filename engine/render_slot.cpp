@@ -1,4 +1,5 @@
 #include <engine/buffer_parts.hpp>
+#include <engine/failure.hpp>
 #include <engine/render_slot.hpp>
 
 #include <algorithm>
