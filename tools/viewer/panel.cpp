@@ -75,8 +75,7 @@ void add_controls(Wishes& wishes, const Reading& reading) {
     if (ImGui::Button("Restart")) {
         wishes.restart = true;
     }
-    ImGui::SameLine();
-    ImGui::TextDisabled("space, n, r; drag bodies");
+    ImGui::TextDisabled("keys space, n, r; the mouse drags bodies");
     Choices& choices = wishes.choices;
     choose_scene(choices.scene);
     choose<dynamics::Response>("response", choices.response, responses);
