@@ -8,6 +8,7 @@
 #include <tools/commands/query.hpp>
 #include <tools/commands/scene.hpp>
 #include <tools/commands/simulate.hpp>
+#include <tools/gpu/gpu.hpp>
 #include <tools/input/input_error.hpp>
 
 #include <exception>
@@ -90,6 +91,8 @@ int main(int count, char** arguments) {
         return fail(error, exit_status::bad_input);
     } catch (const tools::LibraryError& error) {
         return fail(error, error.program_status());
+    } catch (const tools::NoGpu& error) {
+        return fail(error, exit_status::no_device);
     } catch (const std::exception& error) {
         return fail(error, exit_status::other_error);
     }

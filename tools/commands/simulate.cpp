@@ -3,16 +3,15 @@
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/simulate.hpp>
+#include <tools/commands/simulation_choice.hpp>
 #include <tools/commands/simulation_report.hpp>
 #include <tools/dynamics/world.hpp>
 #include <tools/input/input_error.hpp>
-#include <tools/input/values.hpp>
 #include <tools/output/frame_files.hpp>
 #include <tools/output/report_target.hpp>
 #include <tools/output/video_file.hpp>
-#include <tools/render/cairo_painter.hpp>
+#include <tools/render/page.hpp>
 #include <tools/render/scene_picture.hpp>
-#include <tools/scenes/scenes.hpp>
 #include <unistd.h>
 
 #include <cmath>
@@ -24,31 +23,6 @@ namespace {
 
 constexpr double page_width = 960.0;
 
-dynamics::Scene make_scene(const SimulateArguments& arguments) {
-    std::string names;
-    for (const scenes::NamedScene& scene : scenes::all_scenes()) {
-        if (arguments.scene == scene.name) {
-            dynamics::Scene made = scene.make();
-            if (arguments.tolerance) {
-                made.tolerance = parse_positive(*arguments.tolerance, "-d");
-            }
-            return made;
-        }
-        names += std::string(names.empty() ? "" : ", ") + scene.name;
-    }
-    throw InputError("\"" + arguments.scene + "\" is none of the scenes " + names);
-}
-
-dynamics::Response parse_response(const std::string& name) {
-    if (name == "penalty") {
-        return dynamics::Response::penalty;
-    }
-    if (name == "backtracking") {
-        return dynamics::Response::backtracking;
-    }
-    throw InputError("--response: \"" + name + "\" is none of penalty, backtracking");
-}
-
 dynamics::World make_world(Context& context, const SimulateArguments& arguments,
                            dynamics::Scene scene, dynamics::Response response,
                            Technique technique) {
@@ -57,14 +31,6 @@ dynamics::World make_world(Context& context, const SimulateArguments& arguments,
     } catch (const std::invalid_argument& error) {
         throw InputError("--response backtracking: " + arguments.scene + ": " + error.what());
     }
-}
-
-View view_of(const dynamics::Scene& scene) {
-    const Rectangle& world = scene.view;
-    // Even numbers of pixels, which video needs.
-    const double height = 2.0 * std::round(0.5 * page_width * (world.max.y - world.min.y) /
-                                           (world.max.x - world.min.x));
-    return {world, {{0.0, 0.0}, {page_width, height}}};
 }
 
 /// Where the frames that are wanted go.
@@ -84,11 +50,23 @@ struct Outputs {
     }
 };
 
+/// The device that draws pictures, which nearfield is then a guest of.
+struct DrawingDevice {
+    GpuInstance instance;
+    Gpu gpu{instance};
+};
+
 /// Draws frames.
 class Pictures {
 public:
-    Pictures(const SimulateArguments& arguments, Outputs& outputs, const View& view)
-        : arguments_(arguments), outputs_(outputs), view_(view) {}
+    Pictures(const SimulateArguments& arguments, Outputs& outputs, const View& view,
+             const std::optional<DrawingDevice>& device)
+        : arguments_(arguments), outputs_(outputs), view_(view) {
+        if (device) {
+            page_.emplace(device->gpu, static_cast<std::uint32_t>(view.page().max.x),
+                          static_cast<std::uint32_t>(view.page().max.y));
+        }
+    }
 
     void add(std::uint32_t frame, Context& context, dynamics::World& world) {
         const bool in_a_file =
@@ -98,7 +76,7 @@ public:
         }
         drawing_.clear();
         if (arguments_.field) {
-            drawing_.cells(field_overlay(context, world, view_));
+            drawing_.cells(field_overlay(context, world, view_, FieldLayer::distance));
         }
         draw_bodies(drawing_, world.scene(), view_);
         // Among very many bodies marks would hide all of them.
@@ -106,7 +84,7 @@ public:
         if (world.scene().bodies.size() <= most_bodies_with_marks) {
             draw_observations(drawing_, observe(world), view_);
         }
-        const FrameImage image = paint(drawing_, view_);
+        const FrameImage image = page_->paint(drawing_);
         if (in_a_file) {
             outputs_.files->write(frame, png_of(image));
         }
@@ -120,6 +98,7 @@ private:
     Outputs& outputs_;
     const View& view_;
     Drawing drawing_;
+    std::optional<OffscreenPage> page_;  // where there is an output
 };
 
 SimulationReport report_of(const dynamics::World& world, const SimulateArguments& arguments,
@@ -193,19 +172,24 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-    dynamics::Scene scene = make_scene(arguments);
+    dynamics::Scene scene = make_scene(arguments.scene, arguments.tolerance);
     const dynamics::Response response = parse_response(arguments.response);
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);
     const Settings settings = parse_settings(arguments.settings);
-    const View view = view_of(scene);
+    const View view = view_of(scene, page_width);
     ReportTarget target(arguments.json);
     Outputs outputs(arguments, scene, view);
-    Context context = take(Context::create_headless({}, settings));
+    std::optional<DrawingDevice> device;
+    if (arguments.image || arguments.video) {
+        device.emplace();
+    }
+    Context context = take(device ? Context::create(device->gpu.host_device(), settings)
+                                  : Context::create_headless({}, settings));
     dynamics::World world = make_world(context, arguments, std::move(scene), response, technique);
 
     SimulationReport report = report_of(world, arguments, context, technique);
-    Pictures pictures(arguments, outputs, view);
+    Pictures pictures(arguments, outputs, view, device);
     const bool show_progress = isatty(STDERR_FILENO) == 1;
     pictures.add(0, context, world);
     for (std::uint32_t frame = 1; frame <= arguments.frames; ++frame) {

@@ -1,11 +1,8 @@
-#include <tools/commands/library_error.hpp>
 #include <tools/dynamics/plane.hpp>
 #include <tools/render/scene_picture.hpp>
 #include <tools/render/solids.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace nearfield::tools {
 namespace {
@@ -68,41 +65,6 @@ Observations observe(dynamics::World& world) {
                                      touching.contacts->records.end());
     }
     return observations;
-}
-
-ColoredCells field_overlay(Context& context, dynamics::World& world, const View& view) {
-    constexpr double pixels_a_cell = 4.0;
-    Batch batch;
-    DistanceFieldQuery query;
-    query.tolerance = pixels_a_cell / view.scale() / std::sqrt(2.0);
-    query.rectangle = view.world();
-    for (const Instance& instance : world.proximity().instances()) {
-        query.b = instance;
-        batch.add(query);
-    }
-    Results results;
-    require(context.run(batch, results), "the distance field");
-    ColoredCells cells;
-    std::vector<float> nearest;
-    for (std::uint32_t i = 0; i < batch.queries().size(); ++i) {
-        const DistanceFieldResult& field = results[QueryHandle<DistanceFieldQuery>{i}];
-        require(field.status, "the distance field");
-        cells.columns = field.width;
-        cells.rows = field.height;
-        nearest.resize(field.values.size(), std::numeric_limits<float>::infinity());
-        std::transform(nearest.begin(), nearest.end(), field.values.begin(), nearest.begin(),
-                       [](float a, float b) { return std::min(a, b); });
-        const Vector2 low = field.origin;
-        const Vector2 high = low + Vector2{field.cell * field.width, field.cell * field.height};
-        cells.rectangle = {view.to_page(low), view.to_page(high)};
-    }
-    const double reach = 0.12 * (view.world().max.x - view.world().min.x);
-    for (const float value : nearest) {
-        // Bands of equal distance, an eighth of the reach wide.
-        const double position = std::clamp(static_cast<double>(value) / reach, -1.0, 1.0);
-        cells.colors.push_back(diverging_color(std::floor(8.0 * position) / 8.0 + 0.06));
-    }
-    return cells;
 }
 
 void draw_bodies(Drawing& drawing, const dynamics::Scene& scene, const View& view) {

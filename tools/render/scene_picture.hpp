@@ -17,9 +17,17 @@ struct Observations {
 /// Asks anew, between two frames.
 [[nodiscard]] Observations observe(dynamics::World& world);
 
-/// The signed distance to the nearest body over the view, as colours: positive outside all.
-[[nodiscard]] ColoredCells field_overlay(Context& context, dynamics::World& world,
-                                         const View& view);
+/// What of the bodies' distance fields is shown.
+enum class FieldLayer {
+    none,
+    distance,  ///< signed distance to the nearest body, positive outside all
+    features,  ///< the nearest feature of the nearest body: the Voronoi diagram
+    gradient,  ///< the direction away from there, as a hue
+};
+
+/// A layer over the view, as colours. Precondition: it is not `none`.
+[[nodiscard]] ColoredCells field_overlay(Context& context, dynamics::World& world, const View& view,
+                                         FieldLayer layer);
 
 /// Adds the bodies, as plates or, where they have a height, as solids seen from above at a slant.
 void draw_bodies(Drawing& drawing, const dynamics::Scene& scene, const View& view);

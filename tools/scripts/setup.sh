@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing.
 #   setup.sh run    what building and running the command line needs
-#   setup.sh test   that, and what the tests and checks need
+#   setup.sh view   what building and running the live viewer needs
+#   setup.sh test   all that, and what the tests and checks need
 #   setup.sh bench  what building and running the benchmark beside other libraries needs
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -11,14 +12,16 @@ run_packages=(
     libvulkan-dev libvulkan1 mesa-vulkan-drivers
     libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
+viewer_packages=(libsdl2-dev libimgui-dev)
 test_packages=(
+    "${viewer_packages[@]}"
     libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
     doxygen dpkg-dev gdb python3
 )
-# What the examples stand on, and an X server for their windows.
+# What the examples stand on, and an X server for all windows.
 test_packages+=(
     qt6-base-dev qt6-base-private-dev qt6-declarative-dev qml6-module-qtquick
-    qml6-module-qtquick-window qml6-module-qtqml-workerscript libsdl2-dev xvfb xauth
+    qml6-module-qtquick-window qml6-module-qtqml-workerscript xvfb xauth
 )
 bench_packages=(
     libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
@@ -26,9 +29,10 @@ bench_packages=(
 
 case "$*" in
     run) wanted=("${run_packages[@]}") ;;
+    view) wanted=("${run_packages[@]}" "${viewer_packages[@]}") ;;
     test) wanted=("${run_packages[@]}" "${test_packages[@]}") ;;
     bench) wanted=("${run_packages[@]}" "${bench_packages[@]}") ;;
-    *) die "usage: setup.sh run|test|bench" ;;
+    *) die "usage: setup.sh run|view|test|bench" ;;
 esac
 
 for tool in apt-get dpkg-query; do

@@ -47,7 +47,8 @@ check_format() {
 # read once a room and not once a file.
 check_tidy() {
     configure tidy >/dev/null
-    build tidy --target nearfield_engine_spirv nearfield_examples_spirv nearfield_embedded >/dev/null
+    build tidy --target nearfield_engine_spirv nearfield_render_spirv nearfield_examples_spirv \
+        nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }

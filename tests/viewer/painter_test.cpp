@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+#include <tests/support/nasty_polygons.hpp>
+#include <tools/picture/canvas.hpp>
+#include <tools/render/page.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr int side = 240;
+constexpr tools::Color ink = tools::rgb(0x204080);
+
+/// One painter for all tests: as little as it takes to make it, it adds up.
+class Painter : public testing::Test {
+protected:
+    static tools::FrameImage paint(const tools::Drawing& drawing) {
+        static const tools::GpuInstance instance;
+        static const tools::Gpu gpu(instance);
+        static tools::OffscreenPage page(gpu, side, side);
+        return page.paint(drawing);
+    }
+
+    static int difference(std::uint32_t a, std::uint32_t b) {
+        int most = 0;
+        for (unsigned shift = 0; shift < 24; shift += 8) {
+            most = std::max(most, std::abs(static_cast<int>(a >> shift & 0xFFU) -
+                                           static_cast<int>(b >> shift & 0xFFU)));
+        }
+        return most;
+    }
+
+    /// Four samples of a pixel say to a quarter, and a little, what of it is covered. Cairo says it
+    /// nearly exactly; thin slivers can lie between samples.
+    static void expect_alike(const tools::FrameImage& painted, const tools::Canvas& canvas,
+                             const std::string& what, std::size_t most_slivers = 0) {
+        const std::vector<std::uint32_t> expected = canvas.pixels();
+        ASSERT_EQ(painted.pixels.size(), expected.size());
+        constexpr int contrast = 0xF5 - 0x20;  // of the panel's red and the ink's
+        std::size_t far_off = 0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const int off = difference(painted.pixels[i], expected[i]);
+            far_off += off > contrast * 2 / 5 ? 1U : 0U;
+            sum += off;
+        }
+        EXPECT_LE(far_off, most_slivers) << what;
+        EXPECT_LT(sum / static_cast<double>(expected.size()), 2.5) << what;
+    }
+};
+
+TEST_F(Painter, FillsNastyRingsByTheOddEvenRule) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        for (const support::NastyPolygon& polygon : support::nasty_polygons(side, side, seed)) {
+            std::vector<Ring> rings;
+            for (const auto& ring : polygon.rings) {
+                Ring& copy = rings.emplace_back();
+                for (const auto& vertex : ring) {
+                    copy.push_back({vertex.x(), vertex.y()});
+                }
+            }
+            tools::Canvas canvas(side, side, tools::palette::panel);
+            canvas.fill(rings, ink);
+            tools::Drawing drawing;
+            drawing.fill(rings, ink);
+            expect_alike(paint(drawing), canvas, polygon.name, 40);
+        }
+    }
+}
+
+TEST_F(Painter, AFillHasNoSeams) {
+    // Translucent, so that what is painted twice or not at all shows.
+    const Ring star{{120.3, 7.0},   {150.1, 90.7}, {232.9, 91.3}, {167.2, 141.1}, {190.6, 229.8},
+                    {121.1, 177.7}, {49.2, 230.3}, {73.8, 142.9}, {8.1, 90.2},    {91.7, 91.9}};
+    tools::Drawing drawing;
+    drawing.fill({star}, ink.with_alpha(0.5));
+    const tools::FrameImage image = paint(drawing);
+    const std::uint32_t middle = image.pixels[std::size_t{120} * side + 120];
+    for (std::size_t y = 95; y < 140; ++y) {
+        for (std::size_t x = 95; x < 145; ++x) {
+            ASSERT_EQ(image.pixels[y * side + x], middle) << x << ", " << y;
+        }
+    }
+}
+
+TEST_F(Painter, DrawsLinesDotsAndCells) {
+    const std::vector<Vector2> zigzag{{20.0, 30.0}, {200.0, 60.0}, {60.0, 120.0}, {210.0, 200.0}};
+    tools::Canvas canvas(side, side, tools::palette::panel);
+    canvas.stroke_open(std::span(&zigzag, 1), {ink, 9.0});
+    canvas.dot({60.5, 190.0}, 17.0, ink);
+    canvas.fill(Rectangle{{100.0, 210.0}, {160.0, 230.0}}, ink);
+    tools::Drawing drawing;
+    drawing.line(zigzag, ink, 9.0);
+    drawing.dot({60.5, 190.0}, 17.0, ink);
+    drawing.cells({{{100.0, 210.0}, {160.0, 230.0}}, 3, 1, {ink, ink, ink}});
+    expect_alike(paint(drawing), canvas, "lines");
+}
+
+TEST_F(Painter, APageIsPaintedAnewEachTime) {
+    tools::Drawing drawing;
+    drawing.dot({120.0, 120.0}, 50.0, ink);
+    const tools::FrameImage first = paint(drawing);
+    const tools::FrameImage empty = paint({});
+    EXPECT_NE(first.pixels, empty.pixels);
+    EXPECT_EQ(std::count(empty.pixels.begin(), empty.pixels.end(), empty.pixels.front()),
+              side * side);
+    EXPECT_EQ(empty.pixels.front(), tools::pixel_of(tools::palette::panel));
+    EXPECT_EQ(paint(drawing).pixels, first.pixels);
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+#include <tests/hosts/example_program.hpp>
+#include <tests/hosts/picture_file.hpp>
+#include <tools/dynamics/plane.hpp>
+#include <tools/picture/view.hpp>
+#include <tools/scenes/scenes.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+// As the viewer has them.
+constexpr int width = 1280;
+constexpr int height = 760;
+constexpr int panel = 330;
+
+std::string to_words(const Vector2& from, const Vector2& to) {
+    std::ostringstream words;
+    words << from.x << ',' << from.y << ',' << to.x << ',' << to.y;
+    return words.str();
+}
+
+class Viewer : public testing::Test {
+protected:
+    /// The last frame; nothing was said on the way, by the viewer or by the validation layers.
+    [[nodiscard]] Pixels take_picture(std::vector<std::string> arguments) const {
+        const std::filesystem::path file = folder_.path() / "picture.png";
+        arguments.push_back("--screenshot=" + file.string());
+        const ExampleOutcome outcome = run_example(NEARFIELD_VIEWER, arguments, folder_);
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_EQ(outcome.messages, "");
+        EXPECT_TRUE(outcome.validated);
+        EXPECT_EQ(outcome.validation, "");
+        return read_picture(file);
+    }
+
+    /// Pixels of the scene, beside the panel, that are not the same.
+    [[nodiscard]] static int differences(const Pixels& a, const Pixels& b) {
+        int count = 0;
+        for (int y = 0; y < height; ++y) {
+            for (int x = panel; x < width; ++x) {
+                count += a.at(x, y) != b.at(x, y) ? 1 : 0;
+            }
+        }
+        return count;
+    }
+
+    [[nodiscard]] static const examples::Color& pixel(const Pixels& picture,
+                                                      const dynamics::Scene& scene,
+                                                      const Vector2& place) {
+        const tools::View view(scene.view, {{double{panel}, 0.0}, {double{width}, double{height}}});
+        const Vector2 at = view.to_page(place);
+        return picture.at(static_cast<int>(at.x), static_cast<int>(at.y));
+    }
+
+    ScratchFolder folder_;
+};
+
+TEST_F(Viewer, ABodyFollowsTheMouse) {
+    const dynamics::Scene scene = scenes::map_scene();
+    const Vector2 from = scene.bodies[0]->center();
+    const Vector2 to{4.4, 3.4};  // a corner where nothing goes on its own
+    const std::vector<std::string> quiet{"map", "--frames=40", "--show=none"};
+    const Pixels before = take_picture({"map", "--frames=1", "--show=none"});
+    const Pixels alone = take_picture(quiet);
+    std::vector<std::string> dragging = quiet;
+    dragging.push_back("--drag=" + to_words(from, to));
+    const Pixels dragged = take_picture(dragging);
+
+    const examples::Color of_body = pixel(before, scene, from);
+    const examples::Color background = pixel(before, scene, to);
+    ASSERT_NE(of_body, background);
+    // Beside what holds the body, which is drawn over it.
+    const Vector2 beside{to.x - 0.15, to.y - 0.1};
+    EXPECT_EQ(pixel(alone, scene, beside), background);
+    EXPECT_EQ(pixel(dragged, scene, beside), of_body);
+    EXPECT_GT(differences(alone, dragged), 10'000);
+}
+
+TEST_F(Viewer, ADeformableBodyIsPulledOut) {
+    const dynamics::Scene scene = scenes::wavy_scene();
+    // The free side of the left bar, half-way up.
+    const Ring& ring = scene.bodies[0]->rings().front();
+    Vector2 from = ring.front();
+    for (const Vector2& vertex : ring) {
+        const double middle = scene.bodies[0]->center().y;
+        const bool free_side = vertex.x > scene.bodies[0]->center().x;
+        if (free_side && std::abs(vertex.y - middle) < std::abs(from.y - middle)) {
+            from = vertex;
+        }
+    }
+    from.x -= 0.05;
+    const Vector2 to{from.x - 0.5, from.y};
+    const std::vector<std::string> quiet{"wavy", "--frames=20", "--show=none"};
+    const Pixels alone = take_picture(quiet);
+    std::vector<std::string> dragging = quiet;
+    dragging.push_back("--drag=" + to_words(from, to));
+    const Pixels dragged = take_picture(dragging);
+    EXPECT_GT(differences(alone, dragged), 2'000);
+}
+
+TEST_F(Viewer, EachOverlayChangesThePicture) {
+    const std::vector<std::vector<std::string>> overlays{
+        {"--show=none"},
+        {"--show=depths"},
+        {"--show=contacts"},
+        {"--show=regions", "--technique=raster"},
+        {"--show=samples", "--technique=raster", "--strategy=logic-op"},
+        {"--show=none", "--field=distance"},
+        {"--show=none", "--field=voronoi"},
+        {"--show=none", "--field=gradient"}};
+    std::vector<Pixels> pictures;
+    for (std::vector<std::string> arguments : overlays) {
+        arguments.insert(arguments.begin(), {"overlap", "--frames=1"});
+        pictures.push_back(take_picture(arguments));
+        for (std::size_t i = 0; i + 1 < pictures.size(); ++i) {
+            EXPECT_GT(differences(pictures[i], pictures.back()), 200)
+                << overlays[i].back() << " and " << arguments.back();
+        }
+    }
+}
+
+TEST_F(Viewer, FitsAWindowThatIsResized) {
+    const Pixels picture = take_picture({"cars", "--frames=6", "--resize=900,620"});
+    EXPECT_EQ(picture.width, 900);
+    EXPECT_EQ(picture.height, 620);
+    EXPECT_NE(picture.at(899, 619), picture.at(600, 300));
+}
+
+/// A run that cannot work says why and leaves with a status, not by a signal.
+void expect_viewer_refused(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment, int status,
+                           const std::string& reason) {
+    const ScratchFolder folder;
+    const ExampleOutcome outcome = run_example(NEARFIELD_VIEWER, arguments, folder, environment);
+    EXPECT_EQ(outcome.status, status) << outcome.messages;
+    EXPECT_NE(outcome.messages.find(reason), std::string::npos) << outcome.messages;
+}
+
+TEST(ViewerErrors, TheArgumentsAreBad) {
+    expect_viewer_refused({"planets"}, {}, 2, "\"planets\" is none of the scenes map, gears");
+    expect_viewer_refused({"--response=magic"}, {}, 2, "\"magic\" is none of penalty");
+    expect_viewer_refused({"--technique=magic"}, {}, 2, "magic");
+    expect_viewer_refused({"--strategy=magic"}, {}, 2, "--strategy");
+    expect_viewer_refused({"--field=magic"}, {}, 2, "\"magic\" is none of none, distance");
+    expect_viewer_refused({"--show=magic"}, {}, 2, "\"magic\" is none of contacts");
+    expect_viewer_refused({"-d", "0"}, {}, 2, "-d");
+    expect_viewer_refused({"--frames=0"}, {}, 2, "--frames");
+    expect_viewer_refused({"--drag=0,0,1,1"}, {}, 2, "--frames");
+    expect_viewer_refused({"--frames=1", "--drag=0,0"}, {}, 2, "not X0,Y0,X1,Y1");
+    expect_viewer_refused({"--frames=1", "--screenshot=/no/such/a.png"}, {}, 2, "/no/such/a.png");
+    expect_viewer_refused({"overlap", "--response=backtracking", "--frames=1"}, {}, 2,
+                          "backtracking: overlap: ");
+}
+
+TEST(ViewerErrors, ThereIsNoDisplayOrNoVulkan) {
+    expect_viewer_refused({}, {"DISPLAY=", "SDL_VIDEODRIVER=x11"}, 1, "there is no display");
+    expect_viewer_refused({}, {"SDL_VIDEODRIVER=dummy"}, 3, "there is no window for Vulkan");
+    expect_viewer_refused({}, {"VK_ICD_FILENAMES=/no/such.json", "VK_DRIVER_FILES=/no/such.json"},
+                          3, "Vulkan");
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# Sets up, builds and starts the live viewer of simulations.
+#   view.sh [--no-setup] [NAME OPTION...]
+# NAME and what follows go to nearfield_viewer: map, gears, links, cars, wavy, overlap or pour.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+if [[ ${1-} == --no-setup ]]; then
+    shift
+else
+    step "Install what is missing" "$root/tools/scripts/setup.sh" view
+fi
+step "Configure" configure viewer
+step "Build" build viewer --target nearfield_viewer
+exec "$root/build/viewer/tools/viewer/nearfield_viewer" "$@"

@@ -1,0 +1,189 @@
+#include <imgui.h>
+#include <tools/scenes/scenes.hpp>
+#include <tools/viewer/panel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+namespace nearfield::viewer {
+namespace {
+
+/// A value and its name in a list to choose from.
+template <class Value>
+struct Named {
+    Value value;
+    const char* name;
+};
+
+constexpr std::array responses{
+    Named<dynamics::Response>{dynamics::Response::penalty, "penalty"},
+    Named<dynamics::Response>{dynamics::Response::backtracking, "backtracking"}};
+constexpr std::array fields{Named<tools::FieldLayer>{tools::FieldLayer::none, "none"},
+                            Named<tools::FieldLayer>{tools::FieldLayer::distance, "distance"},
+                            Named<tools::FieldLayer>{tools::FieldLayer::features, "Voronoi ids"},
+                            Named<tools::FieldLayer>{tools::FieldLayer::gradient, "gradient"}};
+
+template <class Value>
+std::vector<Named<Value>> named(std::initializer_list<Value> values) {
+    std::vector<Named<Value>> list;
+    for (const Value value : values) {
+        list.push_back({value, to_string(value)});
+    }
+    return list;
+}
+
+template <class Value>
+void choose(const char* label, Value& value, std::span<const Named<Value>> from) {
+    const auto now = std::find_if(from.begin(), from.end(), [&value](const Named<Value>& each) {
+        return each.value == value;
+    });
+    if (ImGui::BeginCombo(label, now->name)) {
+        for (const Named<Value>& each : from) {
+            if (ImGui::Selectable(each.name, each.value == value)) {
+                value = each.value;
+            }
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void choose_scene(std::string& scene) {
+    if (ImGui::BeginCombo("scene", scene.c_str())) {
+        for (const scenes::NamedScene& each : scenes::all_scenes()) {
+            if (ImGui::Selectable(each.name, scene == each.name)) {
+                scene = each.name;
+            }
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void add_controls(Wishes& wishes, const Reading& reading) {
+    if (ImGui::Button(wishes.running ? "Pause" : "Run")) {
+        wishes.running = !wishes.running;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Step")) {
+        wishes.running = false;
+        wishes.step = true;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Restart")) {
+        wishes.restart = true;
+    }
+    ImGui::TextDisabled("keys space, n, r; the mouse drags bodies");
+    Choices& choices = wishes.choices;
+    choose_scene(choices.scene);
+    choose<dynamics::Response>("response", choices.response, responses);
+    static const auto techniques =
+        named({Technique::automatic, Technique::raster, Technique::compute, Technique::cpu});
+    choose<Technique>("technique", choices.technique, techniques);
+    double tolerance = reading.tolerance;
+    // Takes effect when it is typed to its end, so that nothing on the way is tried.
+    if (ImGui::InputDouble("tolerance d", &tolerance, 0.0, 0.0, "%.4g",
+                           ImGuiInputTextFlags_EnterReturnsTrue) &&
+        tolerance > 0.0) {
+        choices.tolerance = tolerance;
+    }
+    int levels = static_cast<int>(choices.hierarchy_height);
+    if (ImGui::InputInt("tree height", &levels)) {
+        choices.hierarchy_height = static_cast<std::uint32_t>(std::clamp(levels, 0, 32));
+    }
+}
+
+void add_overlays(Overlays& overlays) {
+    ImGui::Separator();
+    choose<tools::FieldLayer>("field", overlays.field, fields);
+    ImGui::Checkbox("contacts", &overlays.contacts);
+    ImGui::SameLine();
+    ImGui::Checkbox("depths", &overlays.depths);
+    ImGui::SameLine();
+    ImGui::Checkbox("regions", &overlays.regions);
+    ImGui::Checkbox("samples of intersections", &overlays.samples);
+    static const auto strategies =
+        named({IntersectionStrategy::stencil, IntersectionStrategy::blend,
+               IntersectionStrategy::logic_op, IntersectionStrategy::depth});
+    ImGui::BeginDisabled(!overlays.samples);
+    choose<IntersectionStrategy>("strategy", overlays.strategy, strategies);
+    ImGui::EndDisabled();
+}
+
+void add_row(const char* name, double value, const char* format) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(name);
+    ImGui::TableNextColumn();
+    ImGui::Text(format, value);
+}
+
+void add_frame(const Reading& reading) {
+    ImGui::Separator();
+    ImGui::TextWrapped("%s", reading.device.c_str());
+    if (ImGui::BeginTable("frame", 2)) {
+        const dynamics::FrameReport& frame = reading.frame;
+        add_row("objects", double(reading.objects), "%.0f");
+        add_row("lines", double(reading.lines), "%.0f");
+        add_row("time, s", reading.time, "%.3f");
+        add_row("energy", frame.energies.total(), "%.4g");
+        add_row("points in contact", double(frame.contacts), "%.0f");
+        add_row("worst penetration", frame.worst_penetration, "%.3g");
+        add_row("queries", double(frame.queries.queries), "%.0f");
+        add_row("query time, ms", frame.queries.milliseconds, "%.2f");
+        ImGui::EndTable();
+    }
+}
+
+void add_times(const Timings& timings) {
+    ImGui::Separator();
+    ImGui::TextUnformatted("The overlays' queries, one batch, ms");
+    if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) {
+        return;
+    }
+    add_row("localise", timings.localize, "%.3f");
+    add_row("plan", timings.plan, "%.3f");
+    add_row("record", timings.record, "%.3f");
+    add_row("device", timings.device, "%.3f");
+    for (const PassTime& pass : timings.passes) {
+        add_row(("  " + pass.name).c_str(), pass.milliseconds, "%.3f");
+    }
+    add_row("decode, CPU's answers", timings.decode, "%.3f");
+    add_row("total", timings.total, "%.3f");
+    ImGui::EndTable();
+    if (timings.passes.empty()) {
+        ImGui::TextDisabled("The CPU answered all: no passes.");
+    }
+}
+
+void add_notice(const std::string& notice) {
+    if (!notice.empty()) {
+        ImGui::Separator();
+        ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(180, 30, 30, 255));
+        ImGui::TextWrapped("%s", notice.c_str());
+        ImGui::PopStyleColor();
+    }
+}
+
+}  // namespace
+
+void add_panel(Wishes& wishes, const Reading& reading, float height) {
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::SetNextWindowSize({panel_width, height});
+    ImGui::Begin("nearfield", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PushItemWidth(170.0F);
+    add_controls(wishes, reading);
+    add_overlays(wishes.overlays);
+    add_notice(reading.notice);
+    add_notice(reading.findings.refusal);
+    add_frame(reading);
+    add_times(reading.findings.timings);
+    ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+}  // namespace nearfield::viewer

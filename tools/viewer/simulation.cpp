@@ -1,0 +1,91 @@
+#include <tools/commands/library_error.hpp>
+#include <tools/commands/simulation_choice.hpp>
+#include <tools/input/input_error.hpp>
+#include <tools/viewer/simulation.hpp>
+
+#include <stdexcept>
+#include <utility>
+
+namespace nearfield::viewer {
+namespace {
+
+Context make_context(const HostDevice& host, Settings settings, const Choices& choices) {
+    settings.hierarchy_height = choices.hierarchy_height;
+    return tools::take(Context::create(host, settings));
+}
+
+}  // namespace
+
+Simulation::Simulation(const HostDevice& host, const Settings& settings, const Choices& choices)
+    : host_(host),
+      settings_(settings),
+      choices_(choices),
+      context_(make_context(host, settings, choices)) {
+    restart();
+}
+
+dynamics::Scene Simulation::fresh_scene(const Choices& choices) {
+    dynamics::Scene scene = tools::make_scene(choices.scene, std::nullopt);
+    if (choices.tolerance > 0.0) {
+        scene.tolerance = choices.tolerance;
+    }
+    return scene;
+}
+
+void Simulation::begin(dynamics::Scene scene, double time) {
+    world_.reset();
+    begun_at_ = time;
+    // A world counts its time from 0; the scene's own goes on.
+    scene.act = [this](double since) {
+        if (act_) {
+            act_(begun_at_ + since);
+        }
+        drag_.pull(world_->scene());
+    };
+    world_.emplace(*context_, std::move(scene), choices_.response, choices_.technique);
+}
+
+void Simulation::restart() {
+    drag_.release();
+    dynamics::Scene scene = fresh_scene(choices_);
+    act_ = std::move(scene.act);
+    try {
+        begin(std::move(scene), 0.0);
+    } catch (const std::invalid_argument& error) {
+        throw tools::InputError("backtracking: " + choices_.scene + ": " + error.what());
+    }
+}
+
+void Simulation::choose(const Choices& choices) {
+    if (choices == choices_) {
+        return;
+    }
+    const Choices former = std::exchange(choices_, choices);
+    const bool overlaps = choices.response == dynamics::Response::backtracking &&
+                          !world_->proximity().overlaps().empty();
+    const bool anew = choices.scene != former.scene || overlaps;
+    const double time = this->time();
+    dynamics::Scene scene;
+    if (!anew) {
+        scene = std::move(world_->scene());
+        scene.tolerance = choices.tolerance > 0.0 ? choices.tolerance : scene.tolerance;
+    }
+    world_.reset();
+    if (choices.hierarchy_height != former.hierarchy_height) {
+        context_.reset();
+        context_ = make_context(host_, settings_, choices);
+    }
+    if (!anew) {
+        begin(std::move(scene), time);
+        return;
+    }
+    try {
+        restart();
+    } catch (const tools::InputError&) {
+        choices_ = former;
+        restart();
+        throw;
+    }
+}
+
+}  // namespace nearfield::viewer
