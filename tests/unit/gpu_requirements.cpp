@@ -250,8 +250,8 @@ TEST_F(GpuRequirements, AreAskedForWithNothingCreated) {
         EXPECT_TRUE(name.starts_with("vkGet") || name.starts_with("vkEnumerate")) << name;
     }
     EXPECT_EQ(found.queue_family, device.queue_family);
-    EXPECT_EQ(found.limits.size(), 3U);
-    EXPECT_EQ(found.formats.size(), 9U);
+    EXPECT_EQ(found.limits.size(), 4U);
+    EXPECT_EQ(found.formats.size(), 11U);
 }
 
 TEST_F(GpuRequirements, NameAQueueFamilyWhereNoneIsGiven) {
