@@ -112,6 +112,16 @@ void add_overlays(Overlays& overlays) {
     ImGui::EndDisabled();
 }
 
+/// A table of names and numbers.
+bool begin_numbers(const char* id) {
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_RowBg)) {
+        return false;
+    }
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
+    ImGui::TableSetupColumn("number", ImGuiTableColumnFlags_WidthFixed, 70.0F);
+    return true;
+}
+
 void add_row(const char* name, double value, const char* format) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -123,7 +133,7 @@ void add_row(const char* name, double value, const char* format) {
 void add_frame(const Reading& reading) {
     ImGui::Separator();
     ImGui::TextWrapped("%s", reading.device.c_str());
-    if (ImGui::BeginTable("frame", 2)) {
+    if (begin_numbers("frame")) {
         const dynamics::FrameReport& frame = reading.frame;
         add_row("objects", double(reading.objects), "%.0f");
         add_row("lines", double(reading.lines), "%.0f");
@@ -140,7 +150,7 @@ void add_frame(const Reading& reading) {
 void add_times(const Timings& timings) {
     ImGui::Separator();
     ImGui::TextUnformatted("The overlays' queries, one batch, ms");
-    if (!ImGui::BeginTable("times", 2, ImGuiTableFlags_RowBg)) {
+    if (!begin_numbers("times")) {
         return;
     }
     add_row("localise", timings.localize, "%.3f");
