@@ -60,10 +60,12 @@ void MappedBuffer::create_buffer(std::uint64_t bytes) {
     info.size = bytes;
     info.usage = usage_;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    // Made first: where there is no memory for it, no buffer must be lost with it.
+    const std::string what = "buffer '" + name_ + "'";
     VkBuffer buffer = VK_NULL_HANDLE;
     check(device_->functions().vkCreateBuffer(device_->handle(), &info, device_->allocator(),
                                               &buffer),
-          "vkCreateBuffer", "buffer '" + name_ + "'");
+          "vkCreateBuffer", what);
     buffer_ = Owned<VkBuffer>(*device_, buffer);
     device_->name_object(VK_OBJECT_TYPE_BUFFER, buffer, name_);
 }

@@ -23,16 +23,23 @@ constexpr std::array<VkDynamicState, 5> dynamic_states{
     VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK,
     VK_DYNAMIC_STATE_STENCIL_WRITE_MASK, VK_DYNAMIC_STATE_STENCIL_REFERENCE};
 
+// What an error is about. Made before the object is, which would be lost where there is no memory
+// for these words.
+std::string in_words(const std::string& name) {
+    return "pipeline '" + name + "'";
+}
+
 Owned<VkShaderModule> make_shader_module(const Device& device, Spirv shader,
                                          const std::string& name) {
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = shader.size_bytes();
     info.pCode = shader.data();
+    const std::string what = in_words(name);
     VkShaderModule shader_module = VK_NULL_HANDLE;
     check(device.functions().vkCreateShaderModule(device.handle(), &info, device.allocator(),
                                                   &shader_module),
-          "vkCreateShaderModule", "pipeline '" + name + "'");
+          "vkCreateShaderModule", what);
     Owned<VkShaderModule> owned(device, shader_module);
     device.name_object(VK_OBJECT_TYPE_SHADER_MODULE, shader_module, name);
     return owned;
@@ -180,10 +187,11 @@ Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout l
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = shader_stage(VK_SHADER_STAGE_COMPUTE_BIT, shader_module);
     info.layout = layout;
+    const std::string what = in_words(name);
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(device.functions().vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1,
                                                       &info, device.allocator(), &pipeline),
-          "vkCreateComputePipelines", "pipeline '" + name + "'");
+          "vkCreateComputePipelines", what);
     Owned<VkPipeline> owned(device, pipeline);
     device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
     report(device, name, start);
@@ -231,10 +239,11 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
     info.pDynamicState = &dynamic;
     info.layout = what.layout;
     info.renderPass = what.render_pass;
+    const std::string words = in_words(what.name);
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(device.functions().vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1,
                                                        &info, device.allocator(), &pipeline),
-          "vkCreateGraphicsPipelines", "pipeline '" + what.name + "'");
+          "vkCreateGraphicsPipelines", words);
     Owned<VkPipeline> owned(device, pipeline);
     device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, what.name);
     report(device, what.name, start);

@@ -65,6 +65,12 @@ void expect_lost(World& world, Ticket in_flight) {
     Results results;
     EXPECT_EQ(context.submit(world.batch(8)).status().code(), StatusCode::device_lost);
     EXPECT_EQ(context.run(world.batch(8), results).code(), StatusCode::device_lost);
+    const Recording recording{.commands = world.driver().begin_commands(), .frame = 100};
+    EXPECT_EQ(context.record(world.recordable(8), recording).status().code(),
+              StatusCode::device_lost);
+    EXPECT_EQ(context.resident(in_flight, QueryHandle<ContactQuery>{}).status().code(),
+              StatusCode::device_lost);
+    context.frame_completed(recording.frame);
     EXPECT_TRUE(context.is_ready(in_flight));
     EXPECT_EQ(context.add_shape({}).status().code(), StatusCode::device_lost);
     EXPECT_EQ(context.update_shape({}, {}).code(), StatusCode::device_lost);
@@ -84,6 +90,9 @@ void try_failure(Technique technique, const Failure& failure, const std::vector<
     driver.fail(failure.call, failure.successes, failure.error, MockDriver::Failing::from_then_on);
     const Status status = world.take(failure.step);
     driver.work_again();
+    if (failure.step == World::Step::submit_first && !status.ok()) {
+        EXPECT_TRUE(world.is_before_first()) << "semaphores are on their way, and no batch is";
+    }
     ASSERT_TRUE(driver.has_failed()) << "the life with failures differs from the one without";
     // What asks whether a batch is done, and waits for it in the end, has nobody to tell.
     const bool silent =
@@ -154,7 +163,7 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
     std::set<std::string_view> used;
     for (const Technique technique : techniques) {
         World world(technique);
-        world.take_all_before(World::Step::destroy);
+        world.take_all_before(World::Step::record_last);
         // Large enough for occlusion queries to be worth their while.
         EXPECT_TRUE(world.context().submit(world.batch(700)).ok());
         EXPECT_TRUE(world.take(World::Step::destroy).ok());
@@ -221,6 +230,24 @@ TEST(LostDevice, GivesUpEveryBatchInFlightAndCanBeMadeAgain) {
         EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
         EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
     }
+}
+
+TEST(LostDevice, TakesWhatWasRecordedAlong) {
+    World world(Technique::raster);
+    world.take_all_before(World::Step::submit_first);
+    const Expected<Ticket> submitted = world.context().submit(world.batch(8));
+    const VkCommandBuffer commands = world.driver().begin_commands();
+    const Expected<Ticket> recorded =
+        world.context().record(world.recordable(9), {.commands = commands, .frame = 1});
+    ASSERT_TRUE(submitted.ok() && recorded.ok());
+    world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
+    Results results;
+    EXPECT_EQ(world.context().collect(*submitted, results).code(), StatusCode::device_lost);
+    EXPECT_TRUE(world.context().is_ready(*recorded));
+    EXPECT_EQ(world.context().collect(*recorded, results).code(), StatusCode::device_lost);
+    expect_lost(world, *recorded);
+    EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
+    EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
 }
 
 TEST(LostDevice, IsNoticedWhereABatchIsAskedForAndNotWaitedFor) {

@@ -13,6 +13,18 @@ const std::vector<Ring> rings_a{{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}}
 const std::vector<Ring> rings_b{{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}}};
 const std::vector<Vector2> field_points{{1.1, 1.2}, {1.6, 1.4}};
 
+// The first queries of a batch for the device.
+constexpr QueryHandle<PenetrationQuery> resident_penetration{0};
+constexpr QueryHandle<ContactQuery> resident_contacts{1};
+constexpr QueryHandle<DistanceFieldQuery> resident_field{2};
+
+/// What the host does on its own account.
+template <class Make>
+Batch unwatched(const Make& make) {
+    const test_support::UnwatchedAllocations here;
+    return make();
+}
+
 /// Of any query of a batch.
 Status first_error(const Results& results) {
     for (const AnyResult& any : results.results) {
@@ -27,19 +39,36 @@ Status first_error(const Results& results) {
 }  // namespace
 
 Status World::take(Step step) {
+    const SemaphoreWait for_first{before_};
+    const SemaphoreSignal by_first{after_};
+    const SemaphoreWait for_none{after_};
+    const SemaphoreSignal by_none{before_};
     switch (step) {
         case Step::create:
             return create();
         case Step::add_shapes:
             return add_shapes();
         case Step::submit_first:
-            return submit(first_cells);
+            return submit_for_device(first_cells,
+                                     {.waits = {&for_first, 1}, .signals = {&by_first, 1}});
         case Step::submit_larger:
         case Step::submit_last:
-            return submit(larger_cells);
+            return submit_for_device(larger_cells, {});
+        case Step::submit_without_work:
+            return submit(unwatched([&] { return batch(first_cells, Technique::cpu); }),
+                          {.waits = {&for_none, 1}, .signals = {&by_none, 1}});
+        case Step::record:
+        case Step::record_in_vain:
+        case Step::record_last:
+            return record();
         case Step::collect_first:
         case Step::collect_larger:
+        case Step::collect_without_work:
             return collect();
+        case Step::collect_recorded:
+            return collect_recorded(true);
+        case Step::collect_unexecuted:
+            return collect_recorded(false);
         case Step::destroy:
             context_.reset();
             return {};
@@ -79,17 +108,40 @@ Status World::add_shapes() {
     return {};
 }
 
-Status World::submit(double cells) {
-    Batch queries;
-    {
-        const test_support::UnwatchedAllocations here;
-        queries = batch(cells, technique_);
+Status World::submit(const Batch& queries, const Submission& submission) {
+    const Expected<Ticket> ticket = context_->submit(queries, submission);
+    if (!ticket.ok()) {
+        return ticket.status();
     }
-    const Expected<Ticket> ticket = context_->submit(queries);
-    if (ticket.ok()) {
-        ticket_ = *ticket;
+    ticket_ = *ticket;
+    return {};
+}
+
+Status World::submit_for_device(double cells, const Submission& submission) {
+    Status status = submit(unwatched([&] { return batch(cells); }), submission);
+    return status.ok() ? look_at_residents() : status;
+}
+
+Status World::record() {
+    const Batch queries = unwatched([&] { return recordable(larger_cells); });
+    commands_ = driver_.begin_commands();
+    const Expected<Ticket> ticket =
+        context_->record(queries, {.commands = commands_, .frame = ++frame_});
+    if (!ticket.ok()) {
+        return ticket.status();
     }
-    return ticket.status();
+    ticket_ = *ticket;
+    return look_at_residents();
+}
+
+Status World::look_at_residents() {
+    if (Status status = context_->resident(ticket_, resident_penetration).status(); !status.ok()) {
+        return status;
+    }
+    if (Status status = context_->resident(ticket_, resident_contacts).status(); !status.ok()) {
+        return status;
+    }
+    return context_->resident(ticket_, resident_field).status();
 }
 
 Status World::collect() {
@@ -99,8 +151,25 @@ Status World::collect() {
     return status.ok() ? first_error(results) : status;
 }
 
+Status World::collect_recorded(bool executed) {
+    if (executed) {
+        driver_.submit(commands_);
+        driver_.finish_submissions();
+    }
+    context_->frame_completed(frame_);
+    Status status = collect();
+    if (executed || status.code() != (status.ok() ? StatusCode::ok : StatusCode::not_executed)) {
+        return status;
+    }
+    return status.ok() ? Status(StatusCode::device_error, "answers that nobody computed")
+                       : Status();
+}
+
 Status World::answer(std::vector<double>& numbers) {
     Results results;
+    // Room for one more: whatever is in flight, and answered or not, goes.
+    context_->frame_completed(frame_);
+    static_cast<void>(context_->collect(ticket_, results));
     if (Status status = context_->run(batch(larger_cells, technique_), results); !status.ok()) {
         return status;
     }
@@ -124,36 +193,55 @@ std::vector<double> World::undisturbed(Technique technique) {
     return numbers;
 }
 
-Batch World::batch(double cells, Technique technique) const {
-    const double tolerance = 1.0 / cells;
-    const Instance here{a_, {}};
-    const Instance there{b_, {{1.2, 0.4}, 0.3}};
-    const Instance apart{b_, {{4.5, 0.4}, 0.3}};
+Batch World::recordable(double cells) const {
     Batch batch;
+    add_recordable(batch, cells, technique_);
+    return batch;
+}
+
+Batch World::batch(double cells, Technique technique) const {
+    Batch batch;
+    add_recordable(batch, cells, technique);
+    batch.add(
+        ContactQuery{here(), there(), 1.0 / cells, 0.1, ContactNormals::gradient, true, technique});
+    return batch;
+}
+
+void World::add_recordable(Batch& batch, double cells, Technique technique) const {
+    const double tolerance = 1.0 / cells;
+    const Instance apart{b_, {{4.5, 0.4}, 0.3}};
+    DistanceFieldQuery field{here(), there(), tolerance};
+    field.technique = technique;
+    if (technique != Technique::cpu) {
+        batch.add(PenetrationQuery{here(), there(), tolerance, PenetrationPoints::boundary, true,
+                                   technique, true});
+        batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true,
+                               technique, true});
+        field.resident = true;
+        batch.add(field);
+        field.resident = false;
+    }
     for (const PenetrationPoints points :
          {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
-        batch.add(PenetrationQuery{here, there, tolerance, points, true, technique});
+        batch.add(PenetrationQuery{here(), there(), tolerance, points, true, technique});
     }
-    for (const ContactNormals normals : {ContactNormals::analytic, ContactNormals::gradient}) {
-        batch.add(ContactQuery{here, there, tolerance, 0.1, normals, true, technique});
-    }
-    batch.add(ClosestPointQuery{here, apart, tolerance, technique});
-    batch.add(SeparationQuery{here, apart, tolerance, technique});
-    batch.add(IntersectionTestQuery{here, there});
+    batch.add(
+        ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true, technique});
+    batch.add(ClosestPointQuery{here(), apart, tolerance, technique});
+    batch.add(SeparationQuery{here(), apart, tolerance, technique});
+    batch.add(IntersectionTestQuery{here(), there()});
     for (const IntersectionKind kind :
          {IntersectionKind::boundary_boundary, IntersectionKind::boundary_volume,
           IntersectionKind::volume_volume}) {
-        batch.add(IntersectionQuery{here, there, tolerance, kind, true,
+        batch.add(IntersectionQuery{here(), there(), tolerance, kind, true,
                                     IntersectionStrategy::stencil, technique});
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
-        batch.add(IntersectionQuery{here, there, tolerance, IntersectionKind::volume_volume, true,
-                                    static_cast<IntersectionStrategy>(i), technique});
+        batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::volume_volume,
+                                    true, static_cast<IntersectionStrategy>(i), technique});
     }
-    DistanceFieldQuery field{here, there, tolerance};
     field.features = field.gradients = true;
     field.points = field_points;
-    field.technique = technique;
     for (const SignEncoding sign :
          {SignEncoding::stencil, SignEncoding::color, SignEncoding::feature_bit}) {
         field.sign = sign;
@@ -163,7 +251,6 @@ Batch World::batch(double cells, Technique technique) const {
         field.gradient = GradientMethod::blended;
         batch.add(field);
     }
-    return batch;
 }
 
 const char* to_string(World::Step step) {
@@ -180,8 +267,22 @@ const char* to_string(World::Step step) {
             return "submit a larger batch";
         case World::Step::collect_larger:
             return "collect a larger batch";
+        case World::Step::record:
+            return "record a batch";
+        case World::Step::collect_recorded:
+            return "collect the recorded batch";
+        case World::Step::record_in_vain:
+            return "record a batch that is thrown away";
+        case World::Step::collect_unexecuted:
+            return "collect the batch that was thrown away";
+        case World::Step::submit_without_work:
+            return "submit a batch without work for the device";
+        case World::Step::collect_without_work:
+            return "collect the batch without work for the device";
         case World::Step::submit_last:
             return "submit the last batch";
+        case World::Step::record_last:
+            return "record the last batch";
         case World::Step::destroy:
             return "destroy";
     }

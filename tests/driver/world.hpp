@@ -18,19 +18,41 @@ public:
     enum class Step {
         create,
         add_shapes,
-        submit_first,
+        submit_first,  ///< between semaphores
         collect_first,
-        submit_larger,  ///< buffers and images have to grow
+        submit_larger,  ///< buffers and images have to grow; some results stay on the device
         collect_larger,
-        submit_last,  ///< as the one before: nothing is made
-        destroy,      ///< with that batch in flight
+        record,
+        collect_recorded,  ///< after the host has executed it
+        record_in_vain,
+        collect_unexecuted,   ///< after the host has thrown it away, which is what it has to say
+        submit_without_work,  ///< of the device, so that only semaphores are handed over
+        collect_without_work,
+        submit_last,  ///< as the larger one before: nothing is made
+        record_last,  ///< while that one is in flight, so that all is made for the second frame
+        destroy,      ///< with these two in flight
     };
-    static constexpr Step steps[] = {Step::create,        Step::add_shapes,    Step::submit_first,
-                                     Step::collect_first, Step::submit_larger, Step::collect_larger,
-                                     Step::submit_last,   Step::destroy};
+    static constexpr Step steps[] = {Step::create,
+                                     Step::add_shapes,
+                                     Step::submit_first,
+                                     Step::collect_first,
+                                     Step::submit_larger,
+                                     Step::collect_larger,
+                                     Step::record,
+                                     Step::collect_recorded,
+                                     Step::record_in_vain,
+                                     Step::collect_unexecuted,
+                                     Step::submit_without_work,
+                                     Step::collect_without_work,
+                                     Step::submit_last,
+                                     Step::record_last,
+                                     Step::destroy};
 
     /// Queries by this technique: raster or compute.
-    explicit World(Technique technique) : technique_(technique) {}
+    explicit World(Technique technique)
+        : technique_(technique),
+          before_(driver_.make_semaphore(true)),
+          after_(driver_.make_semaphore(false)) {}
 
     [[nodiscard]] test_support::MockDriver& driver() { return driver_; }
     [[nodiscard]] Context& context() { return *context_; }
@@ -47,21 +69,45 @@ public:
     [[nodiscard]] static std::vector<double> undisturbed(Technique technique);
 
     [[nodiscard]] Batch batch(double cells) const { return batch(cells, technique_); }
+    /// Without those that take a second submission.
+    [[nodiscard]] Batch recordable(double cells) const;
+
+    /// The first batch turns the states of two semaphores around, the one without work turns them
+    /// back.
+    [[nodiscard]] bool is_before_first() const {
+        return driver_.is_signalled(before_) && !driver_.is_signalled(after_);
+    }
+    [[nodiscard]] bool is_after_first() const {
+        return driver_.is_signalled(after_) && !driver_.is_signalled(before_);
+    }
 
 private:
     Status create();
     Status add_shapes();
-    Status submit(double cells);
+    Status submit(const Batch& queries, const Submission& submission);
+    Status submit_for_device(double cells, const Submission& submission);
+    Status record();
     Status collect();
+    /// The host is done with its frame.
+    Status collect_recorded(bool executed);
+    /// Asks for all that stays on the device of the batch in flight.
+    Status look_at_residents();
     /// One of each kind of query that a technique answers, with so many cells to a unit.
     [[nodiscard]] Batch batch(double cells, Technique technique) const;
+    void add_recordable(Batch& batch, double cells, Technique technique) const;
+    [[nodiscard]] Instance here() const { return {a_, {}}; }
+    [[nodiscard]] Instance there() const { return {b_, {{1.2, 0.4}, 0.3}}; }
 
     Technique technique_;
     test_support::MockDriver driver_;
+    VkSemaphore before_;
+    VkSemaphore after_;
     std::optional<Context> context_;
     ShapeHandle a_;
     ShapeHandle b_;
     Ticket ticket_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the host's frame
+    std::uint64_t frame_ = 0;
 };
 
 [[nodiscard]] const char* to_string(World::Step step);

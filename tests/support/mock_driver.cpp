@@ -3,6 +3,7 @@
 #include <tests/support/mock_driver_state.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace nearfield::test_support {
@@ -10,6 +11,26 @@ namespace nearfield::test_support {
 MockDriver::State* mock_driver = nullptr;
 
 namespace {
+
+constexpr std::string_view the_host = "the host";
+
+MockDriver::State& state_of(void* user) {
+    return *static_cast<MockDriver::State*>(user);
+}
+
+void* VKAPI_CALL host_allocate(void* user, std::size_t bytes, std::size_t,
+                               VkSystemAllocationScope) {
+    void* const block = std::malloc(bytes);
+    state_of(user).host_blocks.insert(block);
+    return block;
+}
+
+void VKAPI_CALL host_free(void* user, void* block) {
+    if (block != nullptr && state_of(user).host_blocks.erase(block) == 0) {
+        state_of(user).breach("vkFree", "a block that the host's allocator did not give out");
+    }
+    std::free(block);
+}
 
 bool starts_with_any(std::string_view call, std::initializer_list<std::string_view> beginnings) {
     return std::any_of(beginnings.begin(), beginnings.end(),
@@ -49,6 +70,27 @@ VkResult MockDriver::State::enter(std::string_view call) {
 
 void MockDriver::State::breach(std::string_view call, const std::string& what) {
     breaches.push_back(std::string(call) + ": " + what);
+}
+
+void MockDriver::State::use_allocator(std::string_view call, const VkAllocationCallbacks* used) {
+    if (used == nullptr || used->pUserData != this || used->pfnAllocation != &host_allocate ||
+        used->pfnFree != &host_free) {
+        breach(call, "not the host's allocation callbacks");
+        return;
+    }
+    allocator = used;
+}
+
+void MockDriver::State::make(std::string_view call, Number parent, const std::type_info& type) {
+    MockObject& object = objects[++last];
+    object.made_by = call;
+    object.type = &type;
+    object.parent = parent;
+    if (allocator != nullptr) {
+        constexpr std::size_t bytes = 16;
+        object.host_memory = allocator->pfnAllocation(allocator->pUserData, bytes, alignof(void*),
+                                                      VK_SYSTEM_ALLOCATION_SCOPE_OBJECT);
+    }
 }
 
 MockObject* MockDriver::State::find(std::string_view call, Number wanted,
@@ -103,6 +145,9 @@ void MockDriver::State::destroy(std::string_view call, Number device_of_call, Nu
         expect_unused(call, child);
         objects.erase(child);
     }
+    if (allocator != nullptr) {
+        allocator->pfnFree(allocator->pUserData, object->host_memory);
+    }
     objects.erase(gone);
 }
 
@@ -126,6 +171,51 @@ void MockDriver::State::finish(MockObject& fence) {
     fence.in_use.clear();
 }
 
+void MockDriver::State::change(std::string_view call, Number commands, MockObject::Commands from,
+                               MockObject::Commands to) {
+    MockObject* const object = find(call, commands, typeid(VkCommandBuffer));
+    if (object != nullptr && object->commands != from) {
+        breach(call, "a command buffer in another state");
+    } else if (object != nullptr) {
+        object->commands = to;
+    }
+}
+
+void MockDriver::State::execute(std::string_view call, Number commands, std::set<Number>& used) {
+    change(call, commands, MockObject::Commands::executable, MockObject::Commands::pending);
+    for (const auto& [place, needed] : objects[commands].needs) {
+        if (!objects.contains(needed)) {
+            breach(call, "commands refer to something that is gone");
+        }
+    }
+    add_needs(commands, used);
+    write_results(commands, used);
+}
+
+/// What commands leave in the buffers that they write. Counts that the host set to 0 stay 0.
+void MockDriver::State::write_results(Number commands, const std::set<Number>& used) {
+    for (const Number number_used : used) {
+        const MockObject& buffer = objects[number_used];
+        if (!buffer.written || !buffer.bound) {
+            continue;
+        }
+        for (std::uint32_t& word : objects[buffer.needs.at(0)].words) {
+            word = word == 0 ? 0 : MockDriver::device_word;
+        }
+    }
+    for (const MockFill& fill : objects[commands].fills) {
+        const auto buffer = objects.find(fill.buffer);
+        if (buffer == objects.end() || !buffer->second.bound) {
+            continue;
+        }
+        const std::span words = objects[buffer->second.needs.at(0)].words;
+        if (fill.first_word + fill.words <= words.size()) {  // else it is not mapped
+            std::fill_n(words.begin() + static_cast<std::ptrdiff_t>(fill.first_word), fill.words,
+                        fill.value);
+        }
+    }
+}
+
 MockDriver::MockDriver() : state_(std::make_unique<State>()) {
     if (mock_driver != nullptr) {
         throw std::logic_error("there is a mock driver already");
@@ -134,6 +224,11 @@ MockDriver::MockDriver() : state_(std::make_unique<State>()) {
     state_->physical_device = ++state_->last;
     state_->device = ++state_->last;
     state_->queue = ++state_->last;
+    state_->make<VkFence>(the_host, state_->device);
+    state_->host_fence = state_->last;
+    state_->callbacks.pUserData = state_.get();
+    state_->callbacks.pfnAllocation = &host_allocate;
+    state_->callbacks.pfnFree = &host_free;
     mock_driver = state_.get();
 }
 
@@ -150,7 +245,41 @@ HostDevice MockDriver::host() const {
     host.get_instance_proc_addr = &mock_instance_function;
     host.debug_utils = true;
     host.logic_op = true;
+    host.allocator = &state_->callbacks;
     return host;
+}
+
+VkSemaphore MockDriver::make_semaphore(bool signalled) {
+    const UnwatchedAllocations here;
+    const auto semaphore = state_->make<VkSemaphore>(the_host, state_->device);
+    state_->objects[number(semaphore)].signalled = signalled;
+    return semaphore;
+}
+
+bool MockDriver::is_signalled(VkSemaphore semaphore) const {
+    return state_->objects.at(number(semaphore)).signalled;
+}
+
+VkCommandBuffer MockDriver::begin_commands() {
+    const UnwatchedAllocations here;
+    const auto commands = state_->make<VkCommandBuffer>(the_host, state_->device);
+    state_->objects[number(commands)].commands = MockObject::Commands::recording;
+    return commands;
+}
+
+void MockDriver::submit(VkCommandBuffer commands) {
+    const UnwatchedAllocations here;
+    if (state_->lost) {
+        return;
+    }
+    state_->change(the_host, number(commands), MockObject::Commands::recording,
+                   MockObject::Commands::executable);
+    state_->execute(the_host, number(commands), state_->objects[state_->host_fence].in_use);
+}
+
+void MockDriver::finish_submissions() {
+    const UnwatchedAllocations here;
+    state_->finish(state_->objects[state_->host_fence]);
 }
 
 const std::vector<std::string_view>& MockDriver::calls() const {
@@ -185,8 +314,11 @@ bool MockDriver::has_failed() const {
 std::vector<std::string> MockDriver::alive() const {
     std::vector<std::string> names;
     for (const auto& [number, object] : state_->objects) {
-        names.emplace_back(object.made_by);
+        if (object.made_by != the_host) {
+            names.emplace_back(object.made_by);
+        }
     }
+    names.insert(names.end(), state_->host_blocks.size(), "the host's allocator");
     return names;
 }
 

@@ -35,8 +35,21 @@ public:
     MockDriver(const MockDriver&) = delete;
     MockDriver& operator=(const MockDriver&) = delete;
 
-    /// A device of this driver, with debug utils and the feature logicOp.
+    /// A device of this driver, with debug utils, the feature logicOp and allocation callbacks that
+    /// every call has to pass on.
     [[nodiscard]] HostDevice host() const;
+
+    // What a host does with the driver, without the library.
+
+    /// A binary semaphore.
+    [[nodiscard]] VkSemaphore make_semaphore(bool signalled);
+    [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
+    /// A command buffer that is being recorded.
+    [[nodiscard]] VkCommandBuffer begin_commands();
+    /// Ends it and submits it.
+    void submit(VkCommandBuffer commands);
+    /// Waits for all that the host submitted.
+    void finish_submissions();
 
     /// The entry points called since the last forget_calls(), in order.
     [[nodiscard]] const std::vector<std::string_view>& calls() const;
@@ -56,7 +69,8 @@ public:
     /// A fail() has come true.
     [[nodiscard]] bool has_failed() const;
 
-    /// What was made and not destroyed: the entry point that made it, for each object. A mapping of
+    /// What the library made and did not destroy: the entry point that made it, for each object,
+    /// and a line for each block of memory that the host's allocator did not get back. A mapping of
     /// memory goes with the memory.
     [[nodiscard]] std::vector<std::string> alive() const;
     /// Every rule that was broken, in words.

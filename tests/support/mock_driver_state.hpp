@@ -32,7 +32,15 @@ concept VulkanHandle = std::is_pointer_v<Type> && !std::is_void_v<std::remove_po
     sizeof(std::remove_pointer_t<Type>);
 };
 
-/// Anything the library made.
+/// vkCmdFillBuffer, until it is executed.
+struct MockFill {
+    Number buffer = 0;
+    std::uint64_t first_word = 0;
+    std::uint64_t words = 0;
+    std::uint32_t value = 0;
+};
+
+/// Anything the library made, or the host.
 struct MockObject {
     std::string_view made_by;               // entry point
     const std::type_info* type = nullptr;   // of its handle
@@ -51,8 +59,12 @@ struct MockObject {
     // Command buffers.
     enum class Commands { empty, recording, executable, pending };
     Commands commands = Commands::empty;
+    std::vector<MockFill> fills;
 
-    // Fences: what the submission that is to signal it uses; the library has not seen it done.
+    void* host_memory = nullptr;  // from the host's allocation callbacks
+
+    // Fences and semaphores; of a fence also what the submission that is to signal it uses: the
+    // library has not seen it done.
     bool signalled = false;
     std::set<Number> in_use;
 };
@@ -76,19 +88,25 @@ struct MockDriver::State {
     Number physical_device = 0;
     Number device = 0;
     Number queue = 0;
+    Number host_fence = 0;  // of all that the host submits
+
+    VkAllocationCallbacks callbacks{};                 // the host's
+    std::set<void*> host_blocks;                       // that they gave out
+    const VkAllocationCallbacks* allocator = nullptr;  // of the call that is under way
 
     /// Notes a call; returns the error it is to fail with, or VK_SUCCESS.
     VkResult enter(std::string_view call);
     void breach(std::string_view call, const std::string& what);
 
+    /// The allocation callbacks of a call have to be the host's.
+    void use_allocator(std::string_view call, const VkAllocationCallbacks* used);
+
     template <class Handle>
     Handle make(std::string_view call, Number parent) {
-        MockObject& object = objects[++last];
-        object.made_by = call;
-        object.type = &typeid(Handle);
-        object.parent = parent;
+        make(call, parent, typeid(Handle));
         return handle<Handle>(last);
     }
+    void make(std::string_view call, Number parent, const std::type_info& type);
     /// The object of a handle; a breach, and null, where there is none of that type.
     template <class Handle>
     MockObject* find(std::string_view call, Handle wanted) {
@@ -107,6 +125,13 @@ struct MockDriver::State {
     /// Everything an object refers to, itself too.
     void add_needs(Number wanted, std::set<Number>& all) const;
     void finish(MockObject& fence);
+    /// Moves a command buffer from one state to another; a breach where it is in neither.
+    void change(std::string_view call, Number commands, MockObject::Commands from,
+                MockObject::Commands to);
+    /// Executes a command buffer, of which no more comes about than what it writes to mapped
+    /// memory; what it uses is added to `used`.
+    void execute(std::string_view call, Number commands, std::set<Number>& used);
+    void write_results(Number commands, const std::set<Number>& used);
 };
 
 /// Of the driver that lives.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <tuple>
 #include <type_traits>
 
@@ -49,6 +50,7 @@ void perform(Tag_vkGetPhysicalDeviceProperties, VkPhysicalDevice,
     limits.maxImageDimension2D = 16384;
     limits.maxStorageBufferRange = 1U << 30U;
     limits.maxPerStageDescriptorStorageBuffers = 16;
+    limits.maxPerStageDescriptorStorageImages = 4;
     limits.maxComputeWorkGroupInvocations = 1024;
     limits.subPixelPrecisionBits = 8;
     limits.minStorageBufferOffsetAlignment = 16;
@@ -306,29 +308,22 @@ VkResult perform(Tag_vkResetCommandPool tag, VkDevice, VkCommandPool pool,
             driver().expect_unused(tag.name, child);
             object.commands = MockObject::Commands::empty;
             object.needs.clear();
+            object.fills.clear();
         }
     }
     return VK_SUCCESS;
 }
 
-void change(std::string_view call, VkCommandBuffer commands, MockObject::Commands from,
-            MockObject::Commands to) {
-    MockObject* const object = driver().find(call, commands);
-    if (object != nullptr && object->commands != from) {
-        driver().breach(call, "a command buffer in another state");
-    } else if (object != nullptr) {
-        object->commands = to;
-    }
-}
-
 VkResult perform(Tag_vkBeginCommandBuffer tag, VkCommandBuffer commands,
                  const VkCommandBufferBeginInfo*) {
-    change(tag.name, commands, MockObject::Commands::empty, MockObject::Commands::recording);
+    driver().change(tag.name, number(commands), MockObject::Commands::empty,
+                    MockObject::Commands::recording);
     return VK_SUCCESS;
 }
 
 VkResult perform(Tag_vkEndCommandBuffer tag, VkCommandBuffer commands) {
-    change(tag.name, commands, MockObject::Commands::recording, MockObject::Commands::executable);
+    driver().change(tag.name, number(commands), MockObject::Commands::recording,
+                    MockObject::Commands::executable);
     return VK_SUCCESS;
 }
 
@@ -377,7 +372,16 @@ void perform(Tag_vkCmdPipelineBarrier tag, VkCommandBuffer commands, VkPipelineS
     }
 }
 
-// Submissions and fences.
+void perform(Tag_vkCmdFillBuffer tag, VkCommandBuffer commands, VkBuffer buffer,
+             VkDeviceSize offset, VkDeviceSize size, std::uint32_t value) {
+    use(tag.name, commands, buffer);
+    if (MockObject* const object = driver().find(tag.name, commands)) {
+        object->fills.push_back(
+            {number(buffer), offset / sizeof(value), size / sizeof(value), value});
+    }
+}
+
+// Submissions, semaphores and fences.
 
 VkResult perform(Tag_vkCreateFence tag, VkDevice device, const VkFenceCreateInfo* info,
                  const VkAllocationCallbacks*, VkFence* fence) {
@@ -398,17 +402,17 @@ VkResult perform(Tag_vkResetFences tag, VkDevice, std::uint32_t count, const VkF
     return VK_SUCCESS;
 }
 
-/// What a submission leaves in the buffers that it writes. Counts that the host set to 0 stay 0.
-void write_results(const std::set<Number>& used) {
-    for (const Number number_used : used) {
-        const MockObject& buffer = driver().objects[number_used];
-        if (!buffer.written || !buffer.bound) {
-            continue;
-        }
-        for (std::uint32_t& word : driver().objects[buffer.needs.at(0)].words) {
-            word = word == 0 ? 0 : MockDriver::device_word;
-        }
+/// A semaphore that is waited for has to be signalled, and one that is signalled must not be.
+void pass(std::string_view call, VkSemaphore semaphore, bool signalled) {
+    MockObject* const object = driver().find(call, semaphore);
+    if (object == nullptr) {
+        return;
     }
+    if (object->signalled == signalled) {
+        driver().breach(call, signalled ? "a semaphore that is signalled already"
+                                        : "a semaphore that nothing will ever signal");
+    }
+    object->signalled = signalled;
 }
 
 VkResult perform(Tag_vkQueueSubmit tag, VkQueue queue, std::uint32_t count,
@@ -416,24 +420,29 @@ VkResult perform(Tag_vkQueueSubmit tag, VkQueue queue, std::uint32_t count,
     if (number(queue) != driver().queue) {
         driver().breach(tag.name, "another queue");
     }
+    std::set<Number> used;
+    for (const VkSubmitInfo& info : std::span(infos, count)) {
+        for (std::uint32_t i = 0; i < info.waitSemaphoreCount; ++i) {
+            pass(tag.name, info.pWaitSemaphores[i], false);
+        }
+        for (std::uint32_t i = 0; i < info.commandBufferCount; ++i) {
+            driver().execute(tag.name, number(info.pCommandBuffers[i]), used);
+        }
+        for (std::uint32_t i = 0; i < info.signalSemaphoreCount; ++i) {
+            pass(tag.name, info.pSignalSemaphores[i], true);
+        }
+    }
+    if (fence == VK_NULL_HANDLE) {
+        if (!used.empty()) {
+            driver().breach(tag.name, "commands, and no fence to say when they are done");
+        }
+        return VK_SUCCESS;
+    }
     MockObject& signalled = *driver().find(tag.name, fence);
     if (signalled.signalled) {
         driver().breach(tag.name, "a fence that is signalled");
     }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        for (std::uint32_t j = 0; j < infos[i].commandBufferCount; ++j) {
-            const VkCommandBuffer commands = infos[i].pCommandBuffers[j];
-            change(tag.name, commands, MockObject::Commands::executable,
-                   MockObject::Commands::pending);
-            for (const auto& [place, needed] : driver().find(tag.name, commands)->needs) {
-                if (!driver().objects.contains(needed)) {
-                    driver().breach(tag.name, "commands refer to something that is gone");
-                }
-            }
-            driver().add_needs(number(commands), signalled.in_use);
-        }
-    }
-    write_results(signalled.in_use);
+    signalled.in_use = std::move(used);
     signalled.signalled = true;
     return VK_SUCCESS;
 }
@@ -488,13 +497,15 @@ constexpr bool makes_handle =
 
 template <class Tag, class First, class... Rest>
 auto act(First first, Rest... rest) {
-    if constexpr (has_own<Tag, First, Rest...>) {
-        return perform(Tag{}, first, rest...);
-    } else if constexpr (Tag::name.starts_with("vkCmd")) {
+    if constexpr (Tag::name.starts_with("vkCmd")) {
         const MockObject* const commands = driver().find(Tag::name, first);
         if (commands != nullptr && commands->commands != MockObject::Commands::recording) {
             driver().breach(Tag::name, "a command buffer that is not being recorded");
         }
+    }
+    if constexpr (has_own<Tag, First, Rest...>) {
+        return perform(Tag{}, first, rest...);
+    } else if constexpr (Tag::name.starts_with("vkCmd")) {
         (use(Tag::name, first, rest), ...);
     } else if constexpr (Tag::name.starts_with("vkCreate")) {
         const auto& made = std::get<sizeof...(Rest) - 1>(std::tie(rest...));
@@ -520,6 +531,14 @@ void spoil(Arguments... arguments) {
     }
 }
 
+/// Of any argument: if it is a pointer to allocation callbacks.
+template <class Argument>
+void note_allocator(std::string_view call, Argument argument) {
+    if constexpr (std::is_same_v<Argument, const VkAllocationCallbacks*>) {
+        driver().use_allocator(call, argument);
+    }
+}
+
 template <class Tag, class Function>
 struct Entry;
 
@@ -530,6 +549,8 @@ struct Entry<Tag, Result(VKAPI_PTR*)(Arguments...)> {
     static Result VKAPI_CALL call(Arguments... arguments) {
         const UnwatchedAllocations here;
         [[maybe_unused]] const VkResult error = driver().enter(Tag::name);
+        driver().allocator = nullptr;
+        (note_allocator(Tag::name, arguments), ...);
         if constexpr (returns_result) {
             if (error != VK_SUCCESS) {
                 spoil<Tag>(arguments...);

@@ -2,7 +2,6 @@
 #include <nearfield/nearfield.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/fake_loader.hpp>
 
 #include <mutex>
 #include <string>
@@ -138,23 +137,14 @@ void expect_same_on_threads(const Make& make) {
     }
 }
 
-// The lock that several contexts on one queue need: around submissions, and nothing else.
-std::mutex queue_lock;
-
-VkResult VKAPI_CALL locked_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
-                                  VkFence fence) {
-    static const auto submit =
-        reinterpret_cast<PFN_vkQueueSubmit>(test_support::true_device_function("vkQueueSubmit"));
-    const std::lock_guard lock(queue_lock);
-    return submit(queue, count, infos, fence);
-}
-
 TEST(Threads, HaveContextsOnOneDeviceAndOneQueue) {
     const gpu::HeadlessDevice device({});
-    test_support::Lies lies;
-    lies.entry_points["vkQueueSubmit"] = reinterpret_cast<PFN_vkVoidFunction>(&locked_submit);
-    const test_support::FakeLoader loader(device.host(), lies);
-    expect_same_on_threads([&] { return Context::create(loader.host()); });
+    std::mutex queue;
+    HostDevice host = device.host();
+    host.queue_access.user = &queue;
+    host.queue_access.lock = [](void* user) { static_cast<std::mutex*>(user)->lock(); };
+    host.queue_access.unlock = [](void* user) { static_cast<std::mutex*>(user)->unlock(); };
+    expect_same_on_threads([&] { return Context::create(host); });
 }
 
 TEST(Threads, HaveContextsOnDevicesOfTheirOwn) {
