@@ -45,6 +45,7 @@ Gui::Gui(SDL_Window* window) {
     io.IniFilename = nullptr;  // nothing is written to the folder it is started in
     io.BackendRendererName = "nearfield";
     ImGui::StyleColorsLight();
+    ImGui::GetStyle().Colors[ImGuiCol_PopupBg].w = 1.0F;  // lists lie over other text
     ImGui_ImplSDL2_InitForVulkan(window);
 }
 

@@ -111,7 +111,8 @@ viewer::Wishes parse_wishes(const Arguments& arguments) {
     viewer::Wishes wishes;
     wishes.choices.scene = arguments.scene;
     // Refuses a scene or a tolerance that cannot be, before there is a window.
-    wishes.choices.tolerance = tools::make_scene(arguments.scene, arguments.tolerance).tolerance;
+    const dynamics::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
+    wishes.choices.tolerance = arguments.tolerance ? scene.tolerance : 0.0;
     wishes.choices.response = tools::parse_response(arguments.response);
     wishes.choices.technique =
         tools::parse_technique_option(arguments.technique).value_or(Technique::automatic);

@@ -51,11 +51,12 @@ void choose(const char* label, Value& value, std::span<const Named<Value>> from)
     }
 }
 
-void choose_scene(std::string& scene) {
-    if (ImGui::BeginCombo("scene", scene.c_str())) {
+void choose_scene(Choices& choices) {
+    if (ImGui::BeginCombo("scene", choices.scene.c_str())) {
         for (const scenes::NamedScene& each : scenes::all_scenes()) {
-            if (ImGui::Selectable(each.name, scene == each.name)) {
-                scene = each.name;
+            if (ImGui::Selectable(each.name, choices.scene == each.name)) {
+                choices.scene = each.name;
+                choices.tolerance = 0.0;
             }
         }
         ImGui::EndCombo();
@@ -77,7 +78,7 @@ void add_controls(Wishes& wishes, const Reading& reading) {
     }
     ImGui::TextDisabled("keys space, n, r; the mouse drags bodies");
     Choices& choices = wishes.choices;
-    choose_scene(choices.scene);
+    choose_scene(choices);
     choose<dynamics::Response>("response", choices.response, responses);
     static const auto techniques =
         named({Technique::automatic, Technique::raster, Technique::compute, Technique::cpu});

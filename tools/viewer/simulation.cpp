@@ -24,17 +24,10 @@ Simulation::Simulation(const HostDevice& host, const Settings& settings, const C
     restart();
 }
 
-dynamics::Scene Simulation::fresh_scene(const Choices& choices) {
-    dynamics::Scene scene = tools::make_scene(choices.scene, std::nullopt);
-    if (choices.tolerance > 0.0) {
-        scene.tolerance = choices.tolerance;
-    }
-    return scene;
-}
-
 void Simulation::begin(dynamics::Scene scene, double time) {
     world_.reset();
     begun_at_ = time;
+    scene.tolerance = choices_.tolerance > 0.0 ? choices_.tolerance : own_tolerance_;
     // A world counts its time from 0; the scene's own goes on.
     scene.act = [this](double since) {
         if (act_) {
@@ -47,8 +40,9 @@ void Simulation::begin(dynamics::Scene scene, double time) {
 
 void Simulation::restart() {
     drag_.release();
-    dynamics::Scene scene = fresh_scene(choices_);
+    dynamics::Scene scene = tools::make_scene(choices_.scene, std::nullopt);
     act_ = std::move(scene.act);
+    own_tolerance_ = scene.tolerance;
     try {
         begin(std::move(scene), 0.0);
     } catch (const std::invalid_argument& error) {
@@ -60,20 +54,22 @@ void Simulation::choose(const Choices& choices) {
     if (choices == choices_) {
         return;
     }
-    const Choices former = std::exchange(choices_, choices);
+    std::optional<Context> other;
+    if (choices.hierarchy_height != choices_.hierarchy_height) {
+        other = make_context(host_, settings_, choices);
+    }
     const bool overlaps = choices.response == dynamics::Response::backtracking &&
                           !world_->proximity().overlaps().empty();
-    const bool anew = choices.scene != former.scene || overlaps;
+    const bool anew = choices.scene != choices_.scene || overlaps;
+    const Choices former = std::exchange(choices_, choices);
     const double time = this->time();
     dynamics::Scene scene;
     if (!anew) {
         scene = std::move(world_->scene());
-        scene.tolerance = choices.tolerance > 0.0 ? choices.tolerance : scene.tolerance;
     }
     world_.reset();
-    if (choices.hierarchy_height != former.hierarchy_height) {
-        context_.reset();
-        context_ = make_context(host_, settings_, choices);
+    if (other) {
+        context_ = std::move(other);
     }
     if (!anew) {
         begin(std::move(scene), time);

@@ -48,7 +48,6 @@ public:
     [[nodiscard]] Drag& drag() { return drag_; }
 
 private:
-    [[nodiscard]] static dynamics::Scene fresh_scene(const Choices& choices);
     void begin(dynamics::Scene scene, double time);
 
     HostDevice host_;
@@ -56,6 +55,7 @@ private:
     Choices choices_;
     std::optional<Context> context_;
     std::function<void(double)> act_;  // the scene's own
+    double own_tolerance_ = 0.0;       // likewise
     double begun_at_ = 0.0;            // time of the scene when the world began
     Drag drag_;
     std::optional<dynamics::World> world_;
