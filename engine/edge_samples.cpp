@@ -14,10 +14,9 @@ exact::PointArrays EdgeSamples::sample(const exact::PlacedEdges& edges, const ge
     places_.clear();
     plan::sample_edges(edges.placed, {near_.data(), near}, spacing, within, places_);
     const std::size_t room = exact::padded(places_.size());
-    if (x_.size() < room) {
-        x_.resize(room);
-        y_.resize(room);
-    }
+    // Each by itself: where memory ran out between the two, they differ.
+    x_.resize(std::max(x_.size(), room));
+    y_.resize(std::max(y_.size(), room));
     const exact::Extent box = exact::extent_of(within);
     std::uint32_t count = 0;
     for (const auto& [edge, parameter] : places_) {

@@ -92,10 +92,10 @@ void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArr
 std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& points,
                                                              const EdgeArrays& beside,
                                                              const PlacedEdges& b) {
-    if (inside_.size() < exact::padded(points.count)) {
-        inside_.resize(exact::padded(points.count));
-        nearest_.resize(exact::padded(points.count));
-    }
+    // Each by itself: where memory ran out between the two, they differ.
+    const std::size_t room = exact::padded(points.count);
+    inside_.resize(std::max(inside_.size(), room));
+    nearest_.resize(std::max(nearest_.size(), room));
     if (!exact::is_small(b)) {
         boundary_.set(b);
         const std::uint32_t in_box =

@@ -245,10 +245,11 @@ HWY_EXPORT(solve_block);
 void EdgeList::reserve(std::size_t count) {
     constexpr std::size_t longest_vector = 16;
     if (count + longest_vector > capacity_) {
-        capacity_ = count + count / 2 + longest_vector;
-        numbers_.resize(numbers * capacity_);
-        indices_.resize(capacity_);
+        const std::size_t capacity = count + count / 2 + longest_vector;
         count_ = 0;
+        numbers_.resize(numbers * capacity);
+        indices_.resize(capacity);
+        capacity_ = capacity;
     }
 }
 

@@ -7,7 +7,7 @@ namespace nearfield::test {
 namespace {
 
 constexpr double first_cells = 4.0;
-constexpr double larger_cells = 50.0;
+constexpr double larger_cells = 20.0;
 
 const std::vector<Ring> rings_a{{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}}};
 const std::vector<Ring> rings_b{{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}}};
