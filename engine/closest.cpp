@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace nearfield {
 namespace {
@@ -37,28 +36,6 @@ double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
     return std::sqrt(squared);
 }
 
-/// A vertex of `inner` that lies in `outer`, where a ring of it does.
-std::optional<Vector> vertex_inside(const PlacedPolygon& inner, const PlacedPolygon& outer) {
-    const geometry::Polygon& polygon = inner.polygon();
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const Vector vertex = inner.vertex(polygon.ring_begin(ring));
-        if (contains(outer, vertex)) {
-            return vertex;
-        }
-    }
-    return std::nullopt;
-}
-
-/// A vertex of either shape in the other; `otherwise` where there is none.
-Vector vertex_of_both(const PlacedPolygon& a, const PlacedPolygon& b, const Vector& otherwise) {
-    for (const auto& vertex : {vertex_inside(a, b), vertex_inside(b, a)}) {
-        if (vertex) {
-            return *vertex;
-        }
-    }
-    return otherwise;
-}
-
 /// Whose closest point a query asks for.
 exact::Side side_of(const PlannedQuery& query) {
     return std::holds_alternative<SeparationQuery>(*query.query) ? exact::Side::either
@@ -84,32 +61,13 @@ void write_pair(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPai
 
 }  // namespace
 
-void ClosestDecoder::find_common_point(const PlacedPolygon& a, const PlacedPolygon& b,
-                                       double rounding, SeparationResult& result) {
-    const ClosestPair closest = finder_.find(a, b, infinity);
-    const bool boundaries_meet = std::sqrt(closest.squared_distance) <= rounding;
-    write_common_point(boundaries_meet ? closest.point_a : vertex_of_both(a, b, closest.point_a),
-                       result);
-}
-
 void ClosestDecoder::answer_small(const PlannedQuery& query, const PlacedEdges& a,
                                   const PlacedEdges& b, SeparationResult& result) {
-    exact::EdgePair met;
-    if (!result.intersects) {
-        const ClosestPair closest = edges_.find(a, b);
-        write_pair(a.placed, b.placed, closest, result);
-        result.sampled_distance = result.distance;
-        result.unique =
-            edges_.is_unique(a, b, closest, side_of(query),
-                             result.tolerance * plan::uniqueness_margin, result.tolerance);
-    } else if (meeting_.boundaries_meet(a, b, met)) {
-        write_common_point(geometry::closest_of_segments(a.start(met.first), a.end(met.first),
-                                                         b.start(met.second), b.end(met.second))
-                               .first,
-                           result);
-    } else {
-        write_common_point(vertex_of_both(a.placed, b.placed, a.start(0)), result);
-    }
+    const ClosestPair closest = edges_.find(a, b);
+    write_pair(a.placed, b.placed, closest, result);
+    result.sampled_distance = result.distance;
+    result.unique = edges_.is_unique(a, b, closest, side_of(query),
+                                     result.tolerance * plan::uniqueness_margin, result.tolerance);
 }
 
 void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& instances,
@@ -124,10 +82,10 @@ void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& i
     const double rounding = a.rounding + b.rounding;
     result.error_bound = rounding + query.deviations.a + query.deviations.b;
     result.intersects = meeting_.intersect(a, b);
-    if (is_small(a) && is_small(b)) {
+    if (result.intersects) {
+        write_common_point(common_point_.find(a, b), result);
+    } else if (is_small(a) && is_small(b)) {
         answer_small(query, a, b, result);
-    } else if (result.intersects) {
-        find_common_point(a.placed, b.placed, rounding, result);
     } else {
         const ClosestPair closest = finder_.find(a.placed, b.placed, infinity);
         write_pair(a.placed, b.placed, closest, result);
@@ -150,7 +108,7 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
         localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box());
     result.error_bound = rounding + query.deviations.a + query.deviations.b;
     if (result.intersects) {
-        find_common_point(a, b, rounding, result);
+        write_common_point(common_point_.find(a, b, rounding), result);
         return;
     }
     double sampled = sampled_distance(plan, query, words);

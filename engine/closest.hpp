@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/common_point.hpp>
 #include <engine/exact/closest_edges.hpp>
 #include <engine/exact/closest_pair.hpp>
 #include <engine/exact/meeting.hpp>
@@ -28,15 +29,14 @@ private:
     /// Technique::cpu: all from the shapes themselves.
     void answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                 SeparationResult& result);
+    /// The same of small shapes that are apart.
     void answer_small(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
                       const exact::PlacedEdges& b, SeparationResult& result);
-    /// Of shapes that intersect.
-    void find_common_point(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                           double rounding, SeparationResult& result);
 
     exact::ClosestPairFinder finder_;
     exact::ClosestEdges edges_;
     exact::MeetingFinder meeting_;
+    CommonPoint common_point_;
 };
 
 }  // namespace nearfield

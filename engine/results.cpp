@@ -165,6 +165,10 @@ void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
             if (test->status.ok()) {
                 intersection_test_.answer(planned, instances_, *test);
             }
+        } else if (auto* impact = std::get_if<TimeOfImpactResult>(&results[i])) {
+            if (impact->status.ok()) {
+                time_of_impact_.answer(planned, *impact);
+            }
         }
     }
 }

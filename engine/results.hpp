@@ -12,6 +12,7 @@
 #include <engine/plan/round.hpp>
 #include <engine/point_penetration.hpp>
 #include <engine/point_resolver.hpp>
+#include <engine/time_of_impact.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -74,6 +75,7 @@ private:
     plan::SimplifiedShapes simplified_;  // of what the CPU answers
     ExactOverlap overlaps_;
     IntersectionTest intersection_test_;
+    TimeOfImpact time_of_impact_;
     PointPenetration penetration_;
     ClosestDecoder closest_;
 };

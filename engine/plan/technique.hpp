@@ -23,6 +23,11 @@ template <class Query>
             return "intersection tests";
         }
     }
+    if constexpr (std::is_same_v<Query, TimeOfImpactQuery>) {
+        if (technique != Technique::cpu && technique != Technique::automatic) {
+            return "times of impact";
+        }
+    }
     return nullptr;
 }
 

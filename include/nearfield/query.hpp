@@ -42,7 +42,8 @@ enum class Technique {
     /// vertices or between shapes of at most 256 edges), and no grid is sampled in them; closest
     /// points have none, nor has such penetration without records. Intersections: bit masks of the
     /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
-    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests it alone.
+    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests and times
+    /// of impact it alone.
     cpu,
 };
 
@@ -208,14 +209,37 @@ struct IntersectionTestQuery {
     Technique technique = Technique::automatic;
 };
 
+/// When two moving shapes first touch. From time 0 to time 1 each moves from its instance's pose to
+/// its end: translation and angle change at a constant rate, so a shape turns about the origin of
+/// its own coordinates (by whole turns too, where the angles say so), and a shape whose end is its
+/// instance's pose stands still. Goes beyond the paper. Always answered on the CPU, as
+/// IntersectionTestQuery.
+struct TimeOfImpactQuery {
+    Instance a;  ///< with A's pose at time 0
+    Instance b;  ///< with B's pose at time 0
+    Pose end_a;  ///< A's pose at time 1
+    Pose end_b;  ///< B's pose at time 1
+    /// d, world units, > 0: the first contact is known to within a stretch of time in which no two
+    /// points of the shapes move by more than this against each other.
+    double tolerance = 0.0;
+    /// And the stretch of time is no longer than this, in (0, 1].
+    double time_bound = 1.0;
+    /// How often the shapes may be looked at, at least 1. Mostly about ten times suffice; shapes
+    /// that graze each other, or turn many times close to each other, take more. Where as many are
+    /// not enough, the result says so (ImpactState::bound_not_reached).
+    std::uint32_t most_steps = 10000;
+    Technique technique = Technique::automatic;
+};
+
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
     std::uint32_t index = UINT32_MAX;
 };
 
-using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
-                              ClosestPointQuery, SeparationQuery, IntersectionTestQuery>;
+using AnyQuery =
+    std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
+                 ClosestPointQuery, SeparationQuery, IntersectionTestQuery, TimeOfImpactQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so a batch that is filled anew each
 /// frame does not allocate. Not thread-safe; different batches are independent.

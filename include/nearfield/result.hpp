@@ -221,6 +221,48 @@ struct SeparationResult : ResultSummary {
 /// intersect or not; exact but for that. Tolerance and cell are 0.
 struct IntersectionTestResult : ResultSummary {};
 
+/// What a TimeOfImpactQuery found.
+enum class ImpactState : std::uint8_t {
+    separated,              ///< the shapes stay apart from time 0 to time 1
+    hit,                    ///< they are apart at first and touch later
+    intersecting_at_start,  ///< they share a point at time 0
+    /// They are apart before `time`, and most_steps did not suffice to say what comes after it.
+    bound_not_reached,
+};
+
+/// The name of a state as it stands in the enumeration ("bound_not_reached").
+[[nodiscard]] const char* to_string(ImpactState state) noexcept;
+
+/// Answer to a TimeOfImpactQuery. Never late: whatever the state, the shapes share no point before
+/// `time`. Said of the rings as given, as `intersects` is.
+///
+/// `error_bound`: shapes no farther apart than this may be said to touch; the rounding of placed
+/// vertices and the shapes' deviations. `intersects`: the shapes were seen to share a point, at
+/// time + time_error_bound or before.
+struct TimeOfImpactResult : ResultSummary {
+    ImpactState state = ImpactState::separated;
+    /// The shapes are apart from 0 up to it: 0 where they intersect at the start, 1 where they stay
+    /// apart.
+    double time = 0.0;
+    /// Hit: they touch no later than `time` and this, which keeps to the tolerance and the time
+    /// bound asked for. Bound not reached: if they touch no later than `time` and this, it was not
+    /// found where; they share a point at its end where `intersects` is true, else it is the rest
+    /// of the motion. 0 otherwise.
+    double time_error_bound = 0.0;
+    Pose pose_a;            ///< at `time`
+    Pose pose_b;            ///< at `time`
+    double distance = 0.0;  ///< between the shapes at `time`
+    /// The shapes were certified to be no closer than this from 0 to `time`; at least an eighth of
+    /// the least distance there was.
+    double least_distance = 0.0;
+    Vector2 point_a;          ///< of A at `time`, closest to B; a common point at distance 0
+    Vector2 point_b;          ///< of B at `time`, closest to A
+    Vector2 direction;        ///< unit vector from point_a to point_b; (0, 0) at distance 0
+    Feature feature_a;        ///< where point_a lies on A's boundary; meaningful at a distance > 0
+    Feature feature_b;        ///< where point_b lies on B's
+    std::uint32_t steps = 0;  ///< how often the shapes were looked at
+};
+
 /// Time one pass took on the device.
 struct PassTime {
     std::string name;
@@ -243,7 +285,7 @@ struct Timings {
 
 using AnyResult =
     std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult, ContactResult,
-                 ClosestPointResult, SeparationResult, IntersectionTestResult>;
+                 ClosestPointResult, SeparationResult, IntersectionTestResult, TimeOfImpactResult>;
 
 template <class Query>
 struct ResultOf;
@@ -276,6 +318,11 @@ struct ResultOf<SeparationQuery> {
 template <>
 struct ResultOf<IntersectionTestQuery> {
     using type = IntersectionTestResult;
+};
+
+template <>
+struct ResultOf<TimeOfImpactQuery> {
+    using type = TimeOfImpactResult;
 };
 
 /// The results of one batch, in the order of its queries. Reusing one object for every frame keeps

@@ -12,7 +12,7 @@ namespace {
 template <class Value>
 using Named = std::pair<std::string_view, Value>;
 
-constexpr std::array<Named<QueryType>, 7> query_types{{
+constexpr std::array<Named<QueryType>, 8> query_types{{
     {"penetration", QueryType::penetration},
     {"intersection", QueryType::intersection},
     {"distance-field", QueryType::distance_field},
@@ -20,6 +20,7 @@ constexpr std::array<Named<QueryType>, 7> query_types{{
     {"closest-point", QueryType::closest_point},
     {"separation", QueryType::separation},
     {"intersection-test", QueryType::intersection_test},
+    {"time-of-impact", QueryType::time_of_impact},
 }};
 constexpr std::array<Named<Technique>, 4> techniques{{
     {"automatic", Technique::automatic},
@@ -170,6 +171,11 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             break;
         case QueryType::intersection_test:
             batch.add(IntersectionTestQuery{a, b, request.technique});
+            break;
+        case QueryType::time_of_impact:
+            batch.add(TimeOfImpactQuery{a, b, request.end_a.value_or(a.pose),
+                                        request.end_b.value_or(b.pose), request.tolerance,
+                                        request.time_bound, request.most_steps, request.technique});
             break;
     }
 }

@@ -17,7 +17,8 @@ enum class QueryType {
     contacts,
     closest_point,
     separation,
-    intersection_test
+    intersection_test,
+    time_of_impact
 };
 
 /// What the picture of a distance field shows.
@@ -43,6 +44,11 @@ struct QueryRequest {
     bool gradients = false;
     std::vector<Vector2> at;
     FieldPicture picture = FieldPicture::field;
+    // All of time-of-impact.
+    std::optional<Pose> end_a;  ///< default: A stands still
+    std::optional<Pose> end_b;
+    double time_bound = 1.0;
+    std::uint32_t most_steps = TimeOfImpactQuery().most_steps;
 };
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
