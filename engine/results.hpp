@@ -12,6 +12,7 @@
 #include <engine/plan/round.hpp>
 #include <engine/point_penetration.hpp>
 #include <engine/point_resolver.hpp>
+#include <engine/separation_vector.hpp>
 #include <engine/time_of_impact.hpp>
 #include <nearfield/result.hpp>
 
@@ -76,6 +77,7 @@ private:
     ExactOverlap overlaps_;
     IntersectionTest intersection_test_;
     TimeOfImpact time_of_impact_;
+    SeparationVector separation_vector_;
     PointPenetration penetration_;
     ClosestDecoder closest_;
 };

@@ -102,6 +102,9 @@ struct Estimate {
     }
     // Several separations; one technique alone answers it.
     Work operator()(const TimeOfImpactQuery&) const { return {&TechniqueCost::closest, edges()}; }
+    Work operator()(const SeparationVectorQuery&) const {
+        return {&TechniqueCost::closest, edges()};
+    }
 
     Work operator()(const IntersectionQuery& query) const {
         const Box box =

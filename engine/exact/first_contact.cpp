@@ -15,7 +15,8 @@ constexpr double no_end = std::numeric_limits<double>::infinity();
 // kept all along, and is an eighth in the worst case; a step takes the other seven.
 constexpr double kept_part = 1.0 / 8.0;
 
-// So many pairs are looked at one by one in a step; a bound for all others costs less than more.
+// So many pairs, and half as many as there are edges, are looked at one by one in a step: that
+// takes about as long as to find the distance.
 constexpr std::size_t most_pairs = 64;
 
 // Distances of less than so many roundings are none.
@@ -119,18 +120,28 @@ double FirstContactFinder::safe_step(double distance, double keep, double left) 
         return left;
     }
     near_.begin(placed_a(), placed_b());
-    double reach = std::max(reach_, 4.0 * distance);
+    const std::size_t most = most_pairs + (placed_a().count + placed_b().count) / 2;
+    const double least_reach = 4.0 * distance;
+    double reach = std::max(reach_, least_reach);
+    bool may_grow = true;
     for (;;) {
+        if (!near_.find(reach, most)) {
+            reach_ = reach / 2.0;
+            if (reach == least_reach || !may_grow) {
+                return step;
+            }
+            may_grow = false;
+            reach = std::max(reach / 8.0, least_reach);
+            continue;
+        }
         const double of_others = std::min(motion_.time(reach - keep), left);
         double of_pairs = no_end;
-        const std::vector<VertexAndEdge>& pairs = near_.find(reach);
-        for (const VertexAndEdge& pair : pairs) {
+        for (const VertexAndEdge& pair : near_.found()) {
             of_pairs = std::min(of_pairs, pair_step(pair, keep));
         }
         step = std::max(step, std::min(of_pairs, of_others));
-        if (of_pairs < of_others || of_others >= left || pairs.size() > most_pairs) {
-            const bool too_far = 4.0 * of_pairs < of_others || pairs.size() > most_pairs;
-            reach_ = too_far ? reach / 2.0 : reach;
+        if (of_pairs < of_others || of_others >= left || !may_grow) {
+            reach_ = 4.0 * of_pairs < of_others ? reach / 2.0 : reach;
             return step;
         }
         reach *= 4.0;

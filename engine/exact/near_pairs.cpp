@@ -16,9 +16,12 @@ struct WithinDistance {
     LazyTree& tree_a;
     LazyTree& tree_b;
     double squared_limit;
+    std::size_t most;
     std::vector<VertexAndEdge>& found;
 
-    [[nodiscard]] double squared_bound() const { return squared_limit; }
+    [[nodiscard]] double squared_bound() const {
+        return found.size() > most ? -1.0 : squared_limit;
+    }
     [[nodiscard]] static bool is_leaf(const LazyTree& tree, std::uint32_t node) {
         return Leaf::is_leaf(tree[node]);
     }
@@ -58,11 +61,11 @@ void NearPairFinder::begin(const PlacedEdges& a, const PlacedEdges& b) {
     }
 }
 
-void NearPairFinder::add_near_edges(const PlacedEdges& vertices, const PlacedEdges& edges,
-                                    bool vertex_of_a, double squared) {
+bool NearPairFinder::add_near_edges(const PlacedEdges& vertices, const PlacedEdges& edges,
+                                    bool vertex_of_a, double squared, std::size_t most) {
     const std::uint32_t count = kernels::find_points_within(vertices.starts(), extent_of(edges.box),
                                                             squared, vertices_.data());
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < count && found_.size() <= most; ++i) {
         const std::uint32_t vertex = vertices_[i];
         const std::uint32_t near = kernels::find_edges_within(
             edges, vertices.start_x[vertex], vertices.start_y[vertex], squared, edges_.data());
@@ -70,20 +73,20 @@ void NearPairFinder::add_near_edges(const PlacedEdges& vertices, const PlacedEdg
             found_.push_back({vertex_of_a, vertex, edges_[k]});
         }
     }
+    return found_.size() <= most;
 }
 
-const std::vector<VertexAndEdge>& NearPairFinder::find(double distance) {
+bool NearPairFinder::find(double distance, std::size_t most) {
     // More than what the kernels, the boxes or placing the vertices may have rounded.
     const double limit = distance * (1.0 + 1e-12) + a_->rounding + b_->rounding;
     found_.clear();
     if (by_trees_) {
-        WithinDistance within{tree_a_, tree_b_, limit * limit, found_};
+        WithinDistance within{tree_a_, tree_b_, limit * limit, most, found_};
         localize::PairSearch(tree_a_, tree_b_, within).run();
-    } else {
-        add_near_edges(*a_, *b_, true, limit * limit);
-        add_near_edges(*b_, *a_, false, limit * limit);
+        return found_.size() <= most;
     }
-    return found_;
+    return add_near_edges(*a_, *b_, true, limit * limit, most) &&
+           add_near_edges(*b_, *a_, false, limit * limit, most);
 }
 
 }  // namespace nearfield::exact

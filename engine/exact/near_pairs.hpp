@@ -24,12 +24,15 @@ public:
     /// For another pair, or other poses, from here on. The shapes must outlive the calls of find().
     void begin(const PlacedEdges& a, const PlacedEdges& b);
 
-    /// Every vertex and edge no farther apart than `distance`, and perhaps a few more.
-    [[nodiscard]] const std::vector<VertexAndEdge>& find(double distance);
+    /// Lists every vertex and edge no farther apart than `distance`, and perhaps a few more. False,
+    /// and some of them, where there are more than `most`.
+    [[nodiscard]] bool find(double distance, std::size_t most);
+    [[nodiscard]] const std::vector<VertexAndEdge>& found() const { return found_; }
 
 private:
-    void add_near_edges(const PlacedEdges& vertices, const PlacedEdges& edges, bool vertex_of_a,
-                        double squared);
+    /// False where there are too many.
+    [[nodiscard]] bool add_near_edges(const PlacedEdges& vertices, const PlacedEdges& edges,
+                                      bool vertex_of_a, double squared, std::size_t most);
 
     static constexpr std::size_t room = padded(most_edges_one_by_one);
     const PlacedEdges* a_ = nullptr;

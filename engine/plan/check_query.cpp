@@ -190,6 +190,10 @@ Status check_query(const TimeOfImpactQuery& query) {
     return is_usable(query.end_b) ? Status() : unusable(query.end_b, "B's end pose");
 }
 
+Status check_query(const SeparationVectorQuery& query) {
+    return check_pair(query);
+}
+
 Status unresolved(double tolerance, double largest_magnitude, double smallest) {
     return invalid("the tolerance " + number(tolerance) +
                    " is below what double precision resolves at coordinates of " +

@@ -20,6 +20,7 @@ namespace nearfield::plan {
 [[nodiscard]] Status check_query(const SeparationQuery& query);
 [[nodiscard]] Status check_query(const IntersectionTestQuery& query);
 [[nodiscard]] Status check_query(const TimeOfImpactQuery& query);
+[[nodiscard]] Status check_query(const SeparationVectorQuery& query);
 
 /// A pose that can be used, or an error; `whose` it is, for the message.
 [[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);

@@ -61,6 +61,8 @@ private:
     void add(const IntersectionTestQuery& /*query*/, IntersectionTestResult& /*result*/) {}
     /// Nor here: TimeOfImpact answers it.
     void add(const TimeOfImpactQuery& /*query*/, TimeOfImpactResult& /*result*/) {}
+    /// Nor here: SeparationVector answers it.
+    void add(const SeparationVectorQuery& /*query*/, SeparationVectorResult& /*result*/) {}
 
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);

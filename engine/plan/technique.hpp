@@ -28,6 +28,11 @@ template <class Query>
             return "times of impact";
         }
     }
+    if constexpr (std::is_same_v<Query, SeparationVectorQuery>) {
+        if (technique != Technique::cpu && technique != Technique::automatic) {
+            return "separation vectors";
+        }
+    }
     return nullptr;
 }
 

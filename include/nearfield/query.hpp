@@ -42,8 +42,8 @@ enum class Technique {
     /// vertices or between shapes of at most 256 edges), and no grid is sampled in them; closest
     /// points have none, nor has such penetration without records. Intersections: bit masks of the
     /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
-    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests and times
-    /// of impact it alone.
+    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests, times
+    /// of impact and separation vectors it alone.
     cpu,
 };
 
@@ -231,15 +231,28 @@ struct TimeOfImpactQuery {
     Technique technique = Technique::automatic;
 };
 
+/// A translation of A after which the shapes share no point, as short as can be found. Goes beyond
+/// the paper, whose penetration depth is that of single points. Always answered on the CPU, as
+/// IntersectionTestQuery.
+struct SeparationVectorQuery {
+    Instance a;  ///< moves
+    Instance b;  ///< stands still
+    /// d, world units, > 0: the search ends where the translation is known to be no more than this
+    /// longer than the shortest one; or before, after a fixed number of trials, for shapes that
+    /// need more (SeparationVectorResult::lower_bound says what is known).
+    double tolerance = 0.0;
+    Technique technique = Technique::automatic;
+};
+
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
     std::uint32_t index = UINT32_MAX;
 };
 
-using AnyQuery =
-    std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
-                 ClosestPointQuery, SeparationQuery, IntersectionTestQuery, TimeOfImpactQuery>;
+using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
+                              ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
+                              TimeOfImpactQuery, SeparationVectorQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so a batch that is filled anew each
 /// frame does not allocate. Not thread-safe; different batches are independent.

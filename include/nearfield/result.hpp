@@ -263,6 +263,18 @@ struct TimeOfImpactResult : ResultSummary {
     std::uint32_t steps = 0;  ///< how often the shapes were looked at
 };
 
+/// Answer to a SeparationVectorQuery. The vector is verified: by the intersection test, A moved by
+/// it shares no point with B. Where `intersects` is false it is zero, and so are the lengths.
+///
+/// `error_bound`: the rounding of placed vertices and the shapes' deviations. The rings as given
+/// are separated; shapes with a deviation may still be as deep in each other as these together.
+struct SeparationVectorResult : ResultSummary {
+    Vector2 vector;       ///< to be added to the translation of A's pose
+    double length = 0.0;  ///< of the vector
+    double lower_bound =
+        0.0;  ///< no translation of A that is shorter than this separates the shapes
+};
+
 /// Time one pass took on the device.
 struct PassTime {
     std::string name;
@@ -283,9 +295,9 @@ struct Timings {
     std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
 };
 
-using AnyResult =
-    std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult, ContactResult,
-                 ClosestPointResult, SeparationResult, IntersectionTestResult, TimeOfImpactResult>;
+using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
+                               ContactResult, ClosestPointResult, SeparationResult,
+                               IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
 
 template <class Query>
 struct ResultOf;
@@ -323,6 +335,11 @@ struct ResultOf<IntersectionTestQuery> {
 template <>
 struct ResultOf<TimeOfImpactQuery> {
     using type = TimeOfImpactResult;
+};
+
+template <>
+struct ResultOf<SeparationVectorQuery> {
+    using type = SeparationVectorResult;
 };
 
 /// The results of one batch, in the order of its queries. Reusing one object for every frame keeps

@@ -323,6 +323,10 @@ TEST_F(Techniques, AutomaticIsWhatCostsLeast) {
         field.gradient = GradientMethod::blended;
         expect(field, Technique::raster);
         expect(IntersectionTestQuery{pair.instance_a(), pair.instance_b()}, Technique::cpu);
+        const Instance a = pair.instance_a();
+        const Instance b = pair.instance_b();
+        expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
+        expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
     }
 }
 
@@ -416,6 +420,8 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
             batch.add(field);
             batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
             batch.add(IntersectionTestQuery{a, b});
+            batch.add(TimeOfImpactQuery{{a.shape, {{-4, 1}, 0.0}}, b, a.pose, b.pose, 0.01});
+            batch.add(SeparationVectorQuery{a, b, 0.01});
             batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});
             batch.add(
                 ContactQuery{a, b, 0.01, 0.02, ContactNormals::analytic, true, Technique::cpu});

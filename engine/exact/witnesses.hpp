@@ -1,0 +1,36 @@
+#pragma once
+
+#include <engine/exact/placed_edges.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::exact {
+
+/// How deep a point lies inside edges by the odd-even rule: the distance to the nearest, negative
+/// outside.
+[[nodiscard]] double depth_in(const EdgeArrays& edges, const geometry::Vector& point);
+
+/// A disc that lies in a shape; one of no radius is a point of it.
+struct Witness {
+    geometry::Vector centre;
+    double radius = 0.0;
+};
+
+/// Discs in a shape that tell how deep it is in another one: the disc's radius and the depth of its
+/// centre in the other shape are together no more than how far the shape can be moved, whichever
+/// way, without being apart from the other. Keeps its memory from shape to shape.
+class Witnesses {
+public:
+    /// Some vertices, and discs that touch the middle of some edges and are as large as fit in.
+    void choose(const PlacedEdges& edges);
+
+    [[nodiscard]] const std::vector<Witness>& all() const { return all_; }
+
+private:
+    void add_largest_disc(const PlacedEdges& edges, std::uint32_t edge);
+
+    std::vector<Witness> all_;
+};
+
+}  // namespace nearfield::exact
