@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
 #include <optional>
@@ -18,7 +19,8 @@ enum class QueryType {
     closest_point,
     separation,
     intersection_test,
-    time_of_impact
+    time_of_impact,
+    separation_vector
 };
 
 /// What the picture of a distance field shows.
@@ -51,6 +53,12 @@ struct QueryRequest {
     std::uint32_t most_steps = TimeOfImpactQuery().most_steps;
 };
 
+/// True of a query that the device may answer, by sampling on a grid.
+[[nodiscard]] constexpr bool is_sampled(QueryType type) {
+    return type != QueryType::intersection_test && type != QueryType::time_of_impact &&
+           type != QueryType::separation_vector;
+}
+
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
 /// what there is to choose from; `what` says where the name stands ("--kind").
 [[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
@@ -66,6 +74,7 @@ struct QueryRequest {
 [[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
+[[nodiscard]] std::string_view name_of(ImpactState state) noexcept;
 
 [[nodiscard]] Technique parse_technique(const std::string& name, const std::string& what);
 
