@@ -4,20 +4,21 @@
 find_program(NEARFIELD_GLSLANG NAMES glslangValidator glslang REQUIRED
              DOC "glslang, to compile shaders (package glslang-tools)")
 
-# nearfield_shaders(TARGET SHADER...): each shaders/NAME.STAGE becomes a header
-# <shaders/NAME_STAGE.hpp> with the array nearfield::shaders::NAME_STAGE.
-function(nearfield_shaders target)
-    set(output_folder ${PROJECT_BINARY_DIR}/generated/shaders)
+# nearfield_shaders(TARGET FOLDER SHADER...): each FOLDER/NAME.STAGE of the project becomes a header
+# <FOLDER/NAME_STAGE.hpp> with the array nearfield::shaders::NAME_STAGE.
+function(nearfield_shaders target folder)
+    set(output_folder ${PROJECT_BINARY_DIR}/generated/${folder})
     file(MAKE_DIRECTORY ${output_folder})
-    file(GLOB includes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl)
+    file(GLOB includes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.glsl
+         ${PROJECT_SOURCE_DIR}/include/nearfield/*.glsl)
     foreach(shader IN LISTS ARGN)
         string(REPLACE "." "_" symbol ${shader})
-        set(source ${PROJECT_SOURCE_DIR}/shaders/${shader})
+        set(source ${PROJECT_SOURCE_DIR}/${folder}/${shader})
         set(header ${output_folder}/${symbol}.hpp)
         add_custom_command(
             OUTPUT ${header}
-            COMMAND ${NEARFIELD_GLSLANG} --quiet --target-env vulkan1.1 -I${PROJECT_SOURCE_DIR}/shaders
-                    --vn words -o ${header}.words ${source}
+            COMMAND ${NEARFIELD_GLSLANG} --quiet --target-env vulkan1.1
+                    -I${PROJECT_SOURCE_DIR}/${folder} -I${PROJECT_SOURCE_DIR}/include --vn words -o ${header}.words ${source}
             COMMAND ${CMAKE_COMMAND} -DINPUT=${header}.words -DOUTPUT=${header} -DSYMBOL=${symbol}
                     -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
             DEPENDS ${source} ${includes} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
@@ -25,8 +26,8 @@ function(nearfield_shaders target)
             VERBATIM)
         list(APPEND headers ${header})
     endforeach()
-    add_custom_target(nearfield_spirv DEPENDS ${headers})
-    add_dependencies(${target} nearfield_spirv)
+    add_custom_target(${target}_spirv DEPENDS ${headers})
+    add_dependencies(${target} ${target}_spirv)
     target_sources(${target} PRIVATE ${headers})
     target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated)
 endfunction()

@@ -1,7 +1,10 @@
 #include <engine/batch_runner.hpp>
 #include <engine/failure.hpp>
+#include <engine/plan/technique.hpp>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 namespace nearfield {
 namespace {
@@ -9,6 +12,14 @@ namespace {
 std::span<const Vector2> points_of(const AnyQuery& query) {
     const auto* const field = std::get_if<DistanceFieldQuery>(&query);
     return field == nullptr ? std::span<const Vector2>() : field->points;
+}
+
+/// Which of those that stay on the device is a query's.
+template <class HandedOver>
+std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [query](const HandedOver& one) { return one.query == query; });
+    return static_cast<std::size_t>(found - all.begin());
 }
 
 }  // namespace
@@ -60,40 +71,133 @@ void BatchRunner::make_rounds() {
     for (std::uint32_t number = 0; number < plan_.rounds; ++number) {
         builder.build(plan_, number, rounds_[number]);
     }
+    hand_over_builder_.build(plan_, std::span(rounds_).first(plan_.rounds), results_.results,
+                             hand_over_);
     timings.plan += start.milliseconds();
 }
 
-void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape) {
-    if (slot_->in_flight()) {
+/// A query that cannot be recorded as it is, but may be answered by the CPU, is.
+void BatchRunner::keep_off_the_device() {
+    for (AnyQuery& query : queries_) {
+        std::visit(
+            [](auto& one) {
+                if (one.technique == Technique::automatic && plan::takes_a_second_submission(one)) {
+                    one.technique = Technique::cpu;
+                }
+            },
+            query);
+    }
+}
+
+/// Up to the point where rounds are ready to be recorded.
+void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                        plan::Submissions submissions) {
+    if (slot_->flight() == Flight::submitted) {
         slot_->wait();  // for a batch that failed half-way
     }
+    late_failure_ = nullptr;
     Timings& timings = results_.timings;
     const Stopwatch start;
     begin_timings();
     copy(queries);
+    if (submissions == plan::Submissions::one) {
+        keep_off_the_device();
+    }
     plan::find_shapes(queries_, find_shape, shapes_);
     planning_->chooser.choose(queries_, shapes_);
     plan::Planner& planner = planning_->planner;
-    planner.plan(queries_, shapes_, plan_, results_.results);
+    planner.plan(queries_, shapes_, plan_, results_.results, submissions);
     timings.localize += planner.localize_milliseconds();
     timings.plan += start.milliseconds() - planner.localize_milliseconds();
     decoder_.begin_batch(plan_);
-    if (plan_.rounds > 0) {
-        make_rounds();
-        renderer_->submit(std::span(rounds_).first(plan_.rounds), plan_.extent, *slot_, timings);
+    make_rounds();
+    if (has_device_work()) {
+        const SampleRoom room =
+            submissions == plan::Submissions::one ? SampleRoom::all : SampleRoom::likely;
+        renderer_->prepare(std::span(rounds_).first(plan_.rounds), hand_over_, plan_.extent, room,
+                           *slot_, timings);
+    }
+}
+
+/// Where there are no rounds, records that stay on the device are still to say that there are none.
+bool BatchRunner::has_device_work() const {
+    return plan_.rounds > 0 || !hand_over_.empty();
+}
+
+void BatchRunner::answer_on_cpu() {
+    const Stopwatch start;
+    decoder_.answer_on_cpu(plan_, results_.results);
+    results_.timings.decode += start.milliseconds();
+}
+
+void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                         const Submission& order) {
+    begin(queries, find_shape, plan::Submissions::any);
+    if (has_device_work()) {
+        renderer_->submit(*slot_, order, results_.timings);
         submitted_ = {};
         device_milliseconds_.reset();
+    } else {
+        slot_->submit_semaphores(order);
     }
-    const Stopwatch decode_start;
-    decoder_.answer_on_cpu(plan_, results_.results);
-    timings.decode += decode_start.milliseconds();
+    // Once it is submitted the host has to know: semaphores are on their way.
+    try {
+        answer_on_cpu();
+    } catch (...) {
+        late_failure_ = std::current_exception();
+    }
+}
+
+void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                         VkCommandBuffer commands, std::uint32_t stamp) {
+    begin(queries, find_shape, plan::Submissions::one);
+    answer_on_cpu();
+    if (has_device_work()) {
+        renderer_->record(*slot_, commands, stamp, results_.timings);
+        device_milliseconds_ = 0.0;  // the host alone knows
+    }
+}
+
+template <class Query>
+void BatchRunner::require_resident(QueryHandle<Query> handle) const {
+    const auto refuse = [&](const std::string& why) {
+        throw Failure({StatusCode::invalid_query,
+                       "resident: query " + std::to_string(handle.index) + " " + why});
+    };
+    if (handle.index >= queries_.size()) {
+        refuse("is none of the batch, which has " + std::to_string(queries_.size()));
+    }
+    const auto* const query = std::get_if<Query>(&queries_[handle.index]);
+    if (query == nullptr) {
+        refuse("is of another kind than its handle says");
+    } else if (!query->resident) {
+        refuse("did not ask for results that stay on the device (resident)");
+    }
+    const Status& status =
+        std::visit([](const auto& result) -> const Status& { return result.status; },
+                   results_.results[handle.index]);
+    if (!status.ok()) {
+        throw Failure(status);
+    }
+}
+
+template void BatchRunner::require_resident(QueryHandle<PenetrationQuery>) const;
+template void BatchRunner::require_resident(QueryHandle<ContactQuery>) const;
+
+ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) const {
+    require_resident(handle);
+    return slot_->hand_over().field(place_of(hand_over_.fields, handle.index));
+}
+
+ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
+    return slot_->hand_over().records(place_of(hand_over_.records, query));
 }
 
 bool BatchRunner::is_done() {
     if (!slot_->is_done()) {
         return false;
     }
-    if (slot_->in_flight() && !device_milliseconds_) {
+    if (slot_->flight() == Flight::submitted && !device_milliseconds_) {
         device_milliseconds_ = submitted_.milliseconds();
     }
     return true;
@@ -107,7 +211,7 @@ void BatchRunner::wait() {
 
 void BatchRunner::collect() {
     Timings& timings = results_.timings;
-    while (slot_->in_flight()) {
+    while (slot_->flight() != Flight::none) {
         wait();
         const Stopwatch start;
         for (const std::uint32_t number : slot_->running()) {
@@ -122,6 +226,9 @@ void BatchRunner::collect() {
         }
     }
     slot_->release();
+    if (late_failure_) {
+        std::rethrow_exception(std::exchange(late_failure_, nullptr));
+    }
     const Stopwatch start;
     decoder_.finish(plan_, results_.results);
     timings.decode += start.milliseconds();

@@ -1,3 +1,4 @@
+#include <engine/boundary_normal.hpp>
 #include <engine/contacts.hpp>
 #include <engine/localize/hierarchy.hpp>
 
@@ -10,9 +11,6 @@ namespace {
 using geometry::Vector;
 using plan::BoundaryPoint;
 using plan::PlannedQuery;
-
-// So far from an end of an edge its sides are the edge's own, not a neighbour's.
-constexpr double just_inside = 1.0 / 1024.0;
 
 ContactRecord make_record(const ResolvedPoint& resolved, Side on, const Vector& normal) {
     return {geometry::to_public(resolved.point),
@@ -109,7 +107,8 @@ void ContactDecoder::find_contacts_of_b(const plan::Plan& plan, const PlannedQue
     for_each_near(
         plan, reverse, words, contact_distance, b_in_a_,
         [&](const plan::PlannedPoint& planned, const ResolvedPoint& resolved) {
-            of_b_.push_back({make_record(resolved, Side::b, normal_of_b_at(planned.point)),
+            of_b_.push_back({make_record(resolved, Side::b,
+                                         outward_normal_at(a_in_b_.boundary_of_b(), planned.point)),
                              planned.point,
                              {resolved.edge, resolved.parameter}});
         });
@@ -122,33 +121,10 @@ Vector ContactDecoder::normal_of_b_near(const ResolvedPoint& resolved) {
         const Vector away = (resolved.point - resolved.nearest) / resolved.distance;
         return resolved.inside ? Vector(-away) : away;
     }
-    return resolved.feature.kind == Feature::Kind::edge
-               ? normal_of_b(resolved.edge, resolved.parameter)
-               : normal_of_b_at({resolved.feature.index, 0.0});
-}
-
-Vector ContactDecoder::normal_of_b(std::uint32_t edge, double parameter) {
     exact::Boundary& boundary = a_in_b_.boundary_of_b();
-    const geometry::Polygon& polygon = boundary.polygon().polygon();
-    Vector normal = boundary.outward_normal(edge, parameter);
-    // An edge of no length has no normal: the next one that has stands in for it.
-    for (std::uint32_t other = polygon.next(edge); normal.isZero() && other != edge;
-         other = polygon.next(other)) {
-        normal = boundary.outward_normal(other, just_inside);
-    }
-    return normal;
-}
-
-Vector ContactDecoder::normal_of_b_at(const BoundaryPoint& point) {
-    if (point.parameter > 0.0) {
-        return normal_of_b(point.edge, point.parameter);
-    }
-    // At a vertex, between the normals of its two edges; where these cancel, one of them.
-    const geometry::Polygon& polygon = a_in_b_.b().polygon();
-    const Vector after = normal_of_b(point.edge, just_inside);
-    const Vector sum = normal_of_b(polygon.previous(point.edge), 1.0 - just_inside) + after;
-    const double length = sum.norm();
-    return length > 1e-9 ? Vector(sum / length) : after;
+    return resolved.feature.kind == Feature::Kind::edge
+               ? outward_normal(boundary, resolved.edge, resolved.parameter)
+               : outward_normal_at(boundary, {resolved.feature.index, 0.0});
 }
 
 }  // namespace nearfield

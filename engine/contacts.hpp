@@ -35,8 +35,6 @@ private:
     void find_contacts_of_b(const plan::Plan& plan, const plan::PlannedQuery& reverse,
                             std::span<const std::uint32_t> words, double contact_distance);
     [[nodiscard]] geometry::Vector normal_of_b_near(const ResolvedPoint& resolved);
-    [[nodiscard]] geometry::Vector normal_of_b(std::uint32_t edge, double parameter);
-    [[nodiscard]] geometry::Vector normal_of_b_at(const plan::BoundaryPoint& point);
 
     double touching_ = 0.0;  // nearer than this, the direction to the nearest point means little
     PointResolver a_in_b_;

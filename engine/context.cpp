@@ -4,37 +4,25 @@
 #include <engine/frame_ring.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
+#include <engine/gpu/submission.hpp>
 #include <engine/graph/format.hpp>
+#include <engine/growable.hpp>
+#include <engine/guarded.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/renderer.hpp>
 #include <engine/shape_store.hpp>
+#include <engine/stopwatch.hpp>
 #include <nearfield/context.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace nearfield {
 namespace {
-
-/// Turns whatever an action throws into a status: no exception crosses the interface.
-template <class Action>
-Status guarded(Action&& action) {
-    try {
-        action();
-        return {};
-    } catch (const Failure& failure) {
-        return failure.status();
-    } catch (const std::bad_alloc&) {
-        return {StatusCode::out_of_memory, "the host has no memory left"};
-    } catch (const std::exception& error) {
-        return {StatusCode::device_error, error.what()};
-    }
-}
 
 geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
     return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
@@ -44,6 +32,7 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     plan::PlanLimits limits;
     limits.subpixel = subpixel_grid(device);
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
+    limits.largest_image = device.limits().maxImageDimension2D;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
@@ -59,13 +48,15 @@ CostModel costs_of(const gpu::Device& device, const Settings& settings) {
         device.is_software() ? choose::DeviceClass::software : choose::DeviceClass::hardware));
 }
 
-void check_settings(const Settings& settings) {
+Settings checked(const Settings& given) {
+    const Settings settings = adopted(given, "Settings");
     if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
         throw Failure({StatusCode::invalid_settings, "frames_in_flight is " +
                                                          std::to_string(settings.frames_in_flight) +
                                                          "; it must be at least 1 and at most " +
                                                          std::to_string(most_frames_in_flight)});
     }
+    return settings;
 }
 
 Status lost_device() {
@@ -88,28 +79,58 @@ public:
           costs_(costs_of(device_, settings)),
           renderer_(device_),
           ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_,
-                gradient_format(device_), renderer_, shapes_) {}
+                gradient_format(device_), renderer_, shapes_) {
+        device_.log(LogLevel::information, [&] {
+            return "context on '" + device_.name() + "' made in " +
+                   std::to_string(making_.milliseconds()) + " ms, for " +
+                   std::to_string(settings.frames_in_flight) + " frames in flight";
+        });
+    }
+    ~Implementation() {
+        device_.log(LogLevel::information, [&] {
+            return "context on '" + device_.name() + "' goes; it took at most " +
+                   std::to_string(device_.memory_count().peak()) + " bytes of device memory";
+        });
+    }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
 
     Status find_pairs(std::span<const Instance> instances, double reach,
                       std::vector<InstancePair>& pairs);
-    Expected<Ticket> submit(const Batch& batch, Results* memory);
+    Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
+    Expected<Ticket> record(const Batch& batch, const Recording& recording);
+    void frame_completed(std::uint64_t frame) { ring_.complete(frame); }
     bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
     Status collect(Ticket ticket, Results& results);
+
+    template <class Resident, class Query>
+    Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
+        Resident result;
+        Status status = unless_lost([&] { result = ring_.resident(ticket, query); });
+        return status.ok() ? Expected<Resident>(result) : status;
+    }
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const Renderer& renderer() const { return renderer_; }
 
-private:
-    /// Runs what has to do with the device; remembers where it is lost.
+    /// Does something unless the device is lost; remembers where it gets lost.
     template <class Action>
-    Status on_device(Action&& action) {
+    Status unless_lost(Action&& action) noexcept {
+        if (lost_) {
+            return lost_device_;
+        }
         Status status = guarded(action);
-        lost_ = lost_ || status.code() == StatusCode::device_lost;
+        if (status.code() == StatusCode::device_lost) {
+            lost_ = true;
+            device_.log(LogLevel::error, [&] { return "the device is lost: " + status.message(); });
+        }
         return status;
     }
 
+private:
+    Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
     CostModel costs_;
@@ -119,6 +140,7 @@ private:
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     Renderer renderer_;
     FrameRing ring_;
+    const Status lost_device_ = lost_device();  // made ahead: saying it needs no memory
     bool lost_ = false;
 };
 
@@ -148,21 +170,30 @@ Status Context::Implementation::find_pairs(std::span<const Instance> instances, 
     return {};
 }
 
-Expected<Ticket> Context::Implementation::submit(const Batch& batch, Results* memory) {
-    if (lost_) {
-        return lost_device();
-    }
+Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission,
+                                                 Results* memory) {
     Ticket ticket;
-    Status status = on_device([&] { ticket = ring_.submit(batch.queries(), memory); });
+    Status status = unless_lost([&] {
+        const Submission order = adopted(submission, "Submission");
+        gpu::check_semaphores(device_, order);
+        ticket = ring_.submit(batch.queries(), order, memory);
+    });
+    return status.ok() ? Expected<Ticket>(ticket) : status;
+}
+
+Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
+    Ticket ticket;
+    Status status = unless_lost(
+        [&] { ticket = ring_.record(batch.queries(), adopted(recording, "Recording")); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Status Context::Implementation::collect(Ticket ticket, Results& results) {
     if (lost_) {
         Status status = guarded([&] { ring_.drop(ticket); });
-        return status.ok() ? lost_device() : status;
+        return status.ok() ? lost_device_ : status;
     }
-    return on_device([&] { ring_.collect(ticket, results); });
+    return unless_lost([&] { ring_.collect(ticket, results); });
 }
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
@@ -174,8 +205,9 @@ Context& Context::operator=(Context&&) noexcept = default;
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        check_settings(settings);
-        implementation = std::make_unique<Implementation>(nullptr, host, settings);
+        implementation = std::make_unique<Implementation>(
+            nullptr, adopted(host, "HostDevice", offsetof(HostDevice, debug_utils)),
+            checked(settings));
     });
     if (!status.ok()) {
         return status;
@@ -187,10 +219,10 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        check_settings(settings);
-        auto own = std::make_unique<gpu::HeadlessDevice>(options);
+        const Settings own_settings = checked(settings);
+        auto own = std::make_unique<gpu::HeadlessDevice>(adopted(options, "HeadlessOptions"));
         const HostDevice host = own->host();
-        implementation = std::make_unique<Implementation>(std::move(own), host, settings);
+        implementation = std::make_unique<Implementation>(std::move(own), host, own_settings);
     });
     if (!status.ok()) {
         return status;
@@ -200,37 +232,48 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
 
 Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, double deviation) {
     Expected<ShapeHandle> handle = ShapeHandle{};
-    Status status = guarded([&] { handle = implementation_->shapes().add(rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { handle = implementation_->shapes().add(rings, deviation); });
     return status.ok() ? handle : Expected<ShapeHandle>(status);
 }
 
 Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation) {
     Status result;
-    Status status =
-        guarded([&] { result = implementation_->shapes().update(shape, rings, deviation); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->shapes().update(shape, rings, deviation); });
     return status.ok() ? result : status;
 }
 
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
-    Status status = guarded([&] { result = implementation_->shapes().remove(shape); });
+    Status status =
+        implementation_->unless_lost([&] { result = implementation_->shapes().remove(shape); });
     return status.ok() ? result : status;
 }
 
 Status Context::find_pairs(std::span<const Instance> instances, double reach,
                            std::vector<InstancePair>& pairs) {
     Status result;
-    Status status = guarded([&] { result = implementation_->find_pairs(instances, reach, pairs); });
+    Status status = implementation_->unless_lost(
+        [&] { result = implementation_->find_pairs(instances, reach, pairs); });
     return status.ok() ? result : status;
 }
 
 Status Context::run(const Batch& batch, Results& results) {
-    const Expected<Ticket> ticket = implementation_->submit(batch, &results);
+    const Expected<Ticket> ticket = implementation_->submit(batch, {}, &results);
     return ticket.ok() ? implementation_->collect(*ticket, results) : ticket.status();
 }
 
-Expected<Ticket> Context::submit(const Batch& batch) {
-    return implementation_->submit(batch, nullptr);
+Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission) {
+    return implementation_->submit(batch, submission, nullptr);
+}
+
+Expected<Ticket> Context::record(const Batch& batch, const Recording& recording) {
+    return implementation_->record(batch, recording);
+}
+
+void Context::frame_completed(std::uint64_t frame) noexcept {
+    implementation_->frame_completed(frame);
 }
 
 bool Context::is_ready(Ticket ticket) {
@@ -241,9 +284,22 @@ Status Context::collect(Ticket ticket, Results& results) {
     return implementation_->collect(ticket, results);
 }
 
+Expected<ResidentField> Context::resident(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {
+    return implementation_->resident<ResidentField>(ticket, query);
+}
+
+Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<PenetrationQuery> query) {
+    return implementation_->resident<ResidentRecords>(ticket, query);
+}
+
+Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQuery> query) {
+    return implementation_->resident<ResidentRecords>(ticket, query);
+}
+
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {
     CostModel costs;
-    Status status = guarded([&] { costs = nearfield::measure_costs(*this, progress); });
+    Status status =
+        implementation_->unless_lost([&] { costs = nearfield::measure_costs(*this, progress); });
     return status.ok() ? Expected<CostModel>(costs) : status;
 }
 
@@ -255,10 +311,18 @@ const std::string& Context::device_name() const noexcept {
     return implementation_->device().name();
 }
 
+MemoryUse Context::memory_use() const noexcept {
+    const gpu::MemoryCount& count = implementation_->device().memory_count();
+    return {count.in_use(), count.peak()};
+}
+
 std::string Context::describe_graph(GraphFormat format) const {
     std::string text;
     const Status status = guarded([&] { text = implementation_->renderer().print(format); });
-    return status.ok() ? text : status.text();
+    if (!status.ok()) {
+        static_cast<void>(guarded([&] { text = status.text(); }));
+    }
+    return text;
 }
 
 }  // namespace nearfield

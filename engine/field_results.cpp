@@ -72,7 +72,7 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
                             const plan::TileDraw& draw, std::span<const std::uint32_t> words,
                             DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
-    if (planned.field.values) {
+    if (planned.field.host_values) {
         const auto values = words.subspan(draw.first_value);
         for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
             const float distance = in_world(values[drawn], tile);
@@ -81,7 +81,7 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
             }
         });
     }
-    if (planned.field.features) {
+    if (planned.field.host_features) {
         add_features(planned, tile, words.subspan(draw.first_feature), result);
     }
     if (planned.field.gradients) {

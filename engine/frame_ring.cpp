@@ -2,6 +2,7 @@
 #include <engine/frame_ring.hpp>
 #include <engine/stopwatch.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -51,33 +52,75 @@ void FrameRing::release(Frame& frame) {
     frame.number = 0;
 }
 
-Ticket FrameRing::submit(std::span<const AnyQuery> queries, Results* memory) {
-    const Stopwatch start;
+template <class Start>
+Ticket FrameRing::start_batch(Results* memory, const Start& start) {
+    const Stopwatch stopwatch;
     Frame& frame = free_frame();
     if (memory != nullptr) {
         std::swap(*memory, frame.runner.results());
     }
     try {
-        frame.runner.submit(queries, [this, &frame](ShapeHandle shape) {
-            return shapes_->hold(shape, frame.shapes);
-        });
+        start(frame,
+              [this, &frame](ShapeHandle shape) { return shapes_->hold(shape, frame.shapes); });
     } catch (...) {
         release(frame);
         throw;
     }
     frame.number = ++last_number_;
-    frame.runner.results().timings.total = start.milliseconds();
+    frame.runner.results().timings.total = stopwatch.milliseconds();
     return {frame.number};
+}
+
+Ticket FrameRing::submit(std::span<const AnyQuery> queries, const Submission& order,
+                         Results* memory) {
+    return start_batch(memory, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.runner.submit(queries, find_shape, order);
+    });
+}
+
+Ticket FrameRing::record(std::span<const AnyQuery> queries, const Recording& recording) {
+    if (recording.commands == VK_NULL_HANDLE) {
+        throw Failure({StatusCode::invalid_submission, "Recording::commands is null"});
+    }
+    if (is_complete(recording.frame)) {
+        throw Failure({StatusCode::invalid_submission,
+                       "Recording::frame is " + std::to_string(recording.frame) +
+                           ", and the host said that all frames up to " +
+                           std::to_string(*complete_) + " are complete"});
+    }
+    if (recording.frame >= frames_.size()) {
+        complete(recording.frame - frames_.size());
+    }
+    return start_batch(nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.host_frame = recording.frame;
+        // Made of the number that the ticket will have.
+        const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
+        frame.runner.record(queries, find_shape, recording.commands, stamp);
+    });
+}
+
+void FrameRing::complete(std::uint64_t host_frame) {
+    complete_ = std::max(complete_.value_or(0), host_frame);
+}
+
+bool FrameRing::is_ready(Frame& frame) const {
+    return frame.runner.flight() == Flight::recorded ? is_complete(frame.host_frame)
+                                                     : frame.runner.is_done();
 }
 
 bool FrameRing::is_ready(Ticket ticket) {
     Frame* const frame = find(ticket);
-    return frame == nullptr || frame->runner.is_done();
+    return frame == nullptr || is_ready(*frame);
 }
 
 void FrameRing::collect(Ticket ticket, Results& results) {
     const Stopwatch start;
     Frame& frame = require(ticket);
+    if (frame.runner.flight() == Flight::recorded && !is_complete(frame.host_frame)) {
+        throw Failure({StatusCode::not_ready,
+                       "the batch was recorded for frame " + std::to_string(frame.host_frame) +
+                           ", which is not complete: Context::frame_completed() says when it is"});
+    }
     try {
         frame.runner.collect();
         normals_.apply(frame.runner);

@@ -1,4 +1,3 @@
-#include <engine/failure.hpp>
 #include <engine/graph/print.hpp>
 #include <engine/recipe.hpp>
 #include <passes/prototype.hpp>
@@ -6,23 +5,8 @@
 
 #include <shaders/number_frag.hpp>
 
-#include <utility>
-
 namespace nearfield {
-namespace {
-
 using graph::Handle;
-
-/// The baked form of a graph of our own; that it bakes is an invariant.
-graph::BakedGraph baked_form(const graph::Graph& graph) {
-    Expected<graph::BakedGraph> baked = graph::bake(graph);
-    if (!baked.ok()) {
-        throw Failure(baked.status());
-    }
-    return std::move(*baked);
-}
-
-}  // namespace
 
 Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
                const passes::Frame& frame)
@@ -63,7 +47,7 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
     } else {
         declare_drawn(passes);
     }
-    executor_ = std::make_unique<graph::Executor>(device, graph_, baked_form(graph_));
+    executor_ = graph::make_executor(device, graph_);
 }
 
 void Recipe::declare_compute(const Passes& passes) {
@@ -174,18 +158,18 @@ void Recipe::declare_field(const Passes& passes) {
     }
 }
 
-void Recipe::set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer scratch, VkBuffer read_back) {
+void Recipe::set_buffers(const Buffers& buffers) {
     const auto set = [&](Handle handle, VkBuffer buffer) {
         if (handle != Handle{}) {
             executor_->set_buffer(handle, buffer);
         }
     };
-    set(mesh_, mesh);
-    set(input_, input);
-    set(scratch_, scratch);
-    for (const Handle handle : {results_, field_, samples_}) {
-        set(handle, read_back);
-    }
+    set(mesh_, buffers.mesh);
+    set(input_, buffers.input);
+    set(scratch_, buffers.scratch);
+    set(results_, buffers.words);
+    set(field_, buffers.words);
+    set(samples_, buffers.read_back);
 }
 
 void Recipe::bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const {
@@ -213,8 +197,7 @@ void Recipe::bind_images(const passes::ComputeLayout& layout, const passes::Fram
 }
 
 std::string Recipe::print(GraphFormat format) const {
-    return format == GraphFormat::text ? graph::print_text(graph_, executor_->baked())
-                                       : graph::print_graphviz(graph_, executor_->baked());
+    return graph::print(graph_, executor_->baked(), format);
 }
 
 }  // namespace nearfield

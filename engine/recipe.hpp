@@ -104,9 +104,15 @@ public:
     [[nodiscard]] Needs needs() const { return needs_; }
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
 
-    /// The buffers behind the graph's handles: the mesh, the compute passes' input, the compute
-    /// technique's scratch memory, and what comes back.
-    void set_buffers(VkBuffer mesh, VkBuffer input, VkBuffer scratch, VkBuffer read_back);
+    /// The buffers behind the graph's handles; null where there is none.
+    struct Buffers {
+        VkBuffer mesh = VK_NULL_HANDLE;
+        VkBuffer input = VK_NULL_HANDLE;      ///< of compute passes
+        VkBuffer scratch = VK_NULL_HANDLE;    ///< of the compute technique
+        VkBuffer words = VK_NULL_HANDLE;      ///< of points and fields
+        VkBuffer read_back = VK_NULL_HANDLE;  ///< of summaries and samples
+    };
+    void set_buffers(const Buffers& buffers);
     /// Points the images of the frame's descriptor sets to this recipe's images.
     void bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const;
 

@@ -46,7 +46,12 @@ Needs needs_of(const plan::Round& round) {
 }  // namespace
 
 Renderer::Renderer(const gpu::Device& device)
-    : device_(&device), layout_(device), passes_(device, layout_, frame_) {}
+    : device_(&device),
+      layout_(device),
+      passes_(device, layout_, frame_),
+      copy_back_(device),
+      hand_over_field_(device, layout_),
+      hand_over_records_(device, layout_) {}
 
 std::unique_ptr<RenderSlot> Renderer::make_slot() const {
     return std::make_unique<RenderSlot>(*device_, layout_);
@@ -55,6 +60,7 @@ std::unique_ptr<RenderSlot> Renderer::make_slot() const {
 /// What a slot in flight uses lives on in it, whatever becomes of it here.
 std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent) {
     VkExtent2D atlas{plan::smallest_atlas, plan::smallest_atlas};
+    bool grows = false;
     for (const auto& recipe : recipes_) {
         if (recipe->needs() == needs) {
             if (recipe->extent().width >= extent.width &&
@@ -62,6 +68,7 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
                 return recipe;
             }
             atlas = recipe->extent();
+            grows = true;
         }
     }
     // Powers of two, so that an atlas that grows a little each frame is not made anew each frame.
@@ -71,6 +78,10 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
     while (atlas.height < extent.height) {
         atlas.height *= 2;
     }
+    device_->log(grows ? LogLevel::warning : LogLevel::information, [&] {
+        return std::string(grows ? "images grow to " : "images for a new kind of batch: ") +
+               std::to_string(atlas.width) + " x " + std::to_string(atlas.height);
+    });
     last_recipe_ = nullptr;
     std::erase_if(recipes_, [&](const auto& recipe) { return recipe->needs() == needs; });
     if (recipes_.size() == most_recipes) {
@@ -80,25 +91,47 @@ std::shared_ptr<Recipe> Renderer::recipe_for(Needs needs, plan::TileSize extent)
     return recipes_.back();
 }
 
-std::uint32_t Renderer::sample_capacity(const plan::Round& round) const {
+std::uint32_t Renderer::sample_capacity(const plan::Round& round, SampleRoom room) const {
+    if (room == SampleRoom::all) {
+        return static_cast<std::uint32_t>(round.listed_cells);
+    }
     const std::uint64_t expected =
         std::max<std::uint64_t>(most_samples_, 4096 + round.listed_cells / 8);
     return static_cast<std::uint32_t>(std::min(round.listed_cells, expected));
 }
 
-void Renderer::submit(std::span<const plan::Round> rounds, plan::TileSize extent, RenderSlot& slot,
-                      Timings& timings) {
+void Renderer::prepare(std::span<const plan::Round> rounds, const plan::HandOver& hand_over,
+                       plan::TileSize extent, SampleRoom room, RenderSlot& slot, Timings& timings) {
     const Stopwatch start;
-    slot.upload(rounds);
+    slot.upload(rounds, hand_over);
+    last_had_fields_ = !hand_over.fields.empty();
+    last_had_records_ = !hand_over.records.empty();
     slot.run(static_cast<std::uint32_t>(rounds.size()));
     for (const std::uint32_t number : slot.running()) {
         RoundOnDevice& round = slot.round(number);
         round.recipe = recipe_for(needs_of(rounds[number]), extent);
-        round.frame.sample_capacity = sample_capacity(rounds[number]);
+        round.frame.sample_capacity = sample_capacity(rounds[number], room);
         last_recipe_ = round.recipe;
     }
+    slot.lay_out_output();
     timings.plan += start.milliseconds();
-    record_and_submit(slot, timings);
+}
+
+void Renderer::submit(RenderSlot& slot, const Submission& order, Timings& timings) {
+    const Stopwatch start;
+    record_rounds(slot, slot.begin());
+    timings.record += start.milliseconds();
+    slot.submit(order);
+}
+
+void Renderer::record(RenderSlot& slot, VkCommandBuffer commands, std::uint32_t stamp,
+                      Timings& timings) {
+    const Stopwatch start;
+    device_->begin_label(commands, "nearfield");
+    record_rounds(slot, commands);
+    slot.end_recording(commands, stamp);
+    device_->end_label(commands);
+    timings.record += start.milliseconds();
 }
 
 bool Renderer::submit_those_without_room(RenderSlot& slot, Timings& timings) {
@@ -106,11 +139,12 @@ bool Renderer::submit_those_without_room(RenderSlot& slot, Timings& timings) {
     if (slot.running().empty()) {
         return false;
     }
-    record_and_submit(slot, timings);
+    slot.lay_out_output();
+    submit(slot, {}, timings);
     return true;
 }
 
-void Renderer::record(RenderSlot& slot, VkCommandBuffer commands) {
+void Renderer::record_rounds(RenderSlot& slot, VkCommandBuffer commands) {
     slot.timestamps().reset(commands);
     for (const std::uint32_t number : slot.running()) {
         const RoundOnDevice& round = slot.round(number);
@@ -119,14 +153,24 @@ void Renderer::record(RenderSlot& slot, VkCommandBuffer commands) {
         slot.hand_buffers_to(*round.recipe, number);
         round.recipe->execute(commands, slot.timestamps());
     }
+    record_hand_over(slot, commands);
 }
 
-void Renderer::record_and_submit(RenderSlot& slot, Timings& timings) {
-    const Stopwatch start;
-    slot.lay_out_output();
-    record(slot, slot.begin());
-    timings.record += start.milliseconds();
-    slot.submit();
+void Renderer::record_hand_over(RenderSlot& slot, VkCommandBuffer commands) {
+    const RenderSlot::CopyBack copies = slot.copy_back();
+    if (!copies.ranges.empty()) {
+        copy_back_.record(commands, slot.timestamps(), copies.words, copies.read_back,
+                          copies.ranges);
+    }
+    if (slot.is_to_hand_over()) {
+        const HandOverSlot& hand_over = slot.hand_over();
+        for (std::size_t i = 0; i < hand_over.hand_over().fields.size(); ++i) {
+            hand_over_field_.record(commands, slot.timestamps(), hand_over.field_item(i));
+        }
+        for (std::size_t i = 0; i < hand_over.hand_over().records.size(); ++i) {
+            hand_over_records_.record(commands, slot.timestamps(), hand_over.records_item(i));
+        }
+    }
 }
 
 void Renderer::wait(RenderSlot& slot, Timings& timings) {
@@ -138,7 +182,14 @@ void Renderer::wait(RenderSlot& slot, Timings& timings) {
 }
 
 std::string Renderer::print(GraphFormat format) const {
-    return last_recipe_ == nullptr ? std::string() : last_recipe_->print(format);
+    std::string text = last_recipe_ == nullptr ? std::string() : last_recipe_->print(format);
+    if (last_had_fields_) {
+        text += hand_over_field_.print(format);
+    }
+    if (last_had_records_) {
+        text += hand_over_records_.print(format);
+    }
+    return text;
 }
 
 }  // namespace nearfield

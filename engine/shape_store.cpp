@@ -57,8 +57,10 @@ Status ShapeStore::replace(std::uint32_t index, std::span<const Ring> rings, dou
 
 Expected<ShapeHandle> ShapeStore::add(std::span<const Ring> rings, double deviation) {
     if (free_shapes_.empty()) {
-        free_shapes_.push_back(static_cast<std::uint32_t>(shapes_.size()));
+        // Memory first: should there be none, the store is still what it was.
+        free_shapes_.reserve(1);
         shapes_.emplace_back();
+        free_shapes_.push_back(static_cast<std::uint32_t>(shapes_.size() - 1));
     }
     const std::uint32_t index = free_shapes_.back();
     if (Status status = replace(index, rings, deviation); !status.ok()) {

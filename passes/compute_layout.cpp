@@ -11,37 +11,47 @@ gpu::Owned<VkSampler> make_sampler(const gpu::Device& device) {
     info.addressModeU = info.addressModeV = info.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSampler sampler = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateSampler(device.handle(), &info, nullptr, &sampler),
-               "vkCreateSampler", "texel fetches");
+    gpu::check(
+        device.functions().vkCreateSampler(device.handle(), &info, device.allocator(), &sampler),
+        "vkCreateSampler", "texel fetches");
     gpu::Owned<VkSampler> owned(device, sampler);
     device.name_object(VK_OBJECT_TYPE_SAMPLER, sampler, "nearfield texel sampler");
     return owned;
 }
 
+VkDescriptorType type_of(std::uint32_t binding) {
+    if (binding < ComputeLayout::storage_buffers) {
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+    return binding < ComputeLayout::storage_buffers + ComputeLayout::sampled_images
+               ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+               : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+}
+
 gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkSampler sampler) {
-    std::array<VkDescriptorSetLayoutBinding,
-               ComputeLayout::storage_buffers + ComputeLayout::sampled_images>
+    std::array<VkDescriptorSetLayoutBinding, ComputeLayout::storage_buffers +
+                                                 ComputeLayout::sampled_images +
+                                                 ComputeLayout::storage_images>
         bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-        const bool is_image = i >= ComputeLayout::storage_buffers;
         bindings[i].binding = i;
-        bindings[i].descriptorType = is_image ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                              : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorType = type_of(i);
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
         if (i == ComputeLayout::output) {
             bindings[i].stageFlags |= VK_SHADER_STAGE_FRAGMENT_BIT;
         }
-        bindings[i].pImmutableSamplers = is_image ? &sampler : nullptr;
+        bindings[i].pImmutableSamplers =
+            type_of(i) == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER ? &sampler : nullptr;
     }
     VkDescriptorSetLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
-        "vkCreateDescriptorSetLayout", "compute passes");
+    gpu::check(device.functions().vkCreateDescriptorSetLayout(device.handle(), &info,
+                                                              device.allocator(), &layout),
+               "vkCreateDescriptorSetLayout", "compute passes");
     gpu::Owned<VkDescriptorSetLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, "nearfield compute set");
     return owned;
@@ -57,7 +67,8 @@ gpu::Owned<VkPipelineLayout> make_pipeline_layout(const gpu::Device& device,
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
+                                                         &layout),
                "vkCreatePipelineLayout", "compute passes");
     gpu::Owned<VkPipelineLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield compute layout");
@@ -86,23 +97,37 @@ void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer 
 }
 
 void ComputeLayout::write_image(VkDescriptorSet set, Binding binding, VkImageView view) const {
-    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view,
-                                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    write_image_in(VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, set, binding, view);
+}
+
+void ComputeLayout::write_storage_image(VkDescriptorSet set, Binding binding,
+                                        VkImageView view) const {
+    write_image_in(VK_IMAGE_LAYOUT_GENERAL, set, binding, view);
+}
+
+void ComputeLayout::write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
+                                   VkImageView view) const {
+    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view, layout};
     VkWriteDescriptorSet write{};
     write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
     write.dstSet = set;
     write.dstBinding = binding;
     write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    write.descriptorType = type_of(binding);
     write.pImageInfo = &info;
     device_->functions().vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
 }
 
-void dispatch_tile(const gpu::Functions& functions, VkCommandBuffer commands,
-                   const plan::TileDraw& tile) {
+void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,
+                    std::uint32_t height) {
     constexpr std::uint32_t side = 8;
-    functions.vkCmdDispatch(commands, (tile.width + side - 1) / side,
-                            (tile.height + side - 1) / side, 1);
+    functions.vkCmdDispatch(commands, (width + side - 1) / side, (height + side - 1) / side, 1);
+}
+
+void dispatch_threads(const gpu::Functions& functions, VkCommandBuffer commands,
+                      std::uint32_t count) {
+    constexpr std::uint32_t group_size = 64;
+    functions.vkCmdDispatch(commands, (count + group_size - 1) / group_size, 1, 1);
 }
 
 }  // namespace nearfield::passes

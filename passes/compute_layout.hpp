@@ -24,10 +24,18 @@ public:
         work = tiles,                 ///< of the masks (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
         scratch_of_blocks = points,
+        // Of the passes that hand results over:
+        words = tiles,
+        tables = geometry,
+        records = points,
+        record_blocks = output,
+        signed_distance_image = sign_image + 1,
+        feature_id_image,
     };
     static constexpr std::uint32_t storage_buffers = 4;
     static constexpr std::uint32_t sampled_images = 2;
-    static constexpr std::uint32_t push_bytes = 28;
+    static constexpr std::uint32_t storage_images = 2;
+    static constexpr std::uint32_t push_bytes = 52;
 
     explicit ComputeLayout(const gpu::Device& device);
 
@@ -38,8 +46,12 @@ public:
     void write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer, VkDeviceSize offset,
                       VkDeviceSize bytes) const;
     void write_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
+    void write_storage_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
 
 private:
+    void write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
+                        VkImageView view) const;
+
     const gpu::Device* device_;
     gpu::Owned<VkSampler> sampler_;
     gpu::Owned<VkDescriptorSetLayout> set_layout_;
@@ -64,8 +76,11 @@ void dispatch_points(const gpu::Functions& functions, VkCommandBuffer commands, 
     }
 }
 
-/// Dispatches a shader that runs one thread a cell, in groups of 8 x 8, over a tile.
-void dispatch_tile(const gpu::Functions& functions, VkCommandBuffer commands,
-                   const plan::TileDraw& tile);
+/// Dispatches a shader that runs one thread a cell, in groups of 8 x 8, over a rectangle of cells.
+void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,
+                    std::uint32_t height);
+/// Dispatches a shader that runs threads in groups of 64; all in one part.
+void dispatch_threads(const gpu::Functions& functions, VkCommandBuffer commands,
+                      std::uint32_t count);
 
 }  // namespace nearfield::passes

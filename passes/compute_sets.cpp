@@ -1,54 +1,63 @@
 #include <passes/compute_sets.hpp>
 
+#include <array>
+
 namespace nearfield::passes {
 namespace {
 
 gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t sets) {
-    const std::array<VkDescriptorPoolSize, 2> sizes{
+    const std::array<VkDescriptorPoolSize, 3> sizes{
         {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, ComputeLayout::storage_buffers * sets},
-         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ComputeLayout::sampled_images * sets}}};
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ComputeLayout::sampled_images * sets},
+         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, ComputeLayout::storage_images * sets}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = sets;
     info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool),
+    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, device.allocator(),
+                                                         &pool),
                "vkCreateDescriptorPool", "compute passes");
     gpu::Owned<VkDescriptorPool> owned(device, pool);
     device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "nearfield compute sets");
     return owned;
 }
 
+constexpr std::array<const char*, 5 + sign_encodings + intersection_strategies> names_of_round{
+    "nearfield resolve points set",
+    "nearfield field by stencil set",
+    "nearfield field by color set",
+    "nearfield field by feature bit set",
+    "nearfield collect gradients set",
+    "nearfield collect set, stencil",
+    "nearfield collect set, blend",
+    "nearfield collect set, logic op",
+    "nearfield collect set, depth",
+    "nearfield masks set",
+    "nearfield blocks set",
+    "nearfield points by lists set"};
+
 }  // namespace
 
-ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
-    : pool_(make_pool(device, count)) {
-    std::array<VkDescriptorSetLayout, count> layouts{};
-    layouts.fill(layout.set_layout());
+DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& layout,
+                               std::span<const char* const> names)
+    : pool_(make_pool(device, static_cast<std::uint32_t>(names.size()))), sets_(names.size()) {
+    const std::vector<VkDescriptorSetLayout> layouts(names.size(), layout.set_layout());
     VkDescriptorSetAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     info.descriptorPool = pool_.get();
-    info.descriptorSetCount = count;
+    info.descriptorSetCount = static_cast<std::uint32_t>(layouts.size());
     info.pSetLayouts = layouts.data();
     gpu::check(device.functions().vkAllocateDescriptorSets(device.handle(), &info, sets_.data()),
                "vkAllocateDescriptorSets", "compute passes");
-    constexpr std::array<const char*, count> names{"nearfield resolve points set",
-                                                   "nearfield field by stencil set",
-                                                   "nearfield field by color set",
-                                                   "nearfield field by feature bit set",
-                                                   "nearfield collect gradients set",
-                                                   "nearfield collect set, stencil",
-                                                   "nearfield collect set, blend",
-                                                   "nearfield collect set, logic op",
-                                                   "nearfield collect set, depth",
-                                                   "nearfield masks set",
-                                                   "nearfield blocks set",
-                                                   "nearfield points by lists set"};
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
         device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET, sets_[i], names[i]);
     }
 }
+
+ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
+    : sets_(device, layout, names_of_round) {}
 
 void ComputeSets::hand_to(Frame& frame) const {
     std::size_t next = 0;

@@ -11,8 +11,9 @@ EarlyOut::EarlyOut(const gpu::Device& device, const Frame& frame)
     info.queryType = VK_QUERY_TYPE_OCCLUSION;
     info.queryCount = plan::most_watched;
     VkQueryPool pool = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateQueryPool(device.handle(), &info, nullptr, &pool),
-               "vkCreateQueryPool", "the occlusion queries of intersections");
+    gpu::check(
+        device.functions().vkCreateQueryPool(device.handle(), &info, device.allocator(), &pool),
+        "vkCreateQueryPool", "the occlusion queries of intersections");
     pool_ = gpu::Owned<VkQueryPool>(device, pool);
     device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "nearfield occlusion queries");
 }

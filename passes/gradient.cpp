@@ -35,7 +35,8 @@ gpu::Owned<VkPipelineLayout> make_layout(const gpu::Device& device, VkDescriptor
     info.pushConstantRangeCount = static_cast<std::uint32_t>(push.size());
     info.pPushConstantRanges = push.data();
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
+                                                         &layout),
                "vkCreatePipelineLayout", "blended gradients");
     gpu::Owned<VkPipelineLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield gradient layout");

@@ -75,7 +75,7 @@ void ResolveField::record(VkCommandBuffer commands) const {
                                        tile.first_feature};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
-        dispatch_tile(functions, commands, tile);
+        dispatch_cells(functions, commands, tile.width, tile.height);
     }
 }
 

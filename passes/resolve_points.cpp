@@ -48,7 +48,8 @@ void ResolvePoints::record(VkCommandBuffer commands, const gpu::Owned<VkPipeline
                                       0, nullptr);
     const auto count = static_cast<std::uint32_t>(frame_->round->points.size());
     dispatch_points(functions, commands, 0, count, [&](std::uint32_t first) {
-        const std::uint32_t push[2] = {first, count};
+        const std::uint32_t push[3] = {first, count,
+                                       frame_->round->resident ? count : plan::not_asked};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
     });

@@ -31,7 +31,8 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
+                                                         &layout),
                "vkCreatePipelineLayout", "the layout of all draws");
     gpu::Owned<VkPipelineLayout> owned(device, layout);
     device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield draw layout");

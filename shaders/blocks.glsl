@@ -36,7 +36,8 @@ uint feature_word(Tile part, vec2 p, uvec2 cell, Nearest nearest, bool rival) {
     // Close to the boundary the mask, which is of a simplified and snapped one, may be off.
     bool inside = nearest.distance > part.settled ? filled_at(part, cell)
                                                   : inside_by_crossings(p, part.crossing);
-    return (inside ? inside_flag : 0u) | (rival ? 0u : unique_flag) | nearest.edge;
+    return (inside ? inside_flag : 0u) | (rival ? 0u : unique_flag) | vertex_flags(nearest) |
+           nearest.edge;
 }
 
 float rival_margin(Tile part, Nearest nearest) {

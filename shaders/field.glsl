@@ -59,7 +59,7 @@ float field_value(Tile tile, ivec2 cell) {
 uint field_feature(Tile tile, vec2 p, ivec2 cell) {
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
     uint feature = feature_at(texel);
-    Nearest nearest = Nearest(infinity, vec2(0.0), 0u);
+    Nearest nearest = nothing_near;
     bool settled = false;
     bool inside = filled_at(texel);
     if (feature != no_feature) {
@@ -73,5 +73,5 @@ uint field_feature(Tile tile, vec2 p, ivec2 cell) {
     nearest = find_nearest(p, tile.nearest, nearest);
     float margin = max(tile.margin, relative_margin * nearest.distance);
     uint unique = has_rival(p, tile.nearest, nearest, margin) ? 0u : unique_flag;
-    return (inside ? inside_flag : 0u) | unique | nearest.edge;
+    return (inside ? inside_flag : 0u) | unique | vertex_flags(nearest) | nearest.edge;
 }

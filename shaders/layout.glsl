@@ -55,11 +55,15 @@ Edge list_edge(EdgeList list, uint i) {
     return edge_at(list.edges + 4u * i);
 }
 
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
+// How far along a segment the point nearest to p lies: 0 at a, 1 at b.
+float along_segment(vec2 p, vec2 a, vec2 b) {
     vec2 d = b - a;
     float squared = dot(d, d);
-    float t = squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0;
-    return a + t * d;
+    return squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0;
+}
+
+vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
+    return a + along_segment(p, a, b) * (b - a);
 }
 
 float distance_to_segment(vec2 p, vec2 a, vec2 b) {

@@ -50,14 +50,28 @@ struct Nearest {
     float distance;
     vec2 point;
     uint edge;
+    float along;  // the edge: 0 at its first vertex, 1 at its last
+    vec2 way;     // of the edge, from its first vertex to its last
 };
 
+const Nearest nothing_near = Nearest(infinity, vec2(0.0), 0u, 0.0, vec2(0.0));
+
 void consider(vec2 p, vec2 a, vec2 b, uint edge, inout Nearest nearest) {
-    vec2 q = nearest_on_segment(p, a, b);
+    float along = along_segment(p, a, b);
+    vec2 q = a + along * (b - a);
     float d = distance(p, q);
     if (d < nearest.distance) {
-        nearest = Nearest(d, q, edge);
+        nearest = Nearest(d, q, edge, along, b - a);
     }
+}
+
+// Where an edge's vertex is nearest, a word of a field says so in the bits that edges leave free.
+const uint first_vertex_flag = 1u << 28;
+const uint last_vertex_flag = 1u << 29;
+
+uint vertex_flags(Nearest nearest) {
+    return nearest.along <= 0.0 ? first_vertex_flag
+                                : (nearest.along >= 1.0 ? last_vertex_flag : 0u);
 }
 
 void consider_run(vec2 p, Edge edge, inout Nearest nearest) {

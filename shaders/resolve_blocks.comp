@@ -67,7 +67,7 @@ void write_values(Tile part, List list, uvec2 corner, uint rows, uint word) {
 }
 
 uint feature_at(Tile part, List list, vec2 p, uvec2 cell) {
-    Nearest nearest = Nearest(infinity, vec2(0.0), 0u);
+    Nearest nearest = nothing_near;
     for (uint i = 0u; i < list.count; ++i) {
         Edge edge = list_edge(part.nearest, place_in_part(list, i));
         if (distance_to_segment(p, edge.a, edge.b) - edge.deviation < nearest.distance) {

@@ -54,7 +54,7 @@ void main() {
     uint corner = floatBitsToUint(words.y);
     ivec2 low = ivec2(corner & 0xffffu, corner >> 16);
     uint word = push.first_word + (index - push.origin) * push.words_per_point;
-    Nearest nearest = find_nearest(p, part.nearest, Nearest(infinity, vec2(0.0), 0u));
+    Nearest nearest = find_nearest(p, part.nearest, nothing_near);
     bool rival = has_rival(p, part.nearest, nearest, rival_margin(part, nearest));
     uvec2 own = uvec2(floor(p) + vec2(part.atlas_x, part.atlas_y));
     field.words[word] = feature_word(part, p, own, nearest, rival);

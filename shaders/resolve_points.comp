@@ -28,16 +28,19 @@ layout(set = 0, binding = 5) uniform usampler2D sign_image;
 layout(push_constant) uniform Push {
     uint first;
     uint count;
+    uint details;  // where those of the points start in the results; no_details
 } push;
 
-uint resolve(Point point) {
+#include "details.glsl"
+
+uint resolve(uint index, Point point) {
     Tile tile = tiles[point.tile];
     vec2 p = point.position;
     ivec2 cell = clamp(ivec2(floor(p)), ivec2(0), ivec2(tile.width, tile.height) - 1);
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
     uint feature = texelFetch(feature_image, texel, 0).x;
 
-    Nearest nearest = Nearest(infinity, vec2(0.0), 0u);
+    Nearest nearest = nothing_near;
     bool settled = false;
     bool inside = texelFetch(sign_image, texel, 0).x != 0u;
     if (feature != no_feature) {
@@ -55,6 +58,7 @@ uint resolve(Point point) {
         return 0u;
     }
     nearest = find_nearest(p, tile.nearest, nearest);
+    write_details(index, p, nearest, tile.crossing);
     uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
     return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
 }
@@ -62,6 +66,6 @@ uint resolve(Point point) {
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index < push.count) {
-        results[index] = resolve(points[index]);
+        results[index] = resolve(index, points[index]);
     }
 }

@@ -25,15 +25,19 @@ layout(std430, set = 0, binding = 3) writeonly buffer Results {
 layout(push_constant) uniform Push {
     uint first;
     uint count;
+    uint details;  // where those of the points start in the results; no_details
 } push;
 
-uint resolve(Point point) {
+#include "details.glsl"
+
+uint resolve(uint index, Point point) {
     Tile tile = tiles[point.tile];
     bool inside = inside_by_crossings(point.position, tile.crossing);
     if (!inside && tile.outside == 0u) {
         return 0u;
     }
-    Nearest nearest = find_nearest(point.position, tile.nearest, Nearest(infinity, vec2(0.0), 0u));
+    Nearest nearest = find_nearest(point.position, tile.nearest, nothing_near);
+    write_details(index, point.position, nearest, tile.crossing);
     uint unique =
         has_rival(point.position, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
     return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
@@ -42,6 +46,6 @@ uint resolve(Point point) {
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index < push.count) {
-        results[index] = resolve(points[index]);
+        results[index] = resolve(index, points[index]);
     }
 }

@@ -1,3 +1,5 @@
+#include <nearfield/version.hpp>
+
 #include <CLI/CLI.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/calibrate.hpp>
@@ -5,6 +7,7 @@
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/query.hpp>
 #include <tools/commands/scene.hpp>
+#include <tools/commands/simulate.hpp>
 #include <tools/input/input_error.hpp>
 
 #include <exception>
@@ -24,7 +27,7 @@ int fail(const std::exception& error, int status) {
 
 int run(int count, char** arguments) {
     CLI::App program("2D proximity queries between polygons on a Vulkan GPU", "nearfield");
-    program.set_version_flag("--version", "nearfield " NEARFIELD_VERSION);
+    program.set_version_flag("--version", std::string("nearfield ") + nearfield::version().text);
     program.footer(
         "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
     program.require_subcommand(1);
@@ -32,10 +35,12 @@ int run(int count, char** arguments) {
     tools::SceneArguments scene_arguments;
     tools::BenchArguments bench_arguments;
     tools::CalibrateArguments calibrate_arguments;
+    tools::SimulateArguments simulate_arguments;
     const CLI::App* const query = tools::add_query_command(program, query_arguments);
     const CLI::App* const scene = tools::add_scene_command(program, scene_arguments);
     const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
     const CLI::App* const calibrate = tools::add_calibrate_command(program, calibrate_arguments);
+    const CLI::App* const simulate = tools::add_simulate_command(program, simulate_arguments);
     tools::add_info_command(program);
     try {
         program.parse(count, arguments);
@@ -45,7 +50,7 @@ int run(int count, char** arguments) {
         }
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
-                                    "\" is none of query, scene, bench, calibrate, info");
+                                    "\" is none of query, scene, simulate, bench, calibrate, info");
         }
         return fail(error, exit_status::bad_input);
     }
@@ -55,6 +60,10 @@ int run(int count, char** arguments) {
     }
     if (scene->parsed()) {
         tools::run_scene(scene_arguments);
+        return exit_status::done;
+    }
+    if (simulate->parsed()) {
+        tools::run_simulate(simulate_arguments);
         return exit_status::done;
     }
     if (bench->parsed()) {

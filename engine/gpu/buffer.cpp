@@ -31,11 +31,17 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
         return false;
     }
     const std::uint64_t capacity = grown(bytes);
+    if (capacity_ > 0) {
+        device_->log(LogLevel::warning, [&] {
+            return "buffer '" + name_ + "' grows from " + std::to_string(capacity_) + " to " +
+                   std::to_string(capacity) + " bytes";
+        });
+    }
     // The former buffer goes first, so that both never need memory at the same time.
     capacity_ = 0;
     data_ = nullptr;
     buffer_.reset();
-    memory_.reset();
+    memory_ = {};
     create_buffer(capacity);
     allocate_memory();
     capacity_ = capacity;
@@ -55,7 +61,8 @@ void MappedBuffer::create_buffer(std::uint64_t bytes) {
     info.usage = usage_;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     VkBuffer buffer = VK_NULL_HANDLE;
-    check(device_->functions().vkCreateBuffer(device_->handle(), &info, nullptr, &buffer),
+    check(device_->functions().vkCreateBuffer(device_->handle(), &info, device_->allocator(),
+                                              &buffer),
           "vkCreateBuffer", "buffer '" + name_ + "'");
     buffer_ = Owned<VkBuffer>(*device_, buffer);
     device_->name_object(VK_OBJECT_TYPE_BUFFER, buffer, name_);
@@ -75,15 +82,17 @@ void MappedBuffer::allocate_memory() {
     info.memoryTypeIndex =
         device_->memory_type(needs.memoryTypeBits, required, preferred_memory(direction_));
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkResult result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
+    VkResult result =
+        functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory);
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         // The part of device memory that the host can see is often small; plain host memory, which
         // comes first in the specification's order of types, is slower and still right.
         info.memoryTypeIndex = device_->memory_type(needs.memoryTypeBits, required, 0);
-        result = functions.vkAllocateMemory(device_->handle(), &info, nullptr, &memory);
+        result =
+            functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory);
     }
     check(result, "vkAllocateMemory", what);
-    memory_ = Owned<VkDeviceMemory>(*device_, memory);
+    memory_ = DeviceMemory(*device_, memory, needs.size);
     device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_);
     coherent_ =
         (device_->memory_flags(info.memoryTypeIndex) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
 
 #include <cstddef>
@@ -45,7 +46,7 @@ private:
     VkBufferUsageFlags usage_;
     Direction direction_;
     std::string name_;
-    Owned<VkDeviceMemory> memory_;  // before the buffer bound to it, so it is freed after
+    DeviceMemory memory_;  // before the buffer bound to it, so it is freed after
     Owned<VkBuffer> buffer_;
     std::byte* data_ = nullptr;
     std::uint64_t capacity_ = 0;

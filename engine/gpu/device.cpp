@@ -17,8 +17,12 @@ std::vector<std::string> null_handles(const HostDevice& host) {
     require(host.instance != VK_NULL_HANDLE, "instance");
     require(host.physical_device != VK_NULL_HANDLE, "physical_device");
     require(host.device != VK_NULL_HANDLE, "device");
-    require(host.queue != VK_NULL_HANDLE, "queue");
+    require(host.queue != VK_NULL_HANDLE || host.queue_access.submit != nullptr, "queue");
     require(host.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+    require(host.queue_access.lock != nullptr || host.queue_access.unlock == nullptr,
+            "queue_access.lock");
+    require(host.queue_access.unlock != nullptr || host.queue_access.lock == nullptr,
+            "queue_access.unlock");
     return missing;
 }
 
@@ -34,6 +38,9 @@ void refuse_if_any(std::vector<std::string> missing, const std::string& device) 
 
 Device::Device(const HostDevice& host) : host_(host) {
     refuse_if_any(null_handles(host), "the host's device");
+    if (host.allocator != nullptr) {
+        allocator_ = *host.allocator;
+    }
     std::vector<std::string> missing;
     load_instance_functions(missing);
     refuse_if_any(std::move(missing), "the host's instance");
@@ -41,8 +48,15 @@ Device::Device(const HostDevice& host) : host_(host) {
     functions_.vkGetPhysicalDeviceProperties(host.physical_device, &properties_);
     functions_.vkGetPhysicalDeviceMemoryProperties(host.physical_device, &memory_);
     name_ = properties_.deviceName;
-    missing = missing_requirements(host.get_instance_proc_addr, host.instance, host.physical_device,
-                                   host.queue_family);
+    PhysicalDevice asked;
+    asked.queue_family = host.queue_family;
+    asked.instance = host.instance;
+    asked.physical_device = host.physical_device;
+    asked.get_instance_proc_addr = host.get_instance_proc_addr;
+    asked.api_version = host.api_version;
+    Requirements found;
+    survey_base(asked, found);
+    missing = std::move(found.unmet);
     load_device_functions(missing);
     refuse_if_any(std::move(missing), "device '" + name_ + "'");
 
@@ -52,12 +66,9 @@ Device::Device(const HostDevice& host) : host_(host) {
                                               host.physical_device, host.logic_op);
     gradient_format_ =
         find_gradient_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
-    std::uint32_t count = 0;
-    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    functions_.vkGetPhysicalDeviceQueueFamilyProperties(host.physical_device, &count,
-                                                        families.data());
-    timestamp_bits_ = families[host.queue_family].timestampValidBits;
+    timestamp_bits_ = queue_families(functions_.vkGetPhysicalDeviceQueueFamilyProperties,
+                                     host.physical_device)[host.queue_family]
+                          .timestampValidBits;
 }
 
 void Device::load_instance_functions(std::vector<std::string>& missing) {
@@ -118,6 +129,21 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags r
                                  std::to_string(allowed) + " (bit mask)"));
     }
     return best;
+}
+
+VkResult Device::submit(const VkSubmitInfo& info, VkFence fence) const {
+    const QueueAccess& access = host_.queue_access;
+    if (access.submit != nullptr) {
+        return access.submit(access.user, 1, &info, fence);
+    }
+    if (access.lock != nullptr) {
+        access.lock(access.user);
+    }
+    const VkResult result = functions_.vkQueueSubmit(host_.queue, 1, &info, fence);
+    if (access.unlock != nullptr) {
+        access.unlock(access.user);
+    }
+    return result;
 }
 
 VkMemoryPropertyFlags Device::memory_flags(std::uint32_t type) const {

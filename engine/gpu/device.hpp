@@ -4,14 +4,34 @@
 #include <engine/gpu/strategies.hpp>
 #include <nearfield/host.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace nearfield::gpu {
 
-/// A borrowed Vulkan device with its entry points and limits. Immutable after construction.
+/// Bytes of device memory allocated: now, and at most so far.
+class MemoryCount {
+public:
+    void add(std::uint64_t bytes) {
+        in_use_ += bytes;
+        peak_ = std::max(peak_, in_use_);
+    }
+    void remove(std::uint64_t bytes) { in_use_ -= bytes; }
+    [[nodiscard]] std::uint64_t in_use() const { return in_use_; }
+    [[nodiscard]] std::uint64_t peak() const { return peak_; }
+
+private:
+    std::uint64_t in_use_ = 0;
+    std::uint64_t peak_ = 0;
+};
+
+/// A borrowed Vulkan device with its entry points and limits, and what its host wants to be called
+/// for. Immutable after construction, but for the count of memory.
 class Device {
 public:
     /// Looks up every entry point and checks every requirement. Throws Failure
@@ -21,6 +41,16 @@ public:
     [[nodiscard]] const Functions& functions() const { return functions_; }
     [[nodiscard]] VkDevice handle() const { return host_.device; }
     [[nodiscard]] VkQueue queue() const { return host_.queue; }
+    /// For every vkCreate, vkAllocate, vkDestroy and vkFree.
+    [[nodiscard]] const VkAllocationCallbacks* allocator() const {
+        return allocator_ ? &*allocator_ : nullptr;
+    }
+    /// For every pipeline; the host's, or none.
+    [[nodiscard]] VkPipelineCache pipeline_cache() const { return host_.pipeline_cache; }
+    [[nodiscard]] bool timeline_semaphore() const { return host_.timeline_semaphore; }
+    /// vkQueueSubmit, in the way the host wants it.
+    [[nodiscard]] VkResult submit(const VkSubmitInfo& info, VkFence fence) const;
+    [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }
     [[nodiscard]] std::uint32_t queue_family() const { return host_.queue_family; }
     [[nodiscard]] const std::string& name() const { return name_; }
     /// The processor itself does the work, as with lavapipe.
@@ -44,6 +74,22 @@ public:
                                             VkMemoryPropertyFlags preferred) const;
     [[nodiscard]] VkMemoryPropertyFlags memory_flags(std::uint32_t type) const;
 
+    /// Tells the host, if it wants to know, what `words()` returns; says nothing where there is no
+    /// memory for words.
+    template <class Words>
+    void log(LogLevel level, const Words& words) const noexcept {
+        if (host_.log.write == nullptr) {
+            return;
+        }
+        std::string text;
+        try {
+            text = words();
+        } catch (const std::bad_alloc&) {
+            return;
+        }
+        host_.log.write(host_.log.user, level, text.c_str());
+    }
+
     /// Names an object for debuggers and validation; nothing where the host has no debug utils.
     template <class Object>
     void name_object(VkObjectType type, Object object, const std::string& name) const {
@@ -59,6 +105,8 @@ private:
     void load_device_functions(std::vector<std::string>& missing);
 
     HostDevice host_;
+    std::optional<VkAllocationCallbacks> allocator_;
+    mutable MemoryCount memory_count_;
     Functions functions_;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};

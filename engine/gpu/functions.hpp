@@ -10,7 +10,6 @@
     X(vkGetPhysicalDeviceMemoryProperties)      \
     X(vkGetPhysicalDeviceQueueFamilyProperties) \
     X(vkGetPhysicalDeviceFormatProperties)      \
-    X(vkGetPhysicalDeviceImageFormatProperties) \
     X(vkGetDeviceProcAddr)
 
 #define NEARFIELD_DEVICE_FUNCTIONS(X) \
@@ -25,6 +24,7 @@
     X(vkCmdBindDescriptorSets)        \
     X(vkCmdBindPipeline)              \
     X(vkCmdBindVertexBuffers)         \
+    X(vkCmdCopyBuffer)                \
     X(vkCmdCopyQueryPoolResults)      \
     X(vkCmdDispatch)                  \
     X(vkCmdDraw)                      \

@@ -52,7 +52,7 @@ std::vector<Candidate> ranked_candidates(const Instance& instance, const std::st
 }
 
 void append_reasons(const Candidate& candidate, std::vector<std::string>& reasons) {
-    for (const std::string& missing : candidate.missing) {
+    for (const std::string& missing : candidate.requirements.unmet) {
         reasons.push_back(std::string(candidate.properties.deviceName).append(": ") + missing);
     }
 }
@@ -61,16 +61,14 @@ VkResult create_device(const Instance& instance, const Candidate& candidate, VkD
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue.queueFamilyIndex = candidate.queue_family;
+    queue.queueFamilyIndex = *candidate.requirements.queue_family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkPhysicalDeviceFeatures features{};
-    features.logicOp = candidate.support.logic_op ? VK_TRUE : VK_FALSE;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.pEnabledFeatures = &features;
+    info.pEnabledFeatures = &candidate.requirements.features;
     return instance.function<PFN_vkCreateDevice>("vkCreateDevice")(candidate.handle, &info, nullptr,
                                                                    &device);
 }
@@ -81,7 +79,7 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
     const std::string wanted = options.device_name != nullptr ? options.device_name : "";
     std::vector<std::string> reasons;
     for (const Candidate& candidate : ranked_candidates(instance_, wanted)) {
-        if (!candidate.missing.empty()) {
+        if (!candidate.requirements.met()) {
             append_reasons(candidate, reasons);
             continue;
         }
@@ -93,9 +91,10 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
         }
         host_.instance = instance_.handle();
         host_.physical_device = candidate.handle;
-        host_.queue_family = candidate.queue_family;
+        host_.queue_family = *candidate.requirements.queue_family;
         host_.get_instance_proc_addr = instance_.get_instance_proc_addr();
         host_.debug_utils = instance_.debug_utils();
+        host_.log = options.log;
         host_.logic_op = candidate.support.logic_op;
         instance_.function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(
             host_.device, host_.queue_family, 0, &host_.queue);

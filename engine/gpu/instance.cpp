@@ -11,6 +11,8 @@
 namespace nearfield::gpu {
 namespace {
 
+constexpr std::uint32_t api_version = VK_API_VERSION_1_1;
+
 [[noreturn]] void fail(const std::string& message) {
     throw Failure(Status(StatusCode::no_device, message));
 }
@@ -47,21 +49,6 @@ bool has_debug_utils(PFN_vkGetInstanceProcAddr get) {
     });
 }
 
-// The first family that draws and computes. Where none does the first of all, whose lack
-// missing_requirements() then names.
-std::uint32_t choose_queue_family(PFN_vkGetPhysicalDeviceQueueFamilyProperties get_families,
-                                  VkPhysicalDevice device) {
-    const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    std::uint32_t count = 0;
-    get_families(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    get_families(device, &count, families.data());
-    const auto found = std::find_if(families.begin(), families.end(), [needed](const auto& family) {
-        return (family.queueFlags & needed) == needed;
-    });
-    return found != families.end() ? static_cast<std::uint32_t>(found - families.begin()) : 0;
-}
-
 }  // namespace
 
 void Instance::CloseLibrary::operator()(void* library) const {
@@ -86,7 +73,7 @@ void Instance::create() {
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
     application.pEngineName = "nearfield";
-    application.apiVersion = VK_API_VERSION_1_1;
+    application.apiVersion = api_version;
     const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
@@ -110,12 +97,8 @@ std::vector<Candidate> Instance::candidates() const {
     const auto enumerate = function<PFN_vkEnumeratePhysicalDevices>("vkEnumeratePhysicalDevices");
     const auto get_properties =
         function<PFN_vkGetPhysicalDeviceProperties>("vkGetPhysicalDeviceProperties");
-    const auto get_families = function<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
-        "vkGetPhysicalDeviceQueueFamilyProperties");
     const auto get_formats =
         function<PFN_vkGetPhysicalDeviceFormatProperties>("vkGetPhysicalDeviceFormatProperties");
-    const auto get_features =
-        function<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures");
     std::uint32_t count = 0;
     const VkResult result = enumerate(handle_, &count, nullptr);
     if (result == VK_ERROR_INITIALIZATION_FAILED) {
@@ -131,11 +114,16 @@ std::vector<Candidate> Instance::candidates() const {
         Candidate& candidate = candidates.emplace_back();
         candidate.handle = handle;
         get_properties(handle, &candidate.properties);
-        candidate.queue_family = choose_queue_family(get_families, handle);
-        candidate.missing = missing_requirements(get_, handle_, handle, candidate.queue_family);
-        VkPhysicalDeviceFeatures features{};
-        get_features(handle, &features);
-        candidate.support = strategy_support(get_formats, handle, features.logicOp == VK_TRUE);
+        PhysicalDevice asked;
+        asked.instance = handle_;
+        asked.physical_device = handle;
+        asked.get_instance_proc_addr = get_;
+        asked.api_version = api_version;
+        asked.debug_utils = debug_utils_;
+        survey_base(asked, candidate.requirements);
+        survey_optional_parts(asked, candidate.requirements);
+        candidate.support = strategy_support(get_formats, handle,
+                                             candidate.requirements.features.logicOp == VK_TRUE);
     }
     return candidates;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/gpu/strategies.hpp>
+#include <nearfield/requirements.hpp>
 
 #include <vulkan/vulkan_core.h>
 
@@ -11,13 +12,12 @@
 
 namespace nearfield::gpu {
 
-/// A physical device as found, with the queue family that would be used and what it lacks.
+/// A physical device as found.
 struct Candidate {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties{};
-    std::uint32_t queue_family = 0;
-    std::vector<std::string> missing;  ///< as missing_requirements() says it
-    StrategySupport support;           ///< of a device with every feature enabled that there is
+    Requirements requirements;
+    StrategySupport support;  ///< of a device with every feature enabled that there is
 };
 
 /// The Vulkan loader, opened at run time, and an instance with no layer but those the environment

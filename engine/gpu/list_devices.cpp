@@ -1,9 +1,10 @@
-#include <engine/failure.hpp>
 #include <engine/gpu/instance.hpp>
+#include <engine/guarded.hpp>
 #include <nearfield/context.hpp>
 
-#include <exception>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace nearfield {
 namespace {
@@ -30,28 +31,27 @@ std::string driver_text(const VkPhysicalDeviceProperties& properties) {
 }  // namespace
 
 Expected<std::vector<DeviceReport>> list_devices() {
-    try {
+    std::vector<DeviceReport> reports;
+    Status status = guarded([&] {
         const gpu::Instance instance;
-        std::vector<DeviceReport> reports;
         for (gpu::Candidate& candidate : instance.candidates()) {
             DeviceReport& report = reports.emplace_back();
             report.name = candidate.properties.deviceName;
             report.driver = driver_text(candidate.properties);
-            report.usable = candidate.missing.empty();
-            report.missing = std::move(candidate.missing);
+            report.usable = candidate.requirements.met();
+            report.missing = std::move(candidate.requirements.unmet);
+            report.optional = std::move(candidate.requirements.optional);
             for (std::size_t i = 0; i < intersection_strategies; ++i) {
                 const auto strategy = static_cast<IntersectionStrategy>(i);
                 report.strategies.push_back(
                     {strategy, gpu::missing_for(strategy, candidate.support)});
             }
         }
-        return reports;
-    } catch (const Failure& failure) {
-        return failure.status();
-    } catch (const std::exception& error) {
-        return Status(StatusCode::out_of_memory,
-                      std::string("devices could not be listed: ") + error.what());
+    });
+    if (!status.ok()) {
+        return status;
     }
+    return reports;
 }
 
 }  // namespace nearfield

@@ -2,9 +2,9 @@
 
 namespace nearfield::gpu {
 
-#define NEARFIELD_DESTROY(Type, function)                              \
-    void destroy(const Device& device, Type object) {                  \
-        device.functions().function(device.handle(), object, nullptr); \
+#define NEARFIELD_DESTROY(Type, function)                                         \
+    void destroy(const Device& device, Type object) {                             \
+        device.functions().function(device.handle(), object, device.allocator()); \
     }
 
 NEARFIELD_DESTROY(VkBuffer, vkDestroyBuffer)

@@ -1,4 +1,5 @@
 #include <engine/gpu/pipeline.hpp>
+#include <engine/stopwatch.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,9 +30,12 @@ Owned<VkShaderModule> make_shader_module(const Device& device, Spirv shader,
     info.codeSize = shader.size_bytes();
     info.pCode = shader.data();
     VkShaderModule shader_module = VK_NULL_HANDLE;
-    check(device.functions().vkCreateShaderModule(device.handle(), &info, nullptr, &shader_module),
+    check(device.functions().vkCreateShaderModule(device.handle(), &info, device.allocator(),
+                                                  &shader_module),
           "vkCreateShaderModule", "pipeline '" + name + "'");
-    return {device, shader_module};
+    Owned<VkShaderModule> owned(device, shader_module);
+    device.name_object(VK_OBJECT_TYPE_SHADER_MODULE, shader_module, name);
+    return owned;
 }
 
 VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
@@ -160,26 +164,35 @@ VkPipelineColorBlendAttachmentState color_attachment(const GraphicsPipelineDescr
     return state;
 }
 
+void report(const Device& device, const std::string& name, const Stopwatch& start) {
+    device.log(LogLevel::information, [&] {
+        return "pipeline '" + name + "' made in " + std::to_string(start.milliseconds()) + " ms";
+    });
+}
+
 }  // namespace
 
 Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout, Spirv shader,
                                         const std::string& name) {
+    const Stopwatch start;
     const Owned<VkShaderModule> shader_module = make_shader_module(device, shader, name);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = shader_stage(VK_SHADER_STAGE_COMPUTE_BIT, shader_module);
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(device.functions().vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info,
-                                                      nullptr, &pipeline),
+    check(device.functions().vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1,
+                                                      &info, device.allocator(), &pipeline),
           "vkCreateComputePipelines", "pipeline '" + name + "'");
     Owned<VkPipeline> owned(device, pipeline);
     device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
+    report(device, name, start);
     return owned;
 }
 
 Owned<VkPipeline> make_graphics_pipeline(const Device& device,
                                          const GraphicsPipelineDescription& what) {
+    const Stopwatch start;
     const auto vertex_module = make_shader_module(device, what.vertex_shader, what.name);
     Owned<VkShaderModule> fragment_module;
     std::vector<VkPipelineShaderStageCreateInfo> stages{
@@ -219,11 +232,12 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
     info.layout = what.layout;
     info.renderPass = what.render_pass;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(device.functions().vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info,
-                                                       nullptr, &pipeline),
+    check(device.functions().vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1,
+                                                       &info, device.allocator(), &pipeline),
           "vkCreateGraphicsPipelines", "pipeline '" + what.name + "'");
     Owned<VkPipeline> owned(device, pipeline);
     device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, what.name);
+    report(device, what.name, start);
     return owned;
 }
 

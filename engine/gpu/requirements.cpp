@@ -1,81 +1,59 @@
 #include <engine/gpu/requirements.hpp>
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <utility>
 
 namespace nearfield::gpu {
 namespace {
 
-using Reasons = std::vector<std::string>;
+constexpr VkFormatFeatureFlags gradient_features =
+    VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 
-struct InstanceFunctions {
-    PFN_vkGetPhysicalDeviceProperties properties = nullptr;
-    PFN_vkGetPhysicalDeviceQueueFamilyProperties queue_families = nullptr;
-    PFN_vkGetPhysicalDeviceFormatProperties format = nullptr;
-};
+// What the base needs of formats, with optimal tiling. Alternatives stand together.
+constexpr std::array<RequiredFormat, 9> format_table{{
+    {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0,
+     "signs and feature ids are drawn to it", false},
+    {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0,
+     "signs and feature ids are read by compute passes", false},
+    {VK_FORMAT_D32_SFLOAT, "VK_FORMAT_D32_SFLOAT", VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+     0, "the nearest feature wins by depth", false},
+    {VK_FORMAT_R8_UNORM, "VK_FORMAT_R8_UNORM", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, 0,
+     "signs are drawn white on black to it", false},
+    {VK_FORMAT_R8G8B8A8_UNORM, "VK_FORMAT_R8G8B8A8_UNORM",
+     VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT, 0,
+     "signs are drawn as the top bit of feature ids to it", false},
+    // Every device has at least one of the two.
+    {VK_FORMAT_D32_SFLOAT_S8_UINT, "VK_FORMAT_D32_SFLOAT_S8_UINT",
+     VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, 0,
+     "the stencil format is for shapes that are filled by parity", true},
+    {VK_FORMAT_D24_UNORM_S8_UINT, "VK_FORMAT_D24_UNORM_S8_UINT",
+     VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, 0,
+     "the stencil format is for shapes that are filled by parity", false},
+    // Every device blends the second; few leave the first out.
+    {VK_FORMAT_R32G32_SFLOAT, "VK_FORMAT_R32G32_SFLOAT", gradient_features, 0,
+     "the gradient format is for gradients that are blended in it", true},
+    {VK_FORMAT_R16G16_SFLOAT, "VK_FORMAT_R16G16_SFLOAT", gradient_features, 0,
+     "the gradient format is for gradients that are blended in it", false},
+}};
 
-template <class Function>
-void load(PFN_vkGetInstanceProcAddr get, VkInstance instance, const char* name, Function& function,
-          Reasons& missing) {
-    function = reinterpret_cast<Function>(get(instance, name));
-    if (function == nullptr) {
-        missing.push_back(std::string("entry point ") + name +
-                          ": vkGetInstanceProcAddr does not know it");
-    }
-}
-
-void check_version(const VkPhysicalDeviceProperties& properties, Reasons& missing) {
-    if (properties.apiVersion < VK_API_VERSION_1_1) {
-        missing.push_back("Vulkan 1.1: the device offers Vulkan " +
-                          std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
-                          std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) +
-                          " only, and shaders are SPIR-V 1.3");
-    }
-}
-
-void check_queue_family(const InstanceFunctions& functions, VkPhysicalDevice device,
-                        std::uint32_t queue_family, Reasons& missing) {
-    std::uint32_t count = 0;
-    functions.queue_families(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    functions.queue_families(device, &count, families.data());
-    const std::string name = "queue family " + std::to_string(queue_family);
-    if (queue_family >= count) {
-        missing.push_back(name + ": the device has " + std::to_string(count) + " queue families");
-        return;
-    }
-    const VkQueueFlags flags = families[queue_family].queueFlags;
-    const std::string reason = ": " + name + " lacks it, and one queue has to draw and compute";
-    if ((flags & VK_QUEUE_GRAPHICS_BIT) == 0) {
-        missing.push_back("VK_QUEUE_GRAPHICS_BIT" + reason);
-    }
-    if ((flags & VK_QUEUE_COMPUTE_BIT) == 0) {
-        missing.push_back("VK_QUEUE_COMPUTE_BIT" + reason);
-    }
-}
-
-void check_limits(const VkPhysicalDeviceLimits& limits, Reasons& missing) {
-    struct Limit {
-        const char* name;
-        std::uint32_t offered;
-        std::uint32_t needed;
-        const char* why;
-    };
-    // All are minima of the specification; a device below them could not be trusted with the rest.
-    const std::array<Limit, 3> table{{
-        {"subPixelPrecisionBits", limits.subPixelPrecisionBits, 4,
-         "vertices are snapped to the sub-pixel grid"},
-        {"maxPerStageDescriptorStorageBuffers", limits.maxPerStageDescriptorStorageBuffers, 4,
-         "a compute pass uses as many storage buffers"},
-        {"maxComputeWorkGroupInvocations", limits.maxComputeWorkGroupInvocations, 64,
-         "compute passes work in groups of 8 by 8"},
+std::string feature_names(VkFormatFeatureFlags features) {
+    constexpr std::array<std::pair<VkFormatFeatureFlags, const char*>, 4> table{{
+        {VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT"},
+        {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT"},
+        {VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT"},
+        {VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+         "VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT"},
     }};
-    for (const Limit& limit : table) {
-        if (limit.offered < limit.needed) {
-            missing.push_back(std::string("limit ") + limit.name + ": the device offers " +
-                              std::to_string(limit.offered) + ", at least " +
-                              std::to_string(limit.needed) + " needed because " + limit.why);
+    std::string names;
+    for (const auto& [feature, name] : table) {
+        if ((features & feature) != 0) {
+            names += (names.empty() ? "" : " and ") + std::string(name);
         }
     }
+    return names;
 }
 
 VkFormatFeatureFlags optimal_features(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
@@ -85,95 +63,161 @@ VkFormatFeatureFlags optimal_features(PFN_vkGetPhysicalDeviceFormatProperties ge
     return properties.optimalTilingFeatures;
 }
 
-void check_formats(const InstanceFunctions& functions, VkPhysicalDevice device, Reasons& missing) {
-    struct Requirement {
-        VkFormat format;
-        const char* format_name;
-        VkFormatFeatureFlags feature;
-        const char* feature_name;
-        const char* why;
-    };
-    const std::array<Requirement, 5> table{{
-        {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
-         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT", "signs and feature ids are drawn to it"},
-        {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT,
-         "VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT", "signs and feature ids are read by compute passes"},
-        {VK_FORMAT_D32_SFLOAT, "VK_FORMAT_D32_SFLOAT",
-         VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
-         "VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT", "the nearest feature wins by depth"},
-        {VK_FORMAT_R8_UNORM, "VK_FORMAT_R8_UNORM", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
-         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT", "signs are drawn white on black to it"},
-        {VK_FORMAT_R8G8B8A8_UNORM, "VK_FORMAT_R8G8B8A8_UNORM",
-         VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
-         "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT",
-         "signs are drawn as the top bit of feature ids to it"},
-    }};
-    for (const Requirement& row : table) {
-        if ((optimal_features(functions.format, device, row.format) & row.feature) == 0) {
-            missing.push_back(std::string("format ") + row.format_name + ": optimal tiling lacks " +
-                              row.feature_name + ", and " + row.why);
+/// The first of some formats that has all that the table says it needs.
+VkFormat first_sufficient(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
+                          VkPhysicalDevice device, std::initializer_list<VkFormat> formats) {
+    for (const VkFormat format : formats) {
+        VkFormatFeatureFlags needed = 0;
+        for (const RequiredFormat& row : format_table) {
+            needed |= row.format == format ? row.needed : 0;
+        }
+        if ((optimal_features(get_properties, device, format) & needed) == needed) {
+            return format;
         }
     }
-    if (find_stencil_format(functions.format, device) == VK_FORMAT_UNDEFINED) {
-        missing.emplace_back(
-            "a stencil format: neither VK_FORMAT_D32_SFLOAT_S8_UINT nor "
-            "VK_FORMAT_D24_UNORM_S8_UINT has VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT with "
-            "optimal tiling, and shapes are filled by stencil parity");
+    return VK_FORMAT_UNDEFINED;
+}
+
+std::string version_text(std::uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+void check_version(const PhysicalDevice& device, const VkPhysicalDeviceProperties& properties,
+                   Requirements& requirements) {
+    const std::string needed = "Vulkan " + version_text(requirements.api_version) + ": ";
+    if (properties.apiVersion < requirements.api_version) {
+        requirements.unmet.push_back(needed + "the device offers Vulkan " +
+                                     version_text(properties.apiVersion) +
+                                     " only, and shaders are SPIR-V 1.3");
     }
-    if (find_gradient_format(functions.format, device) == VK_FORMAT_UNDEFINED) {
-        missing.emplace_back(
-            "a gradient format: neither VK_FORMAT_R32G32_SFLOAT nor VK_FORMAT_R16G16_SFLOAT has "
-            "VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT and VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT "
-            "with optimal tiling, and gradients are blended in it");
+    if (device.api_version != 0 && device.api_version < requirements.api_version) {
+        requirements.unmet.push_back(needed + "the instance was created for Vulkan " +
+                                     version_text(device.api_version) +
+                                     " only (api_version), and shaders are SPIR-V 1.3");
+    }
+}
+
+/// The family asked about. Where none is, the first that has all that is needed, or the first of
+/// all, whose lack is then named.
+void choose_queue_family(const PhysicalDevice& device,
+                         const std::vector<VkQueueFamilyProperties>& families,
+                         Requirements& requirements) {
+    const VkQueueFlags needed = requirements.queue_flags;
+    std::uint32_t family = device.queue_family;
+    if (family == PhysicalDevice::any_queue_family) {
+        const auto found = std::find_if(
+            families.begin(), families.end(),
+            [needed](const auto& each) { return (each.queueFlags & needed) == needed; });
+        family = found == families.end() ? 0 : static_cast<std::uint32_t>(found - families.begin());
+    }
+    const std::string name = "queue family " + std::to_string(family);
+    if (family >= families.size()) {
+        requirements.unmet.push_back(name + ": the device has " + std::to_string(families.size()) +
+                                     " queue families");
+        return;
+    }
+    const VkQueueFlags flags = families[family].queueFlags;
+    const std::string reason = ": " + name + " lacks it, and one queue has to draw and compute";
+    if ((flags & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        requirements.unmet.push_back("VK_QUEUE_GRAPHICS_BIT" + reason);
+    }
+    if ((flags & VK_QUEUE_COMPUTE_BIT) == 0) {
+        requirements.unmet.push_back("VK_QUEUE_COMPUTE_BIT" + reason);
+    }
+    if ((flags & needed) == needed) {
+        requirements.queue_family = family;
+    }
+}
+
+void check_limits(const VkPhysicalDeviceLimits& limits, Requirements& requirements) {
+    // A device below them could not be trusted with the rest.
+    requirements.limits = {
+        {"subPixelPrecisionBits", 4, limits.subPixelPrecisionBits,
+         "vertices are snapped to the sub-pixel grid"},
+        {"maxPerStageDescriptorStorageBuffers", 4, limits.maxPerStageDescriptorStorageBuffers,
+         "a compute pass uses as many storage buffers"},
+        {"maxComputeWorkGroupInvocations", 64, limits.maxComputeWorkGroupInvocations,
+         "compute passes work in groups of 8 by 8"},
+    };
+    for (const RequiredLimit& limit : requirements.limits) {
+        if (limit.offered < limit.needed) {
+            requirements.unmet.push_back(std::string("limit ") + limit.name +
+                                         ": the device offers " + std::to_string(limit.offered) +
+                                         ", at least " + std::to_string(limit.needed) +
+                                         " needed because " + limit.why);
+        }
+    }
+}
+
+void check_formats(PFN_vkGetPhysicalDeviceFormatProperties get_properties, VkPhysicalDevice device,
+                   Requirements& requirements) {
+    std::string lacking;  // of the alternatives so far
+    bool met = false;
+    for (RequiredFormat row : format_table) {
+        row.offered = optimal_features(get_properties, device, row.format);
+        met = met || (row.offered & row.needed) == row.needed;
+        lacking += (lacking.empty() ? "" : ", and so does format ") + std::string(row.name);
+        if (!row.or_next) {
+            if (!met) {
+                const VkFormatFeatureFlags missing = row.needed & ~row.offered;
+                requirements.unmet.push_back("format " + lacking + ": optimal tiling lacks " +
+                                             feature_names(missing) + ", and " + row.why);
+            }
+            lacking.clear();
+            met = false;
+        }
+        requirements.formats.push_back(row);
     }
 }
 
 }  // namespace
 
+std::vector<VkQueueFamilyProperties> queue_families(
+    PFN_vkGetPhysicalDeviceQueueFamilyProperties get, VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    get(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    get(device, &count, families.data());
+    families.resize(count);
+    return families;
+}
+
 VkFormat find_stencil_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                              VkPhysicalDevice physical_device) {
-    // Every device has at least one of the two.
-    for (const VkFormat format : {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT}) {
-        if ((optimal_features(get_properties, physical_device, format) &
-             VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0) {
-            return format;
-        }
-    }
-    return VK_FORMAT_UNDEFINED;
+    return first_sufficient(get_properties, physical_device,
+                            {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_FORMAT_D24_UNORM_S8_UINT});
 }
 
 VkFormat find_gradient_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                               VkPhysicalDevice physical_device) {
-    constexpr VkFormatFeatureFlags needed =
-        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
-    // Every device blends the second; few leave the first out.
-    for (const VkFormat format : {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT}) {
-        if ((optimal_features(get_properties, physical_device, format) & needed) == needed) {
-            return format;
-        }
-    }
-    return VK_FORMAT_UNDEFINED;
+    return first_sufficient(get_properties, physical_device,
+                            {VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R16G16_SFLOAT});
 }
 
-std::vector<std::string> missing_requirements(PFN_vkGetInstanceProcAddr get, VkInstance instance,
-                                              VkPhysicalDevice physical_device,
-                                              std::uint32_t queue_family) {
-    Reasons missing;
-    InstanceFunctions functions;
-    load(get, instance, "vkGetPhysicalDeviceProperties", functions.properties, missing);
-    load(get, instance, "vkGetPhysicalDeviceQueueFamilyProperties", functions.queue_families,
-         missing);
-    load(get, instance, "vkGetPhysicalDeviceFormatProperties", functions.format, missing);
-    if (!missing.empty()) {
-        return missing;
+void survey_base(const PhysicalDevice& device, Requirements& requirements) {
+    const auto require = [&]<class Function>(Function& function, const char* name) {
+        function = find_function<Function>(device, name);
+        if (function == nullptr) {
+            requirements.unmet.push_back(std::string("entry point ") + name +
+                                         ": vkGetInstanceProcAddr does not know it");
+        }
+    };
+    PFN_vkGetPhysicalDeviceProperties get_properties = nullptr;
+    PFN_vkGetPhysicalDeviceQueueFamilyProperties get_families = nullptr;
+    PFN_vkGetPhysicalDeviceFormatProperties get_format = nullptr;
+    require(get_properties, "vkGetPhysicalDeviceProperties");
+    require(get_families, "vkGetPhysicalDeviceQueueFamilyProperties");
+    require(get_format, "vkGetPhysicalDeviceFormatProperties");
+    if (!requirements.unmet.empty()) {
+        return;
     }
     VkPhysicalDeviceProperties properties{};
-    functions.properties(physical_device, &properties);
-    check_version(properties, missing);
-    check_queue_family(functions, physical_device, queue_family, missing);
-    check_limits(properties.limits, missing);
-    check_formats(functions, physical_device, missing);
-    return missing;
+    get_properties(device.physical_device, &properties);
+    check_version(device, properties, requirements);
+    choose_queue_family(device, queue_families(get_families, device.physical_device), requirements);
+    check_limits(properties.limits, requirements);
+    check_formats(get_format, device.physical_device, requirements);
 }
 
 }  // namespace nearfield::gpu

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/requirements.hpp>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -8,12 +10,24 @@
 
 namespace nearfield::gpu {
 
-/// What the base needs of a physical device and `queue_family` lacks, one text each; empty where it
-/// suffices. Creates nothing.
-[[nodiscard]] std::vector<std::string> missing_requirements(PFN_vkGetInstanceProcAddr get,
-                                                            VkInstance instance,
-                                                            VkPhysicalDevice physical_device,
-                                                            std::uint32_t queue_family);
+/// Fills in what the base needs: version, queue family, limits, formats, and all that is unmet.
+/// Handles must not be null. Creates nothing.
+void survey_base(const PhysicalDevice& device, Requirements& requirements);
+
+/// Fills in the optional parts; after survey_base().
+void survey_optional_parts(const PhysicalDevice& device, Requirements& requirements);
+
+/// Looks an entry point up by each name in turn: the core one, then its alias. Null where the
+/// loader knows none.
+template <class Function, class... Names>
+[[nodiscard]] Function find_function(const PhysicalDevice& device, const Names*... names) {
+    PFN_vkVoidFunction found = nullptr;
+    static_cast<void>(((found = device.get_instance_proc_addr(device.instance, names)) || ...));
+    return reinterpret_cast<Function>(found);
+}
+
+[[nodiscard]] std::vector<VkQueueFamilyProperties> queue_families(
+    PFN_vkGetPhysicalDeviceQueueFamilyProperties get, VkPhysicalDevice device);
 
 /// The combined depth-stencil format to use for stencils, VK_FORMAT_UNDEFINED where the device has
 /// none that can be an attachment.

@@ -16,8 +16,8 @@ std::vector<std::string> missing_for(IntersectionStrategy strategy,
     std::vector<std::string> missing;
     if (strategy == IntersectionStrategy::logic_op && !support.logic_op) {
         missing.emplace_back(
-            "feature logicOp: the device was not created with it enabled, and A's colour is "
-            "combined with B's by the operation OR");
+            "feature logicOp: the device does not offer it or was not created with it enabled, and "
+            "A's colour is combined with B's by the operation OR");
     }
     if (strategy == IntersectionStrategy::blend) {
         struct Requirement {

@@ -1,8 +1,37 @@
+#include <engine/failure.hpp>
 #include <engine/gpu/submission.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <thread>
 
 namespace nearfield::gpu {
+
+void check_semaphores(const Device& device, const nearfield::Submission& order) {
+    const auto refuse_if = [](bool wrong, const char* list, std::size_t i, const char* why) {
+        if (wrong) {
+            throw Failure(
+                {StatusCode::invalid_submission,
+                 std::string("Submission::") + list + '[' + std::to_string(i) + ']' + why});
+        }
+    };
+    constexpr const char* null = ".semaphore is null";
+    constexpr const char* value =
+        ".value is that of a timeline semaphore, and the host did not say that it enabled them "
+        "(HostDevice::timeline_semaphore)";
+    for (std::size_t i = 0; i < order.waits.size(); ++i) {
+        const SemaphoreWait& wait = order.waits[i];
+        refuse_if(wait.semaphore == VK_NULL_HANDLE, "waits", i, null);
+        refuse_if(wait.stages == 0, "waits", i, ".stages is 0; at least one stage has to wait");
+        refuse_if(wait.value != 0 && !device.timeline_semaphore(), "waits", i, value);
+    }
+    for (std::size_t i = 0; i < order.signals.size(); ++i) {
+        const SemaphoreSignal& signal = order.signals[i];
+        refuse_if(signal.semaphore == VK_NULL_HANDLE, "signals", i, null);
+        refuse_if(signal.value != 0 && !device.timeline_semaphore(), "signals", i, value);
+    }
+}
 
 Submission::Submission(const Device& device) : device_(&device) {
     const Functions& functions = device.functions();
@@ -10,9 +39,10 @@ Submission::Submission(const Device& device) : device_(&device) {
     pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool pool = VK_NULL_HANDLE;
-    check(functions.vkCreateCommandPool(device.handle(), &pool_info, nullptr, &pool),
+    check(functions.vkCreateCommandPool(device.handle(), &pool_info, device.allocator(), &pool),
           "vkCreateCommandPool", "a submission");
     pool_ = Owned<VkCommandPool>(device, pool);
+    device.name_object(VK_OBJECT_TYPE_COMMAND_POOL, pool, "nearfield command pool");
 
     VkCommandBufferAllocateInfo commands_info{};
     commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
@@ -21,15 +51,17 @@ Submission::Submission(const Device& device) : device_(&device) {
     commands_info.commandBufferCount = 1;
     check(functions.vkAllocateCommandBuffers(device.handle(), &commands_info, &commands_),
           "vkAllocateCommandBuffers", "a submission");
+    device.name_object(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "nearfield commands");
 
     // Signalled, so that waiting before the first submission returns at once.
     VkFenceCreateInfo fence_info{};
     fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
     VkFence fence = VK_NULL_HANDLE;
-    check(functions.vkCreateFence(device.handle(), &fence_info, nullptr, &fence), "vkCreateFence",
-          "a submission");
+    check(functions.vkCreateFence(device.handle(), &fence_info, device.allocator(), &fence),
+          "vkCreateFence", "a submission");
     fence_ = Owned<VkFence>(device, fence);
+    device.name_object(VK_OBJECT_TYPE_FENCE, fence, "nearfield fence");
 }
 
 VkCommandBuffer Submission::begin() {
@@ -43,17 +75,53 @@ VkCommandBuffer Submission::begin() {
     return commands_;
 }
 
-void Submission::submit() {
+void Submission::submit(const nearfield::Submission& order) {
     const Functions& functions = device_->functions();
     check(functions.vkEndCommandBuffer(commands_), "vkEndCommandBuffer", "a submission");
     const VkFence fence = fence_.get();
     check(functions.vkResetFences(device_->handle(), 1, &fence), "vkResetFences", "a submission");
+    send(order, 1, fence);
+}
+
+void Submission::submit_semaphores(const nearfield::Submission& order) {
+    if (!order.waits.empty() || !order.signals.empty()) {
+        send(order, 0, VK_NULL_HANDLE);
+    }
+}
+
+void Submission::send(const nearfield::Submission& order, std::uint32_t command_buffers,
+                      VkFence fence) {
+    waits_.clear();
+    wait_stages_.clear();
+    wait_values_.clear();
+    for (const SemaphoreWait& wait : order.waits) {
+        waits_.push_back(wait.semaphore);
+        wait_stages_.push_back(wait.stages);
+        wait_values_.push_back(wait.value);
+    }
+    signals_.clear();
+    signal_values_.clear();
+    for (const SemaphoreSignal& signal : order.signals) {
+        signals_.push_back(signal.semaphore);
+        signal_values_.push_back(signal.value);
+    }
+    VkTimelineSemaphoreSubmitInfo values{};
+    values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+    values.waitSemaphoreValueCount = static_cast<std::uint32_t>(wait_values_.size());
+    values.pWaitSemaphoreValues = wait_values_.data();
+    values.signalSemaphoreValueCount = static_cast<std::uint32_t>(signal_values_.size());
+    values.pSignalSemaphoreValues = signal_values_.data();
     VkSubmitInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-    info.commandBufferCount = 1;
+    info.pNext = device_->timeline_semaphore() ? &values : nullptr;
+    info.waitSemaphoreCount = static_cast<std::uint32_t>(waits_.size());
+    info.pWaitSemaphores = waits_.data();
+    info.pWaitDstStageMask = wait_stages_.data();
+    info.commandBufferCount = command_buffers;
     info.pCommandBuffers = &commands_;
-    check(functions.vkQueueSubmit(device_->queue(), 1, &info, fence), "vkQueueSubmit",
-          "a submission");
+    info.signalSemaphoreCount = static_cast<std::uint32_t>(signals_.size());
+    info.pSignalSemaphores = signals_.data();
+    check(device_->submit(info, fence), "vkQueueSubmit", "a submission");
 }
 
 bool Submission::is_done() const {
@@ -64,6 +132,28 @@ void Submission::wait() {
     const VkFence fence = fence_.get();
     check(device_->functions().vkWaitForFences(device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX),
           "vkWaitForFences", "a submission");
+}
+
+void Submission::wait_to_the_end() noexcept {
+    const Functions& functions = device_->functions();
+    const VkFence fence = fence_.get();
+    const auto out_of_memory = [](VkResult result) {
+        return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    };
+    // A driver without the memory to wait may have enough to be asked. One that has neither for so
+    // long will not have it later.
+    constexpr int most_refusals = 1000;
+    int refusals = 0;
+    while (refusals < most_refusals && out_of_memory(functions.vkWaitForFences(
+                                           device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX))) {
+        const VkResult status = functions.vkGetFenceStatus(device_->handle(), fence);
+        if (out_of_memory(status)) {
+            ++refusals;
+        } else if (status != VK_NOT_READY) {
+            return;
+        }
+        std::this_thread::yield();
+    }
 }
 
 }  // namespace nearfield::gpu

@@ -30,7 +30,7 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = 2 * capacity;
     VkQueryPool pool = VK_NULL_HANDLE;
-    check(device.functions().vkCreateQueryPool(device.handle(), &info, nullptr, &pool),
+    check(device.functions().vkCreateQueryPool(device.handle(), &info, device.allocator(), &pool),
           "vkCreateQueryPool", "the timestamps of the passes");
     pool_ = Owned<VkQueryPool>(device, pool);
     device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "timestamps");

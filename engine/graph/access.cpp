@@ -7,10 +7,15 @@ namespace nearfield::graph {
 
 namespace {
 
+// Those that every device has without a feature.
+constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+
 // Attachments read as well as they write: loading, blending, logic operations and tests look at
 // what was there. All reads of images share one layout and all reads of one kind of resource differ
 // in their stages, which lets a read after a read do without a second look at the layout.
-constexpr std::array<AccessTraits, 8> accesses = {{
+constexpr std::array<AccessTraits, 12> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -60,6 +65,27 @@ constexpr std::array<AccessTraits, 8> accesses = {{
      .stages = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
      .read_access = VK_ACCESS_SHADER_READ_BIT,
      .pass_kind = PassKind::graphics},
+    {.name = "transfer_read",
+     .stages = VK_PIPELINE_STAGE_TRANSFER_BIT,
+     .read_access = VK_ACCESS_TRANSFER_READ_BIT,
+     .pass_kind = PassKind::compute},
+    {.name = "storage_image_in_compute",
+     .stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+     .write_access = VK_ACCESS_SHADER_WRITE_BIT,
+     .layout = VK_IMAGE_LAYOUT_GENERAL,
+     .usage = VK_IMAGE_USAGE_STORAGE_BIT,
+     .writes = true,
+     .of_image = true,
+     .pass_kind = PassKind::compute},
+    {.name = "handed_over_buffer",
+     .stages = shaders_of_users,
+     .read_access = VK_ACCESS_SHADER_READ_BIT},
+    {.name = "handed_over_image",
+     .stages = shaders_of_users,
+     .read_access = VK_ACCESS_SHADER_READ_BIT,
+     .layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+     .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+     .of_image = true},
 }};
 
 }  // namespace

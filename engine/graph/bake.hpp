@@ -56,7 +56,7 @@ struct Lifetime {
 struct BakedGraph {
     std::vector<BakedPass> passes;    // in order of execution
     std::vector<Lifetime> lifetimes;  // by resource
-    std::vector<Barrier> to_host;     // after the last pass
+    std::vector<Barrier> to_host;     // after the last pass: to its memory, and its shaders
     std::uint32_t memory_slots = 0;
 };
 

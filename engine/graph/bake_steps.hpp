@@ -23,7 +23,7 @@ namespace nearfield::graph {
 /// Fills the lifetimes and gives the images their memory slots. Wants the order.
 void find_lifetimes(const Graph& graph, BakedGraph& baked);
 
-/// Puts the barriers before the passes and towards the host. Wants order and lifetimes.
+/// Puts the barriers before the passes and after the last one. Wants order and lifetimes.
 void place_barriers(const Graph& graph, BakedGraph& baked);
 
 /// An error in a graph. Graphs are built by the library itself, so this is never a host's mistake.

@@ -43,6 +43,21 @@ Barrier make_barrier(std::uint32_t resource, Source source, const AccessTraits& 
             .new_layout = access.layout};
 }
 
+/// What the last use before the graph leaves behind.
+History history_of(const Outside& outside) {
+    History history;
+    if (outside.before) {
+        const AccessTraits& former = traits(*outside.before);
+        if (former.writes) {
+            history.write_stages = former.stages;
+            history.write_access = former.write_access;
+        } else {
+            history.read_stages = former.stages;
+        }
+    }
+    return history;
+}
+
 /// The barrier that a write needs, if any. The first use of an image is a write; it always needs
 /// one, for the layout, and has its source filled in later, when all histories are known. The first
 /// write of a buffer needs none: whoever handed the buffer over has waited for the fence of its
@@ -107,14 +122,17 @@ void wait_for_memory(BakedGraph& baked, const std::vector<History>& histories,
 }  // namespace
 
 void place_barriers(const Graph& graph, BakedGraph& baked) {
-    std::vector<History> histories(graph.resources().size());
+    std::vector<History> histories;
+    for (const Resource& resource : graph.resources()) {
+        histories.push_back(history_of(resource.outside));
+    }
     std::vector<std::vector<std::uint32_t>> images_in_slot(baked.memory_slots);
     for (std::uint32_t position = 0; position < baked.passes.size(); ++position) {
         BakedPass& pass = baked.passes[position];
         for (const Use& use : graph.passes()[pass.pass].uses) {
             const std::uint32_t resource = use.handle.resource;
             const Lifetime& lifetime = baked.lifetimes[resource];
-            if (graph.resources()[resource].is_image && lifetime.first == position) {
+            if (lifetime.memory_slot != no_memory_slot && lifetime.first == position) {
                 images_in_slot[lifetime.memory_slot].push_back(resource);
             }
             const std::optional<Barrier> barrier =
@@ -130,6 +148,11 @@ void place_barriers(const Graph& graph, BakedGraph& baked) {
     }
     for (std::uint32_t resource = 0; resource < histories.size(); ++resource) {
         const History& history = histories[resource];
+        const std::optional<Access> after = graph.resources()[resource].outside.after;
+        if (after && baked.lifetimes[resource].used) {
+            baked.to_host.push_back(
+                make_barrier(resource, before_write(history), traits(*after), history));
+        }
         if (graph.resources()[resource].buffer.read_by_host && history.write_stages != 0) {
             baked.to_host.push_back({.resource = resource,
                                      .source_stages = history.write_stages,

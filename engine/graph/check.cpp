@@ -20,12 +20,13 @@ string quoted(const string& name) {
     return text;
 }
 
-Status check_image(const ImageDescription& image) {
+Status check_image(const Resource& resource) {
+    const ImageDescription& image = resource.image;
     if (find_format(image.format) == nullptr) {
         return graph_error("image " + quoted(image.name) + " has the format number " +
                            std::to_string(image.format) + ", which the graph does not know");
     }
-    if (image.extent.width == 0 || image.extent.height == 0) {
+    if (!resource.imported && (image.extent.width == 0 || image.extent.height == 0)) {
         return graph_error("image " + quoted(image.name) + " is empty: its extent is " +
                            extent_text(image.extent));
     }
@@ -38,6 +39,9 @@ std::optional<string> misfit(PassKind kind, const Resource& resource, const Use&
     if (access.of_image != resource.is_image) {
         return resource.is_image ? "which is an image, and that access is for buffers"
                                  : "which is a buffer, and that access is for images";
+    }
+    if (use.access == Access::handed_over_buffer || use.access == Access::handed_over_image) {
+        return "which is no pass's: it happens after the graph";
     }
     if (access.pass_kind != kind) {
         return kind == PassKind::graphics ? "but the pass is a graphics pass"
@@ -120,7 +124,7 @@ Status check_declarations(const Graph& graph) {
         if (!resource.is_image) {
             continue;
         }
-        if (Status status = check_image(resource.image); !status.ok()) {
+        if (Status status = check_image(resource); !status.ok()) {
             return status;
         }
     }

@@ -41,7 +41,7 @@ gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     const std::string name = "nearfield image " + description.name;
     VkImage image = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateImage(device.handle(), &info, nullptr, &image),
+    gpu::check(device.functions().vkCreateImage(device.handle(), &info, device.allocator(), &image),
                "vkCreateImage", name);
     gpu::Owned<VkImage> owned(device, image);
     device.name_object(VK_OBJECT_TYPE_IMAGE, image, name);
@@ -59,25 +59,26 @@ gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
     info.subresourceRange = {aspects, 0, 1, 0, 1};
     const std::string name = "nearfield image " + description.name + " as " + purpose;
     VkImageView view = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateImageView(device.handle(), &info, nullptr, &view),
-               "vkCreateImageView", name);
+    gpu::check(
+        device.functions().vkCreateImageView(device.handle(), &info, device.allocator(), &view),
+        "vkCreateImageView", name);
     gpu::Owned<VkImageView> owned(device, view);
     device.name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
     return owned;
 }
 
-gpu::Owned<VkDeviceMemory> allocate(const gpu::Device& device,
-                                    const VkMemoryRequirements& requirements,
-                                    const std::string& name) {
+gpu::DeviceMemory allocate(const gpu::Device& device, const VkMemoryRequirements& requirements,
+                           const std::string& name) {
     VkMemoryAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     info.allocationSize = requirements.size;
     info.memoryTypeIndex =
         device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkAllocateMemory(device.handle(), &info, nullptr, &memory),
-               "vkAllocateMemory", name);
-    gpu::Owned<VkDeviceMemory> owned(device, memory);
+    gpu::check(
+        device.functions().vkAllocateMemory(device.handle(), &info, device.allocator(), &memory),
+        "vkAllocateMemory", name);
+    gpu::DeviceMemory owned(device, memory, requirements.size);
     device.name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
     return owned;
 }
@@ -95,9 +96,9 @@ gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPa
     info.layers = 1;
     const std::string name = "nearfield framebuffer " + pass_name;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateFramebuffer(device.handle(), &info, nullptr, &framebuffer),
-        "vkCreateFramebuffer", name);
+    gpu::check(device.functions().vkCreateFramebuffer(device.handle(), &info, device.allocator(),
+                                                      &framebuffer),
+               "vkCreateFramebuffer", name);
     gpu::Owned<VkFramebuffer> owned(device, framebuffer);
     device.name_object(VK_OBJECT_TYPE_FRAMEBUFFER, framebuffer, name);
     return owned;
@@ -160,6 +161,9 @@ void Executor::create_views(const Graph& graph) {
         const Resource& resource = graph.resources()[i];
         const VkImageUsageFlags usage = baked_.lifetimes[i].usage;
         Image& image = images_[i];
+        if (!image.image) {
+            continue;  // unused, or the caller's
+        }
         if ((usage & ~static_cast<VkImageUsageFlags>(VK_IMAGE_USAGE_SAMPLED_BIT)) != 0) {
             image.attachment_view =
                 make_view(*device_, image.image.get(), resource.image, resource.image.format,
@@ -218,6 +222,7 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                    .image = images_[barrier.resource].image.get(),
                                    .subresourceRange = {all_aspects(resource), 0, 1, 0, 1}});
+            call.image_resources.push_back(barrier.resource);
         } else {
             call.buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
                                     .pNext = nullptr,
@@ -244,6 +249,16 @@ void Executor::set_buffer(Handle handle, VkBuffer buffer) {
     }
 }
 
+void Executor::set_image(Handle handle, VkImage image) {
+    for (BarrierCall& call : calls_) {
+        for (std::size_t i = 0; i < call.images.size(); ++i) {
+            if (call.image_resources[i] == handle.resource) {
+                call.images[i].image = image;
+            }
+        }
+    }
+}
+
 VkImageView Executor::sampled_view(Handle handle) const {
     return images_[handle.resource].sampled_view.get();
 }
@@ -254,6 +269,13 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
         if (call.buffers[i].buffer == VK_NULL_HANDLE) {
             throw Failure(graph_error("buffer '" +
                                       graph.resources()[call.buffer_resources[i]].name() +
+                                      "' was not set before the graph was executed"));
+        }
+    }
+    for (std::size_t i = 0; i < call.images.size(); ++i) {
+        if (call.images[i].image == VK_NULL_HANDLE) {
+            throw Failure(graph_error("image '" +
+                                      graph.resources()[call.image_resources[i]].name() +
                                       "' was not set before the graph was executed"));
         }
     }
@@ -291,6 +313,14 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
         device_->end_label(commands);
     }
     record_barriers(graph, commands, calls_.back());
+}
+
+std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {
+    Expected<BakedGraph> baked = bake(graph);
+    if (!baked.ok()) {
+        throw Failure(baked.status());
+    }
+    return std::make_unique<Executor>(device, graph, std::move(*baked));
 }
 
 }  // namespace nearfield::graph

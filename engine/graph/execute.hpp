@@ -1,12 +1,14 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/bake.hpp>
 #include <engine/graph/graph.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace nearfield::graph {
@@ -26,6 +28,8 @@ public:
     /// The buffers behind the imported handles may change from frame to frame (they grow). All have
     /// to be set before the first execution.
     void set_buffer(Handle handle, VkBuffer buffer);
+    /// The same of the images behind imported handles.
+    void set_image(Handle handle, VkImage image);
 
     /// What a compute shader samples: the colour, or the depth aspect.
     [[nodiscard]] VkImageView sampled_view(Handle handle) const;
@@ -57,6 +61,7 @@ private:
         std::vector<VkMemoryBarrier> memory;
         std::vector<VkImageMemoryBarrier> images;
         std::vector<VkBufferMemoryBarrier> buffers;
+        std::vector<std::uint32_t> image_resources;   // by position in `images`
         std::vector<std::uint32_t> buffer_resources;  // by position in `buffers`
     };
 
@@ -71,11 +76,16 @@ private:
 
     const gpu::Device* device_;
     BakedGraph baked_;
-    std::vector<gpu::Owned<VkDeviceMemory>> memory_;  // by memory slot
-    std::vector<Image> images_;                       // by resource
-    std::vector<GraphicsPass> graphics_;              // by position in baked_.passes
+    std::vector<gpu::DeviceMemory> memory_;  // by memory slot
+    std::vector<Image> images_;              // by resource
+    std::vector<GraphicsPass> graphics_;     // by position in baked_.passes
     std::vector<BarrierCall> calls_;  // by position in baked_.passes; last, the one to the host
     std::uint64_t image_bytes_ = 0;
 };
+
+/// The executor of a graph that the library makes itself, so that it bakes is an invariant; throws
+/// Failure where it does not.
+[[nodiscard]] std::unique_ptr<Executor> make_executor(const gpu::Device& device,
+                                                      const Graph& graph);
 
 }  // namespace nearfield::graph

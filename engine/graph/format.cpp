@@ -17,6 +17,7 @@ constexpr std::array formats = {
     FormatTraits{VK_FORMAT_R8G8B8A8_UNORM, "R8G8B8A8_UNORM", color},
     FormatTraits{VK_FORMAT_R16G16_SFLOAT, "R16G16_SFLOAT", color},
     FormatTraits{VK_FORMAT_R32_UINT, "R32_UINT", color},
+    FormatTraits{VK_FORMAT_R32_SFLOAT, "R32_SFLOAT", color},
     FormatTraits{VK_FORMAT_R32G32_SFLOAT, "R32G32_SFLOAT", color},
     FormatTraits{VK_FORMAT_D32_SFLOAT, "D32_SFLOAT", depth},
     FormatTraits{VK_FORMAT_D24_UNORM_S8_UINT, "D24_UNORM_S8_UINT", depth | stencil},

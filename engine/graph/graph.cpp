@@ -20,9 +20,21 @@ Handle Graph::create_image(ImageDescription description) {
     return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
 }
 
-Handle Graph::import_buffer(BufferDescription description) {
+Handle Graph::import_buffer(BufferDescription description, Outside outside) {
     Resource& resource = resources_.emplace_back();
+    resource.imported = true;
     resource.buffer = std::move(description);
+    resource.outside = outside;
+    return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
+}
+
+Handle Graph::import_image(ImportedImageDescription description, Outside outside) {
+    Resource& resource = resources_.emplace_back();
+    resource.is_image = true;
+    resource.imported = true;
+    resource.image.name = std::move(description.name);
+    resource.image.format = description.format;
+    resource.outside = outside;
     return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,11 @@ enum class Access : std::uint8_t {
     vertex_buffer,             ///< buffer, read as vertex input
     transfer_write,            ///< buffer, a part of it written by a copy
     storage_read_in_fragment,  ///< buffer, read in a fragment shader
+    transfer_read,             ///< buffer, read by a copy
+    storage_image_in_compute,  ///< image, written by a compute shader
+    // What happens outside any graph, between this one and its next execution (Outside).
+    handed_over_buffer,  ///< buffer, read by the shaders of whoever uses the library
+    handed_over_image,   ///< image, sampled by these shaders
 };
 
 /// A resource at one version. Writing gives a new version and makes the old one invalid: who reads
@@ -47,6 +53,21 @@ struct BufferDescription {
     std::string name;
     bool written_by_host = false;  ///< version 0 may be read
     bool read_by_host = false;     ///< its last version is made visible to the host at the end
+};
+
+/// An image of the caller's, of any extent. What it holds before the graph runs is lost.
+struct ImportedImageDescription {
+    std::string name;
+    VkFormat format = VK_FORMAT_UNDEFINED;
+};
+
+/// What touches an imported resource on the same queue before the graph and after it; left out: the
+/// host alone, which waits for a fence in between.
+struct Outside {
+    std::optional<Access> before =
+        std::nullopt;  ///< version 0 of a buffer that it writes may be read
+    std::optional<Access> after =
+        std::nullopt;  ///< the last version is made visible to it at the end
 };
 
 /// A compute pass runs outside any render pass; it may copy too.
@@ -87,8 +108,14 @@ private:
 
 struct Resource {
     bool is_image = false;
-    ImageDescription image;    // where is_image
+    bool imported = false;     // always, of buffers
+    ImageDescription image;    // where is_image; without an extent where imported
     BufferDescription buffer;  // otherwise
+    Outside outside;           // where imported
+    /// Version 0 may be read.
+    [[nodiscard]] bool has_content() const {
+        return buffer.written_by_host || (!is_image && outside.before.has_value());
+    }
     [[nodiscard]] const std::string& name() const { return is_image ? image.name : buffer.name; }
 };
 
@@ -96,7 +123,8 @@ struct Resource {
 class Graph {
 public:
     Handle create_image(ImageDescription description);
-    Handle import_buffer(BufferDescription description);
+    Handle import_buffer(BufferDescription description, Outside outside = {});
+    Handle import_image(ImportedImageDescription description, Outside outside);
 
     /// `setup` is called at once with a PassBuilder; `record` whenever the graph is executed.
     template <class Setup>

@@ -44,7 +44,8 @@ void find_lifetimes(const Graph& graph, BakedGraph& baked) {
     find_uses(graph, baked);
     std::vector<std::uint32_t> images;
     for (std::uint32_t i = 0; i < graph.resources().size(); ++i) {
-        if (graph.resources()[i].is_image && baked.lifetimes[i].used) {
+        const Resource& resource = graph.resources()[i];
+        if (resource.is_image && !resource.imported && baked.lifetimes[i].used) {
             images.push_back(i);
         }
     }

@@ -16,6 +16,7 @@ struct Bit {
 
 constexpr std::array stage_bits = {
     Bit{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, "vertex-input"},
+    Bit{VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, "vertex"},
     Bit{VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, "early-tests"},
     Bit{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, "fragment"},
     Bit{VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT, "late-tests"},
@@ -33,12 +34,14 @@ constexpr std::array access_bits = {
     Bit{VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, "color-write"},
     Bit{VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT, "depth-stencil-read"},
     Bit{VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, "depth-stencil-write"},
+    Bit{VK_ACCESS_TRANSFER_READ_BIT, "transfer-read"},
     Bit{VK_ACCESS_TRANSFER_WRITE_BIT, "transfer-write"},
     Bit{VK_ACCESS_HOST_READ_BIT, "host-read"},
 };
 
 constexpr std::array usage_bits = {
     Bit{VK_IMAGE_USAGE_SAMPLED_BIT, "sampled"},
+    Bit{VK_IMAGE_USAGE_STORAGE_BIT, "storage"},
     Bit{VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, "color-attachment"},
     Bit{VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, "depth-stencil-attachment"},
 };
@@ -82,6 +85,8 @@ std::string layout_name(VkImageLayout layout) {
     switch (layout) {
         case VK_IMAGE_LAYOUT_UNDEFINED:
             return "undefined";
+        case VK_IMAGE_LAYOUT_GENERAL:
+            return "general";
         case VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL:
             return "color-attachment";
         case VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL:

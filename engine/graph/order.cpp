@@ -79,8 +79,7 @@ private:
                         return nobody_wrote(pass, use);
                     }
                     edges_.push_back({producer->second, pass, handle, false});
-                } else if (!use.write &&
-                           !graph_.resources()[handle.resource].buffer.written_by_host) {
+                } else if (!use.write && !graph_.resources()[handle.resource].has_content()) {
                     return nobody_wrote(pass, use);
                 }
                 const auto successor = writers_.find({handle.resource, handle.version});

@@ -61,8 +61,14 @@ string pass_text(const Graph& graph, const BakedPass& baked, std::size_t positio
 string resource_text(const Resource& resource, const Lifetime& lifetime) {
     string text = (resource.is_image ? "image " : "buffer ") + resource.name() + ": ";
     if (resource.is_image) {
-        text +=
-            format_name(resource.image.format) + ", " + extent_text(resource.image.extent) + ", ";
+        text += format_name(resource.image.format) + ", " +
+                (resource.imported ? "the caller's" : extent_text(resource.image.extent)) + ", ";
+    }
+    if (resource.outside.before) {
+        text += std::string("before: ") + traits(*resource.outside.before).name + ", ";
+    }
+    if (resource.outside.after) {
+        text += std::string("after: ") + traits(*resource.outside.after).name + ", ";
     }
     if (resource.buffer.written_by_host) {
         text += "written by the host, ";
@@ -74,7 +80,7 @@ string resource_text(const Resource& resource, const Lifetime& lifetime) {
         return text + "unused";
     }
     text += "passes " + to_string(lifetime.first) + " to " + to_string(lifetime.last);
-    if (resource.is_image) {
+    if (resource.is_image && !resource.imported) {
         text += ", memory slot " + to_string(lifetime.memory_slot) + ", usage " +
                 usage_names(lifetime.usage);
     }
@@ -117,7 +123,7 @@ string version_nodes(const Graph& graph, std::uint32_t index, std::uint32_t newe
     const Resource& resource = graph.resources()[index];
     string text;
     for (std::uint32_t version = 0; version <= newest; ++version) {
-        const bool empty = version == 0 && !resource.buffer.written_by_host;
+        const bool empty = version == 0 && !resource.has_content();
         text += "    " + version_node({index, version}) + " [shape=ellipse" +
                 (empty ? ", style=dotted" : "") +
                 ", label=" + dot_string(resource.name() + "\nversion " + to_string(version)) +
@@ -179,6 +185,10 @@ string print_graphviz(const Graph& graph, const BakedGraph& baked) {
         text += use_arrows(declared, node);
     }
     return text + "}\n";
+}
+
+string print(const Graph& graph, const BakedGraph& baked, GraphFormat format) {
+    return format == GraphFormat::text ? print_text(graph, baked) : print_graphviz(graph, baked);
 }
 
 }  // namespace nearfield::graph

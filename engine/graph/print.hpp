@@ -2,6 +2,7 @@
 
 #include <engine/graph/bake.hpp>
 #include <engine/graph/graph.hpp>
+#include <nearfield/context.hpp>
 
 #include <string>
 
@@ -12,5 +13,7 @@ namespace nearfield::graph {
 
 /// The same as a Graphviz digraph: boxes for passes, ellipses for versions of resources.
 [[nodiscard]] std::string print_graphviz(const Graph& graph, const BakedGraph& baked);
+
+[[nodiscard]] std::string print(const Graph& graph, const BakedGraph& baked, GraphFormat format);
 
 }  // namespace nearfield::graph

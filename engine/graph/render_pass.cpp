@@ -83,10 +83,12 @@ gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device, const Graph
     info.pDependencies = dependencies.data();
     const std::string name = "nearfield render pass " + graph.passes()[pass.pass].name;
     VkRenderPass render_pass = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateRenderPass(device.handle(), &info, nullptr, &render_pass),
+    gpu::check(device.functions().vkCreateRenderPass(device.handle(), &info, device.allocator(),
+                                                     &render_pass),
                "vkCreateRenderPass", name);
+    gpu::Owned<VkRenderPass> owned(device, render_pass);
     device.name_object(VK_OBJECT_TYPE_RENDER_PASS, render_pass, name);
-    return {device, render_pass};
+    return owned;
 }
 
 }  // namespace nearfield::graph

@@ -77,10 +77,11 @@ Status check_field(const DistanceFieldQuery& query) {
     if (!query.rectangle && query.a.shape == ShapeHandle{}) {
         return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
     }
-    if (!query.values && !query.features && !query.gradients && query.points.empty()) {
+    if (!query.values && !query.features && !query.gradients && query.points.empty() &&
+        !query.resident) {
         return invalid(
             "the distance field asks for nothing: neither for values, features or gradients at "
-            "cells nor for points");
+            "cells nor for points, nor for anything that stays on the device");
     }
     for (std::size_t i = 0; i < query.points.size(); ++i) {
         for (const double value : {query.points[i].x, query.points[i].y}) {
@@ -156,6 +157,11 @@ Status check_query(const ContactQuery& query) {
         return invalid("the normals are no enumerator: " +
                        std::to_string(static_cast<int>(query.normals)));
     }
+    if (query.resident && query.normals == ContactNormals::gradient) {
+        return invalid(
+            "contacts that stay on the device (resident) have analytic normals; gradient normals "
+            "are known only once the batch is collected");
+    }
     return is_length(query.contact_distance)
                ? Status()
                : no_length(query.contact_distance, "the contact distance");
@@ -192,6 +198,13 @@ Status check_query(const TimeOfImpactQuery& query) {
 
 Status check_query(const SeparationVectorQuery& query) {
     return check_pair(query);
+}
+
+Status not_recordable(Technique technique) {
+    return {StatusCode::not_recordable,
+            std::string("gradient normals by the technique ") + to_string(technique) +
+                " take a second submission, at places that the first one finds; record them with "
+                "the technique cpu or automatic, ask for analytic normals, or submit the batch"};
 }
 
 Status unresolved(double tolerance, double largest_magnitude, double smallest) {

@@ -22,6 +22,9 @@ namespace nearfield::plan {
 [[nodiscard]] Status check_query(const TimeOfImpactQuery& query);
 [[nodiscard]] Status check_query(const SeparationVectorQuery& query);
 
+/// What is said of a query that takes a second submission where there is one command buffer.
+[[nodiscard]] Status not_recordable(Technique technique);
+
 /// A pose that can be used, or an error; `whose` it is, for the message.
 [[nodiscard]] Status check_pose(const Pose& pose, std::string_view whose);
 

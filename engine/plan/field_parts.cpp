@@ -10,9 +10,11 @@ FieldParts field_parts(const DistanceFieldQuery& query) {
     parts.blended = differences && query.gradient == GradientMethod::blended;
     parts.gradients = parts.blended && query.gradients;
     // The host takes differences of values.
-    parts.values = query.values || parts.blended || (differences && query.gradients);
-    parts.features =
+    parts.host_values = query.values || parts.blended || (differences && query.gradients);
+    parts.host_features =
         query.features || (query.gradients && query.gradient == GradientMethod::analytic);
+    parts.values = parts.host_values || query.resident;
+    parts.features = parts.host_features || query.resident;
     parts.halo = (at_points ? 1U : 0U) + (differences ? 1U : 0U);
     if (differences) {
         parts.cells_per_point = parts.blended ? 4 : 12;

@@ -8,10 +8,12 @@ namespace nearfield::plan {
 
 /// What the device computes and hands back for a distance field, as follows from its query.
 struct FieldParts {
-    bool values = false;     ///< a signed distance at every cell
-    bool features = false;   ///< the nearest feature at every cell
-    bool blended = false;    ///< the image of blended gradients is drawn; needs the values
-    bool gradients = false;  ///< and handed back whole
+    bool values = false;         ///< a signed distance at every cell
+    bool features = false;       ///< the nearest feature at every cell
+    bool host_values = false;    ///< the values are handed back
+    bool host_features = false;  ///< the features are
+    bool blended = false;        ///< the image of blended gradients is drawn; needs the values
+    bool gradients = false;      ///< and handed back whole
     /// Cells whose values are handed back with each point: the four around, and for central
     /// differences the eight around those.
     std::uint32_t cells_per_point = 4;

@@ -69,6 +69,15 @@ inline constexpr std::uint32_t point_unique = 1U << 30U;
 inline constexpr std::uint32_t point_resolved = 1U << 29U;
 inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
 
+/// What is known of a resolved point beside its word, where it is to stay on the device
+/// (shaders/details.glsl). They stand behind the words of all points of the round.
+struct PointDetails {
+    float offset_x = 0.0F, offset_y = 0.0F;  ///< from the point to the nearest one, cells
+    float along = 0.0F;      ///< the nearest edge: 0 at its first vertex, 1 at its last
+    std::uint32_t wall = 0;  ///< where it touches: the edge's outward normal, packSnorm2x16
+};
+static_assert(sizeof(PointDetails) == 16);
+
 /// The numbers of an intersection's image: Table 1's colour in the low byte, where white says that
 /// both shapes cover the sample; above it, where A takes part by its boundary, a run of A's edges.
 inline constexpr std::uint32_t white = 0xff;

@@ -95,7 +95,11 @@ struct PlannedQuery {
     std::uint32_t reverse = none;
     std::uint32_t first_cpu_tile = 0;  ///< of an intersection on the CPU
     std::uint32_t cpu_tile_count = 0;
+    /// What it comes to stays on the device as well.
+    bool resident = false;
     FieldParts field;  ///< of a distance field
+    double farthest =
+        0.0;  ///< of a resident field: no cell is farther from B's boundary, world units
     std::uint32_t first_field_point = 0;
     std::uint32_t field_point_count = 0;
 };

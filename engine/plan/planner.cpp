@@ -4,6 +4,7 @@
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/technique.hpp>
 #include <engine/stopwatch.hpp>
 
 #include <algorithm>
@@ -93,7 +94,7 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
 }
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
-                   Plan& plan, std::vector<AnyResult>& results) {
+                   Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
@@ -115,9 +116,16 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
                 result.technique = query.technique;
                 planned.on_cpu = result.technique == Technique::cpu;
                 planned.by_compute = result.technique == Technique::compute;
+                if constexpr (requires { query.resident; }) {
+                    planned.resident = query.resident;
+                }
                 // Success is not copied: it is what thousands of queries have in common.
                 if (Status status = check_query(query); !status.ok()) {
                     result.status = std::move(status);
+                }
+                if (submissions == Submissions::one && result.status.ok() &&
+                    takes_a_second_submission(query)) {
+                    result.status = not_recordable(query.technique);
                 }
                 planned.a = shapes[query_].a;
                 planned.b = shapes[query_].b;

@@ -26,11 +26,18 @@ struct PlanLimits {
     /// be nearest in its tile, or with points, of which few tiles may hold any.
     std::uint32_t features_tile = 64;
     std::uint32_t largest_atlas = 2048;
-    std::uint64_t memory = 0;  ///< bytes a batch may need
+    std::uint32_t largest_image = 4096;  ///< pixels along a side of an image that stays there
+    std::uint64_t memory = 0;            ///< bytes a batch may need
     std::uint32_t hierarchy_height = 12;
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
     /// By strategy: what it needs and the device lacks.
     std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
+};
+
+/// How often a batch may go to the device.
+enum class Submissions {
+    any,  ///< again, where what came back asks for more
+    one,  ///< what would take more is refused
 };
 
 /// From queries to tiles: checks each query, localises it, cuts its regions into tiles, spreads
@@ -42,10 +49,10 @@ public:
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
     /// regions. What is wrong with one query stands in its result and leaves it without tiles. No
     /// query has Technique::automatic any more: that was replaced by what was chosen. `shapes`: of
-    /// each query.
+    /// each query. `submissions`: that the batch may take.
     /// Throws Failure (too_large) where the batch needs more memory than the limit.
     void plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes, Plan& plan,
-              std::vector<AnyResult>& results);
+              std::vector<AnyResult>& results, Submissions submissions = Submissions::any);
 
     /// Milliseconds of the last plan() spent in hierarchies.
     [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }
@@ -64,6 +71,8 @@ private:
     /// Nor here: SeparationVector answers it.
     void add(const SeparationVectorQuery& /*query*/, SeparationVectorResult& /*result*/) {}
 
+    /// Whether the images of a field that stays on the device can be had; else the result says why.
+    [[nodiscard]] bool check_resident(const Grid& grid, DistanceFieldResult& result);
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
     /// The chains that can hold the closest point, and how many samples they take at the most.

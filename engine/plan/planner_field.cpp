@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace nearfield::plan {
@@ -19,10 +20,11 @@ using geometry::Vector;
 /// of at most `side` cells and their halos.
 double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, const Grid& grid,
                       double side) {
-    const double result = (query.values ? sizeof(float) : 0.0) +
+    const double resident = query.resident ? 2.0 * sizeof(std::uint32_t) : 0.0;
+    const double result = resident + (query.values ? sizeof(float) : 0.0) +
                           (query.features ? sizeof(Feature) : 0.0) +
                           (query.gradients ? 2.0 * sizeof(float) : 0.0) +
-                          (parts.features ? sizeof(std::uint8_t) : 0.0);
+                          (parts.host_features ? sizeof(std::uint8_t) : 0.0);
     const double words =
         (parts.values ? 1.0 : 0.0) + (parts.features ? 1.0 : 0.0) + (parts.gradients ? 2.0 : 0.0);
     const auto drawn = [&](std::uint64_t cells) {
@@ -96,6 +98,9 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     add_regions(planned.budget.cell, result);
     const Grid& grid = grids_.front();
     planned.field = field_parts(query);
+    if (planned.resident && !check_resident(grid, result)) {
+        return;
+    }
     if (planned.on_cpu) {
         require_sides(query.tolerance);
     }
@@ -117,7 +122,7 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     result.values.resize(query.values ? cells : 0);
     result.features.resize(query.features ? cells : 0);
     result.gradients.resize(query.gradients ? 2 * cells : 0);
-    result.unique.resize(planned.field.features ? cells : 0);
+    result.unique.resize(planned.field.host_features ? cells : 0);
     result.points.resize(query.points.size());
     if (planned.on_cpu) {
         return;
@@ -126,6 +131,32 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     if (!planned.field.values && !planned.field.features) {
         drop_tiles_without_points(first_tile);
     }
+}
+
+bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    if (std::max(grid.width, grid.height) > limits_.largest_image) {
+        result.status = {
+            StatusCode::too_large,
+            "a field of " + std::to_string(grid.width) + " x " + std::to_string(grid.height) +
+                " cells is to stay on the device; an image of this device has at most " +
+                std::to_string(limits_.largest_image) +
+                " along a side; use a larger tolerance or a smaller rectangle"};
+        return false;
+    }
+    // Distances change by no more than the way walked.
+    const Vector half =
+        0.5 * grid.cell * Vector(static_cast<double>(grid.width), static_cast<double>(grid.height));
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const Vector centre = grid.origin + half;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < planned.b->size(); ++i) {
+        nearest = std::min(nearest, (b.vertex(i) - centre).norm());
+    }
+    planned.farthest = nearest + half.norm();
+    result.status = check_distance(
+        result.tolerance, planned.budget.bound + far_rounding * planned.farthest, planned.farthest);
+    return result.status.ok();
 }
 
 void Planner::drop_tiles_without_points(std::uint32_t first_tile) {

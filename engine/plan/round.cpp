@@ -82,6 +82,8 @@ void Round::clear() {
     field_point_index.clear();
     field_point_runs.clear();
     field_words = 0;
+    field_read_back.clear();
+    resident = false;
     by_compute = false;
     compute.clear();
     watched = 0;
@@ -104,6 +106,7 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
         tile_of_plan_[i] = draw.tile;
         first_part_[i] = static_cast<std::uint32_t>(round.compute.parts.size());
         round.tile_index.push_back(i);
+        round.resident = round.resident || plan.queries[tile.query].resident;
         TileData& data = round.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;
@@ -202,15 +205,30 @@ void RoundBuilder::add_field_output(const PlannedQuery& query, const Tile& tile,
     }
     draw.blended = query.field.blended;
     const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
-    const auto reserve = [&](bool asked, std::uint64_t words, std::uint32_t& first) {
-        if (asked) {
-            first = static_cast<std::uint32_t>(round.field_words);
-            round.field_words += words;
+    if (query.field.values) {
+        draw.first_value = add_field_words(cells, query.field.host_values, round);
+    }
+    if (query.field.features) {
+        draw.first_feature = add_field_words(cells, query.field.host_features, round);
+    }
+    if (query.field.gradients) {
+        draw.first_gradient = add_field_words(2 * cells, true, round);
+    }
+}
+
+std::uint32_t RoundBuilder::add_field_words(std::uint64_t count, bool for_host, Round& round) {
+    const WordRange added{static_cast<std::uint32_t>(round.field_words),
+                          static_cast<std::uint32_t>(count)};
+    round.field_words += count;
+    if (for_host) {
+        std::vector<WordRange>& ranges = round.field_read_back;
+        if (!ranges.empty() && ranges.back().first + ranges.back().count == added.first) {
+            ranges.back().count += added.count;
+        } else {
+            ranges.push_back(added);
         }
-    };
-    reserve(query.field.values, cells, draw.first_value);
-    reserve(query.field.features, cells, draw.first_feature);
-    reserve(query.field.gradients, 2 * cells, draw.first_gradient);
+    }
+    return added.first;
 }
 
 void RoundBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
@@ -352,7 +370,7 @@ void RoundBuilder::add_field_points(const Plan& plan, std::uint32_t number, Roun
         round.field_point_index.push_back(i);
         FieldPointRun& run = round.field_point_runs.back();
         ++run.count;
-        round.field_words += run.parts.words_per_point;
+        static_cast<void>(add_field_words(run.parts.words_per_point, true, round));
     }
 }
 

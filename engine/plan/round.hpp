@@ -73,6 +73,12 @@ struct FieldPointRun {
     FieldParts parts;
 };
 
+/// Consecutive 32-bit words.
+struct WordRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
 /// One filling of the atlas, in the form the device takes.
 struct Round {
     geometry::Mesh mesh;
@@ -89,7 +95,10 @@ struct Round {
     std::vector<PointData> field_points;
     std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
     std::vector<FieldPointRun> field_point_runs;
-    std::uint64_t field_words = 0;  ///< of the read-back of all fields together
+    std::uint64_t field_words = 0;           ///< of all fields together
+    std::vector<WordRange> field_read_back;  ///< those of them that the host wants
+    /// What some of its queries come to stays on the device: points say in detail what is nearest.
+    bool resident = false;
     /// A round is either drawn or, by the compute technique, worked off from this; then it has no
     /// mesh.
     bool by_compute = false;
@@ -116,6 +125,8 @@ private:
     /// Makes room in the read-back for what is asked for at every cell.
     void add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
                           Round& round) const;
+    /// Words of fields, at the end of all there are so far; the first one.
+    static std::uint32_t add_field_words(std::uint64_t count, bool for_host, Round& round);
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw, Round& round);
     void add_points(const Plan& plan, std::uint32_t number, Round& round);
     void add_field_points(const Plan& plan, std::uint32_t number, Round& round);

@@ -18,6 +18,11 @@ template <class Query>
             return "blended gradients, which are drawn";
         }
     }
+    if constexpr (requires { query.resident; }) {
+        if (technique == Technique::cpu && query.resident) {
+            return "what is to stay on the device (resident)";
+        }
+    }
     if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
         if (technique != Technique::cpu && technique != Technique::automatic) {
             return "intersection tests";
@@ -39,6 +44,15 @@ template <class Query>
 [[nodiscard]] inline bool answers(Technique technique, const AnyQuery& query) {
     return std::visit([&](const auto& asked) { return unanswered(technique, asked) == nullptr; },
                       query);
+}
+
+/// Where the answer is is known only after the device was asked once, and it has to be asked again.
+template <class Query>
+[[nodiscard]] bool takes_a_second_submission(const Query& query) {
+    if constexpr (std::is_same_v<Query, ContactQuery>) {
+        return query.normals == ContactNormals::gradient && query.technique != Technique::cpu;
+    }
+    return false;
 }
 
 }  // namespace nearfield::plan

@@ -1,5 +1,7 @@
 #include <nearfield/status.hpp>
 
+#include <utility>
+
 namespace nearfield {
 
 const char* to_string(StatusCode code) noexcept {
@@ -14,10 +16,18 @@ const char* to_string(StatusCode code) noexcept {
             return "unknown_shape";
         case StatusCode::invalid_settings:
             return "invalid_settings";
+        case StatusCode::invalid_submission:
+            return "invalid_submission";
         case StatusCode::unknown_ticket:
             return "unknown_ticket";
         case StatusCode::ring_full:
             return "ring_full";
+        case StatusCode::not_ready:
+            return "not_ready";
+        case StatusCode::not_executed:
+            return "not_executed";
+        case StatusCode::not_recordable:
+            return "not_recordable";
         case StatusCode::too_large:
             return "too_large";
         case StatusCode::no_device:
@@ -34,6 +44,28 @@ const char* to_string(StatusCode code) noexcept {
             return "device_error";
     }
     return "unknown";
+}
+
+struct Status::Words {
+    std::string message;
+    std::vector<std::string> reasons;
+};
+
+Status::Status(StatusCode code, std::string message, std::vector<std::string> reasons)
+    : code_(code),
+      words_(std::make_shared<const Words>(Words{std::move(message), std::move(reasons)})) {}
+
+const std::string& Status::message() const noexcept {
+    return words().message;
+}
+
+const std::vector<std::string>& Status::reasons() const noexcept {
+    return words().reasons;
+}
+
+const Status::Words& Status::words() const noexcept {
+    static const Words none;
+    return words_ ? *words_ : none;
 }
 
 std::string Status::text() const {

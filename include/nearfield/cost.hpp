@@ -26,9 +26,9 @@ struct TechniqueCost {
 /// What each technique costs on one machine. Few numbers, since it only has to tell apart what
 /// differs by factors; Context::measure_costs finds them by running all techniques.
 struct CostModel {
-    TechniqueCost raster;
-    TechniqueCost compute;
-    TechniqueCost cpu;
+    TechniqueCost raster;   ///< of Technique::raster
+    TechniqueCost compute;  ///< of Technique::compute
+    TechniqueCost cpu;      ///< of Technique::cpu
 };
 
 }  // namespace nearfield

@@ -8,6 +8,10 @@
 #include <nearfield/host.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/requirements.hpp>
+#include <nearfield/resident.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
+#include <nearfield/submission.hpp>
+#include <nearfield/version.hpp>

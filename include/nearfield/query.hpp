@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/export.hpp>
 #include <nearfield/shape.hpp>
 
 #include <cstddef>
@@ -48,7 +49,7 @@ enum class Technique {
 };
 
 /// The name of a technique as it stands in the enumeration ("raster").
-[[nodiscard]] const char* to_string(Technique technique) noexcept;
+[[nodiscard]] NEARFIELD_EXPORT const char* to_string(Technique technique) noexcept;
 
 /// Which points of A a penetration query looks at.
 enum class PenetrationPoints {
@@ -59,12 +60,16 @@ enum class PenetrationPoints {
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (the paper's section 2.2.4, "Penetration Depth and Direction").
 struct PenetrationQuery {
-    Instance a;
-    Instance b;
+    Instance a;              ///< whose points are looked at
+    Instance b;              ///< in which they lie
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
-    PenetrationPoints points = PenetrationPoints::boundary;
+    PenetrationPoints points = PenetrationPoints::boundary;  ///< which points of A
     bool records = true;  ///< false: keep the summary (count, deepest) and leave the records out
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< what answers
+    /// True: summary and records stay on the device as well, for shaders to read (resident.hpp);
+    /// Technique::automatic then chooses among those that answer on the device, and
+    /// Technique::cpu is refused (invalid_query).
+    bool resident = false;
 };
 
 /// What of each shape takes part in an intersection (the paper's section 2.2.1).
@@ -97,22 +102,23 @@ enum class IntersectionStrategy {
     /// equals 0; found where the colour is 255. Needs nothing but the base.
     depth,
 };
+/// How many strategies there are.
 inline constexpr std::size_t intersection_strategies = 4;
 
 /// The name of a strategy as it stands in the enumeration ("logic_op").
-[[nodiscard]] const char* to_string(IntersectionStrategy strategy) noexcept;
+[[nodiscard]] NEARFIELD_EXPORT const char* to_string(IntersectionStrategy strategy) noexcept;
 
 /// The samples of a grid that lie in both shapes (section 2.2.1, Table 1).
 struct IntersectionQuery {
-    Instance a;
-    Instance b;
+    Instance a;              ///< takes part by its boundary or volume, as `kind` says
+    Instance b;              ///< likewise
     double tolerance = 0.0;  ///< d, world units, > 0
-    IntersectionKind kind = IntersectionKind::volume_volume;
+    IntersectionKind kind = IntersectionKind::volume_volume;  ///< what of each takes part
     /// False: keep the summary (count, area, box) and leave the samples out. None are listed then,
     /// so memory does not grow with the grid, but for the bit masks of Technique::compute.
     bool records = true;
-    IntersectionStrategy strategy = IntersectionStrategy::stencil;
-    Technique technique = Technique::automatic;
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of Technique::raster
+    Technique technique = Technique::automatic;                     ///< what answers
 };
 
 /// Which buffer of the raster says which cells lie inside (section 2.2.2 lists all three). They
@@ -141,13 +147,13 @@ enum class GradientMethod {
 /// Voronoi diagram) and the gradient (section 2.2.3). Refused where nothing is asked for.
 struct DistanceFieldQuery {
     Instance a;  ///< whose box is shared; may be left out (the default) where a rectangle is given
-    Instance b;
+    Instance b;  ///< whose distance is asked for
     double tolerance = 0.0;  ///< d, world units, > 0; the side of a cell is d * sqrt 2
     /// What the grid covers; its low corner is the low corner of cell (0, 0). Left out: what the
     /// bounding boxes of A and B have in common, grown by d on every side; an error where they have
     /// nothing in common.
     std::optional<Rectangle> rectangle = std::nullopt;
-    SignEncoding sign = SignEncoding::stencil;
+    SignEncoding sign = SignEncoding::stencil;  ///< of Technique::raster
     /// Of the gradients asked for, at cells and at points.
     GradientMethod gradient = GradientMethod::analytic;
     bool values = true;      ///< the signed distance at every cell
@@ -158,7 +164,11 @@ struct DistanceFieldQuery {
     /// included (reconstruction takes cells from a border around the grid). Borrowed until run() or
     /// submit() returns.
     std::span<const Vector2> points = {};
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< what answers
+    /// True: images of the signed distance and of the nearest features stay on the device, for
+    /// shaders to sample (resident.hpp); of techniques as PenetrationQuery::resident. `values` and
+    /// `features` say what comes back to the CPU beside; both may be false, and then nothing does.
+    bool resident = false;
 };
 
 /// Where the normal of a contact comes from.
@@ -170,33 +180,35 @@ enum class ContactNormals {
 /// Contact points and normals: the points of either boundary that are close to the other boundary
 /// (the paper's section 2.2.4, "Contact Points and Normals"), inside and outside alike.
 struct ContactQuery {
-    Instance a;
-    Instance b;
+    Instance a;                     ///< one of the two
+    Instance b;                     ///< the other, whose normals are given
     double tolerance = 0.0;         ///< d, world units, > 0: contacts lie at most a cell apart
     double contact_distance = 0.0;  ///< how close counts as contact, world units, > 0
-    ContactNormals normals = ContactNormals::analytic;
+    ContactNormals normals = ContactNormals::analytic;  ///< how normals are found
     bool records = true;  ///< false: keep the summary and the manifold, leave the records out
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< what answers
+    /// As PenetrationQuery::resident; with ContactNormals::analytic alone (invalid_query else).
+    bool resident = false;
 };
 
 /// The point of A that is closest to B (section 2.2.4, "Closest Point").
 struct ClosestPointQuery {
-    Instance a;
-    Instance b;
+    Instance a;  ///< whose point is sought
+    Instance b;  ///< what it is closest to
     /// d, world units, > 0: half the diagonal of a cell of the grid that the search is rendered
     /// with; coarser where that would take more than 4,096 samples of a boundary
     /// (ResultSummary::cell says what it was). The answer is exact whatever it is.
     double tolerance = 0.0;
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< what answers
 };
 
 /// The least distance between two shapes, and where it is (section 2.2.4, "Separation Distance and
 /// Direction").
 struct SeparationQuery {
-    Instance a;
-    Instance b;
-    double tolerance = 0.0;  ///< as for ClosestPointQuery
-    Technique technique = Technique::automatic;
+    Instance a;                                  ///< one of the two
+    Instance b;                                  ///< the other
+    double tolerance = 0.0;                      ///< as for ClosestPointQuery
+    Technique technique = Technique::automatic;  ///< what answers
 };
 
 /// Whether the closed shapes A and B share a point: the answer is ResultSummary::intersects and
@@ -204,9 +216,9 @@ struct SeparationQuery {
 /// answered on the CPU (Technique::automatic or cpu): raster and compute are refused
 /// (invalid_query).
 struct IntersectionTestQuery {
-    Instance a;
-    Instance b;
-    Technique technique = Technique::automatic;
+    Instance a;                                  ///< one of the two
+    Instance b;                                  ///< the other
+    Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
 /// When two moving shapes first touch. From time 0 to time 1 each moves from its instance's pose to
@@ -247,9 +259,10 @@ struct SeparationVectorQuery {
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
-    std::uint32_t index = UINT32_MAX;
+    std::uint32_t index = UINT32_MAX;  ///< position in the batch; UINT32_MAX: no query
 };
 
+/// One query of any kind.
 using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
                               ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
                               TimeOfImpactQuery, SeparationVectorQuery>;
@@ -258,13 +271,17 @@ using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceField
 /// frame does not allocate. Not thread-safe; different batches are independent.
 class Batch {
 public:
+    /// Appends a query, of one of AnyQuery's kinds. The handle finds its result in the results of
+    /// the batch.
     template <class Query>
     QueryHandle<Query> add(const Query& query) {
         queries_.emplace_back(query);
         return {static_cast<std::uint32_t>(queries_.size() - 1)};
     }
 
+    /// Takes all queries out.
     void clear() noexcept { queries_.clear(); }
+    /// All queries in order. Borrowed until the batch changes.
     [[nodiscard]] std::span<const AnyQuery> queries() const noexcept { return queries_; }
 
 private:

@@ -19,8 +19,8 @@ namespace nearfield {
 /// A rectangle that localisation found, with the grid it was sampled on. Sample (column, row) is
 /// the centre of its cell: min + (column + 1/2, row + 1/2) * cell; row 0 is the lowest.
 struct Region {
-    Vector2 min;
-    Vector2 max;
+    Vector2 min;               ///< low corner, of cell (0, 0) too
+    Vector2 max;               ///< high corner
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
 };
@@ -35,17 +35,21 @@ struct ResultSummary {
     /// each other, than their deviations together. False for a distance field without a shape A.
     bool intersects = false;
     double cell = 0.0;  ///< side of a grid cell; samples of a boundary are no farther apart
-    std::vector<Region> regions;
-    LocalizationStatistics localization;
+    std::vector<Region> regions;          ///< what was sampled; Technique says where there is none
+    LocalizationStatistics localization;  ///< what the search for regions did
     Technique technique = Technique::raster;  ///< what answered; never automatic
 };
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
 /// rings of the shape in the order given.
 struct Feature {
-    enum class Kind : std::uint8_t { edge, vertex };
-    Kind kind = Kind::edge;
-    std::uint32_t index = 0;
+    /// Which of both it is.
+    enum class Kind : std::uint8_t {
+        edge,    ///< from vertex `index` to the next one of its ring
+        vertex,  ///< vertex `index`
+    };
+    Kind kind = Kind::edge;   ///< edge or vertex
+    std::uint32_t index = 0;  ///< among all edges, or all vertices, of the shape
 };
 
 /// One penetrating point of A.
@@ -78,6 +82,7 @@ struct PenetrationResult : ResultSummary {
 
 /// One grid sample that lies in both shapes.
 struct IntersectionSample {
+    /// In place of an edge where A takes part by its volume.
     static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
     Vector2 point;                 ///< the centre of a cell
     std::uint32_t edge = no_edge;  ///< where A takes part by its boundary: an edge of A nearby
@@ -88,7 +93,7 @@ struct IntersectionSample {
 /// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
 /// in both (or, by its boundary, lies on it) has a sample within it.
 struct IntersectionResult : ResultSummary {
-    IntersectionKind kind = IntersectionKind::volume_volume;
+    IntersectionKind kind = IntersectionKind::volume_volume;        ///< as asked
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< as asked
     std::uint64_t count = 0;                                        ///< samples found
     double area = 0.0;  ///< count times the area of a cell
@@ -98,7 +103,7 @@ struct IntersectionResult : ResultSummary {
 
 /// The field at one of DistanceFieldQuery::points.
 struct FieldPoint {
-    Vector2 point;
+    Vector2 point;  ///< as asked
     /// Signed distance: bilinear between the four cell centres around the point.
     double distance = 0.0;
     /// The exact signed distance differs from `distance` by no more than this. A distance changes
@@ -141,7 +146,10 @@ struct DistanceFieldResult : ResultSummary {
 };
 
 /// Which of the two shapes of a query.
-enum class Side : std::uint8_t { a, b };
+enum class Side : std::uint8_t {
+    a,  ///< the query's `a`
+    b,  ///< the query's `b`
+};
 
 /// A point of one boundary that is close to the other.
 struct ContactRecord {
@@ -150,20 +158,20 @@ struct ContactRecord {
     double distance = 0.0;  ///< from `point` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
     Feature feature;        ///< of the other shape: where `nearest` lies
-    Side on = Side::a;
-    bool inside = false;  ///< `point` lies inside the other shape
-    bool unique = true;   ///< as PenetrationRecord::unique
+    Side on = Side::a;      ///< whose boundary `point` is on
+    bool inside = false;    ///< `point` lies inside the other shape
+    bool unique = true;     ///< as PenetrationRecord::unique
 };
 
 /// A stretch of the contact between A and B, in one piece and turning by less than a right angle,
 /// told by a few points.
 struct ContactCluster {
-    /// Its two ends, points of A's boundary in the order of A's vertices: the contacts farthest
-    /// along the stretch, at right angles to `normal`, where a contact's distance outside B counts
-    /// twice against it and its depth an eighth for it. The same point where there is but one, and
-    /// the deepest where the stretch runs straight into B.
+    /// The first of its two ends, points of A's boundary in the order of A's vertices: the contacts
+    /// farthest along the stretch, at right angles to `normal`, where a contact's distance outside
+    /// B counts twice against it and its depth an eighth for it. The same point where there is but
+    /// one, and the deepest where the stretch runs straight into B.
     Vector2 first;
-    Vector2 last;
+    Vector2 last;    ///< the other end
     Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B
     /// The deepest contact where some are inside the other shape, else the closest; of A's contacts
     /// and of those of B's whose nearest point lies on this stretch.
@@ -206,13 +214,13 @@ struct ClosestPointResult : ResultSummary {
 /// distance. `unique` is about both points: false where another pair, one of its points farther
 /// than d from this pair's, is as close up to d/1000.
 struct SeparationResult : ResultSummary {
-    double distance = 0.0;
-    Vector2 point_a;    ///< of A
-    Vector2 point_b;    ///< of B
-    Vector2 direction;  ///< unit vector from point_a to point_b; (0, 0) at distance 0
-    Feature feature_a;
-    Feature feature_b;
-    bool unique = true;
+    double distance = 0.0;  ///< from point_a to point_b, world units; 0 where they intersect
+    Vector2 point_a;        ///< of A
+    Vector2 point_b;        ///< of B
+    Vector2 direction;      ///< unit vector from point_a to point_b; (0, 0) at distance 0
+    Feature feature_a;      ///< where point_a lies on A's boundary; meaningful at a distance > 0
+    Feature feature_b;      ///< where point_b lies on B's
+    bool unique = true;     ///< false where the pair is one of several
     double sampled_distance = 0.0;  ///< of the points of both that were rendered
 };
 
@@ -231,7 +239,7 @@ enum class ImpactState : std::uint8_t {
 };
 
 /// The name of a state as it stands in the enumeration ("bound_not_reached").
-[[nodiscard]] const char* to_string(ImpactState state) noexcept;
+[[nodiscard]] NEARFIELD_EXPORT const char* to_string(ImpactState state) noexcept;
 
 /// Answer to a TimeOfImpactQuery. Never late: whatever the state, the shapes share no point before
 /// `time`. Said of the rings as given, as `intersects` is.
@@ -271,14 +279,14 @@ struct TimeOfImpactResult : ResultSummary {
 struct SeparationVectorResult : ResultSummary {
     Vector2 vector;       ///< to be added to the translation of A's pose
     double length = 0.0;  ///< of the vector
-    double lower_bound =
-        0.0;  ///< no translation of A that is shorter than this separates the shapes
+    /// No translation of A that is shorter than this separates the shapes.
+    double lower_bound = 0.0;
 };
 
 /// Time one pass took on the device.
 struct PassTime {
-    std::string name;
-    double milliseconds = 0.0;
+    std::string name;           ///< as the render graph and debuggers have it
+    double milliseconds = 0.0;  ///< from its first command to the end of its last
 };
 
 /// Where the time of a batch went, in milliseconds. The device works beside the CPU, so the parts
@@ -288,19 +296,24 @@ struct Timings {
     double plan = 0.0;      ///< choice of techniques, simplification, meshes, atlas, upload
     double record = 0.0;    ///< commands
     /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
-    /// in collect(): with other frames in between it holds what the caller did meanwhile.
+    /// in collect(): with other frames in between it holds what the caller did meanwhile. 0 for
+    /// what was recorded, since the host submits it; `passes` are measured all the same.
     double device = 0.0;
     double decode = 0.0;  ///< reading results and making them exact; what the CPU answers alone
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
     std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
 };
 
+/// One result of any kind, in the order of AnyQuery.
 using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
                                ContactResult, ClosestPointResult, SeparationResult,
                                IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
 
+/// The kind of result that a kind of query has: ResultOf<Query>::type.
 template <class Query>
 struct ResultOf;
+
+/// \cond
 template <>
 struct ResultOf<PenetrationQuery> {
     using type = PenetrationResult;
@@ -331,7 +344,6 @@ template <>
 struct ResultOf<IntersectionTestQuery> {
     using type = IntersectionTestResult;
 };
-
 template <>
 struct ResultOf<TimeOfImpactQuery> {
     using type = TimeOfImpactResult;
@@ -341,12 +353,13 @@ template <>
 struct ResultOf<SeparationVectorQuery> {
     using type = SeparationVectorResult;
 };
+/// \endcond
 
 /// The results of one batch, in the order of its queries. Reusing one object for every frame keeps
 /// its memory.
 struct Results {
-    std::vector<AnyResult> results;
-    Timings timings;
+    std::vector<AnyResult> results;  ///< one a query, in order
+    Timings timings;                 ///< of the batch as a whole
 
     /// The result of a query. Precondition: the handle comes from the batch that was run.
     template <class Query>

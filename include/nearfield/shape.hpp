@@ -11,9 +11,10 @@ namespace nearfield {
 
 /// A point, a displacement or a direction in the plane.
 struct Vector2 {
-    double x = 0.0;
-    double y = 0.0;
+    double x = 0.0;  ///< to the right
+    double y = 0.0;  ///< up
 
+    /// Both coordinates are equal.
     friend bool operator==(const Vector2&, const Vector2&) = default;
 };
 
@@ -29,41 +30,44 @@ using Ring = std::vector<Vector2>;
 /// different vertices or lies on one line, a coordinate is not finite or its magnitude exceeds
 /// `largest_coordinate`, or all rings together have more than `most_vertices` vertices.
 inline constexpr double largest_coordinate = 1e12;
+/// The most vertices that all rings of a shape together may have.
 inline constexpr std::uint32_t most_vertices = 1U << 28U;
 
 /// Names a shape of one context. The default value names none.
 struct ShapeHandle {
-    std::uint32_t index = UINT32_MAX;
-    std::uint32_t generation = 0;
+    std::uint32_t index = UINT32_MAX;  ///< the context's own; UINT32_MAX: no shape
+    std::uint32_t generation = 0;      ///< tells apart the shapes that had this index in turn
 
+    /// Both name the same shape, in one context.
     friend bool operator==(const ShapeHandle&, const ShapeHandle&) = default;
 };
 
 /// A rigid transform from shape coordinates to world coordinates: rotate counter-clockwise about
 /// the origin of the shape's own coordinates, then translate.
 struct Pose {
-    Vector2 translation;
-    double angle = 0.0;  ///< radians, counter-clockwise
+    Vector2 translation;  ///< world units, applied after the rotation
+    double angle = 0.0;   ///< radians, counter-clockwise
 };
 
 /// A shape at a place.
 struct Instance {
-    ShapeHandle shape;
-    Pose pose;
+    ShapeHandle shape;  ///< of the context that answers
+    Pose pose;          ///< from the shape's coordinates to the world
 };
 
 /// Two of a list of instances, by their positions in it.
 struct InstancePair {
-    std::uint32_t first = 0;
+    std::uint32_t first = 0;   ///< position in the list
     std::uint32_t second = 0;  ///< > first
 
+    /// The same two, in the same order.
     friend bool operator==(const InstancePair&, const InstancePair&) = default;
 };
 
 /// An axis-aligned rectangle in world coordinates.
 struct Rectangle {
-    Vector2 min;
-    Vector2 max;
+    Vector2 min;  ///< low corner
+    Vector2 max;  ///< high corner
 };
 
 }  // namespace nearfield

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,15 +16,19 @@ namespace nearfield {
 
 /// What kind of thing went wrong.
 enum class StatusCode {
-    ok,
+    ok,                ///< nothing
     invalid_shape,     ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
     invalid_query,     ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
     unknown_shape,     ///< a handle that was never given out, or whose shape was removed
     invalid_settings,  ///< a setting of a context cannot be used (frames in flight, ...)
-    unknown_ticket,    ///< a ticket that was never given out, or was collected already
-    ring_full,         ///< as many batches are in flight as may be; one has to be collected first
-    too_large,         ///< the answer would need more memory than the stated limit
-    no_device,         ///< no Vulkan driver, or no device in it, that could be used
+    invalid_submission,  ///< what came with a batch cannot be used (semaphore, frame, ...)
+    unknown_ticket,      ///< a ticket that was never given out, or was collected already
+    ring_full,           ///< as many batches are in flight as may be; one has to be collected first
+    not_ready,           ///< the frame that a batch was recorded for is not complete yet
+    not_executed,        ///< the commands recorded for a batch were never executed
+    not_recordable,      ///< a query takes more than one submission, and so cannot be recorded
+    too_large,           ///< the answer would need more memory than the stated limit
+    no_device,           ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
     unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
     out_of_memory,         ///< host or device memory ran out
@@ -31,40 +37,36 @@ enum class StatusCode {
 };
 
 /// The name of a code as it stands in the enumeration ("invalid_shape").
-[[nodiscard]] const char* to_string(StatusCode code) noexcept;
+[[nodiscard]] NEARFIELD_EXPORT const char* to_string(StatusCode code) noexcept;
 
 /// Success, or an error with one message for people and every single reason behind it.
-class [[nodiscard]] Status {
+class [[nodiscard]] NEARFIELD_EXPORT Status {
 public:
     /// Success.
     Status() = default;
 
+    /// An error without words, for where there is no memory for any.
+    explicit Status(StatusCode code) noexcept : code_(code) {}
+
     /// An error. `message` says what failed, where and why; `reasons` lists each cause where
     /// there can be several (all the features a device lacks, say).
-    Status(StatusCode code, std::string message, std::vector<std::string> reasons = {})
-        : code_(code),
-          words_(std::make_shared<const Words>(Words{std::move(message), std::move(reasons)})) {}
+    Status(StatusCode code, std::string message, std::vector<std::string> reasons = {});
 
+    /// True of success.
     [[nodiscard]] bool ok() const noexcept { return code_ == StatusCode::ok; }
+    /// StatusCode::ok of success.
     [[nodiscard]] StatusCode code() const noexcept { return code_; }
-    [[nodiscard]] const std::string& message() const noexcept { return words().message; }
-    [[nodiscard]] const std::vector<std::string>& reasons() const noexcept {
-        return words().reasons;
-    }
+    /// What failed, where and why; empty of success. Borrowed, as the reasons are, from the status.
+    [[nodiscard]] const std::string& message() const noexcept;
+    /// Every single cause, where there can be several.
+    [[nodiscard]] const std::vector<std::string>& reasons() const noexcept;
 
     /// Code, message and reasons in one text, a reason a line.
     [[nodiscard]] std::string text() const;
 
 private:
-    struct Words {
-        std::string message;
-        std::vector<std::string> reasons;
-    };
-
-    [[nodiscard]] const Words& words() const noexcept {
-        static const Words none;
-        return words_ ? *words_ : none;
-    }
+    struct Words;
+    [[nodiscard]] const Words& words() const noexcept;
 
     StatusCode code_ = StatusCode::ok;
     // Kept elsewhere: success, which is checked for every query, is to cost nothing.
@@ -77,17 +79,27 @@ private:
 template <class Value>
 class [[nodiscard]] Expected {
 public:
+    /// A value; not explicit, so that a function can return it as it is.
     Expected(Value value) : value_(std::move(value)) {}
+    /// An error. Precondition: it is not success.
     Expected(Status error) : status_(std::move(error)) {}
 
+    /// True where there is a value.
     [[nodiscard]] bool ok() const noexcept { return value_.has_value(); }
+    /// Why there is no value; success where there is one.
     [[nodiscard]] const Status& status() const noexcept { return status_; }
 
+    /// The value, which stays where it is.
     [[nodiscard]] Value& value() noexcept { return *value_; }
+    /// Likewise.
     [[nodiscard]] const Value& value() const noexcept { return *value_; }
+    /// The value, as a pointer gives it.
     [[nodiscard]] Value& operator*() noexcept { return *value_; }
+    /// Likewise.
     [[nodiscard]] const Value& operator*() const noexcept { return *value_; }
+    /// A member of the value.
     [[nodiscard]] Value* operator->() noexcept { return &*value_; }
+    /// Likewise.
     [[nodiscard]] const Value* operator->() const noexcept { return &*value_; }
 
 private:

@@ -1,11 +1,10 @@
-#include <engine/gpu/functions.hpp>
-
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
-#include <tests/support/fake_loader.hpp>
+#include <tests/support/host_frames.hpp>
+#include <tests/support/watched_loader.hpp>
 
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace nearfield::test {
@@ -17,67 +16,18 @@ namespace {
 std::uint64_t allocations_below = 0;
 std::vector<std::string> created;  // entry points called that make or destroy something
 
-void note(std::string_view name) {
-    for (const std::string_view verb : {"vkCreate", "vkAllocate", "vkDestroy", "vkFree", "vkMap"}) {
-        if (name.starts_with(verb)) {
-            created.emplace_back(name);
-        }
+void note_call(const test_support::WatchedCall& call) {
+    allocations_below += call.allocations;
+    if (call.makes() || call.destroys() || call.name.starts_with("vkMap")) {
+        created.emplace_back(call.name);
     }
-}
-
-/// Stands between the library and one entry point; `Tag` tells those of one type apart.
-template <class Tag, class Function>
-struct Between;
-
-template <class Tag, class Result, class... Arguments>
-struct Between<Tag, Result(VKAPI_PTR*)(Arguments...)> {
-    static inline Result(VKAPI_PTR* below)(Arguments...) = nullptr;
-
-    static Result VKAPI_CALL call(Arguments... arguments) {
-        const std::uint64_t before = test_support::allocation_count_of_this_thread();
-        struct Account {
-            std::uint64_t before;
-            ~Account() {
-                allocations_below += test_support::allocation_count_of_this_thread() - before;
-            }
-        } const account{before};
-        note(Tag::name);
-        return below(arguments...);
-    }
-};
-
-#define NEARFIELD_TAG(function)                        \
-    struct Tag_##function {                            \
-        static constexpr const char* name = #function; \
-    };
-NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_TAG)
-NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_TAG)
-#undef NEARFIELD_TAG
-
-template <class Tag, class Function>
-void lay_between(const HostDevice& host, test_support::Lies& lies) {
-    using Here = Between<Tag, Function>;
-    Here::below = reinterpret_cast<Function>(host.get_instance_proc_addr(host.instance, Tag::name));
-    if (Here::below != nullptr) {
-        lies.entry_points[Tag::name] = reinterpret_cast<PFN_vkVoidFunction>(&Here::call);
-    }
-}
-
-/// Between the library and every entry point of the host's device.
-test_support::Lies between(const HostDevice& host) {
-    test_support::Lies lies;
-#define NEARFIELD_BETWEEN(function) lay_between<Tag_##function, PFN_##function>(host, lies);
-    NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_BETWEEN)
-    NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_BETWEEN)
-#undef NEARFIELD_BETWEEN
-    return lies;
 }
 
 class SteadyState : public QueryTest {
 protected:
     void SetUp() override {
         QueryTest::SetUp();
-        loader_.emplace(host_device(), between(host_device()));
+        loader_.emplace(host_device(), test_support::watched(host_device(), note_call));
         Expected<Context> made = Context::create(loader_->host(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();
         watched_.emplace(std::move(*made));
@@ -102,6 +52,26 @@ protected:
 
     [[nodiscard]] Context& watched() { return *watched_; }
     [[nodiscard]] const Batch& batch() const { return batch_; }
+
+    /// Queries whose results stay on the device: fields first, then penetration.
+    [[nodiscard]] Batch resident_batch() const {
+        Batch batch;
+        DistanceFieldQuery field;
+        field.b = {b_, {{5.7, 5.1}, 0.3}};
+        field.tolerance = 0.1;
+        field.rectangle = Rectangle{{4.0, 4.0}, {6.0, 6.0}};
+        field.resident = true;
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            field.technique = technique;
+            batch.add(field);
+        }
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            const Instance here{a_, {{5.0, 5.0}, 0.0}};
+            batch.add(PenetrationQuery{here, field.b, 0.08, {}, true, technique, true});
+            batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, true, technique, true});
+        }
+        return batch;
+    }
 
     /// Both shapes take the next of their forms.
     [[nodiscard]] bool deform(int frame) {
@@ -129,6 +99,14 @@ protected:
         EXPECT_EQ(failures, 0);
         EXPECT_EQ(created, std::vector<std::string>());
         EXPECT_EQ(all - allocations_below, 0U) << "in " << frames << " frames";
+    }
+
+    /// What the host does itself does not count.
+    template <class Action>
+    static void by_others(const Action& action) {
+        const std::uint64_t before = test_support::allocation_count_of_this_thread();
+        action();
+        allocations_below += test_support::allocation_count_of_this_thread() - before;
     }
 
     static void expect_answers(const Results& results) {
@@ -209,11 +187,67 @@ TEST_F(SteadyState, AThousandFramesInFlightAllocateAndCreateNothing) {
     EXPECT_EQ(results.results.size(), batch().queries().size());
 }
 
+TEST_F(SteadyState, AThousandRecordedFramesAllocateAndCreateNothing) {
+    constexpr std::uint64_t frames = 2;
+    test_support::HostFrames host(host_device(), frames);
+    // Refusing a query takes words, which take memory: the batch has none to refuse.
+    Batch recordable;
+    for (const AnyQuery& query : batch().queries()) {
+        const auto* const contacts = std::get_if<ContactQuery>(&query);
+        if (contacts == nullptr || contacts->normals == ContactNormals::analytic) {
+            std::visit([&](const auto& same) { recordable.add(same); }, query);
+        }
+    }
+    Results results;
+    Ticket tickets[frames];
+    std::uint64_t number = 0;
+    expect_nothing_made(1000, [&](int form) {
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        by_others([&] { commands = host.begin(number); });
+        Ticket& ticket = tickets[number % frames];
+        bool ok = deform(form);
+        if (number >= frames) {
+            watched().frame_completed(number - frames);
+            ok = ok && watched().collect(ticket, results).ok();
+        }
+        const Expected<Ticket> next =
+            watched().record(recordable, {.commands = commands, .frame = number});
+        ok = ok && next.ok();
+        ticket = next.ok() ? *next : Ticket{};
+        by_others([&] { host.submit(number++); });
+        return ok;
+    });
+    expect_answers(results);
+    EXPECT_EQ(results.results.size(), recordable.queries().size());
+    host.wait(number - 1);
+}
+
 TEST_F(SteadyState, FramesThatAreWaitedForAllocateAndCreateNothing) {
     Results results;
     expect_nothing_made(
         50, [&](int number) { return deform(number) && watched().run(batch(), results).ok(); });
     expect_answers(results);
+}
+
+TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
+    const Batch batch = resident_batch();
+    Results results;
+    Ticket former;
+    expect_nothing_made(200, [&](int number) {
+        if (!deform(number)) {
+            return false;
+        }
+        const Expected<Ticket> ticket = watched().submit(batch);
+        const bool handed_over =
+            ticket.ok() && watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).ok() &&
+            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).ok();
+        const bool ok =
+            handed_over && (former == Ticket{} || watched().collect(former, results).ok());
+        former = ticket.ok() ? *ticket : Ticket{};
+        return ok;
+    });
+    expect_answers(results);
+    EXPECT_EQ(results.results.size(), batch.queries().size());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <tests/support/allocations.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -8,10 +9,19 @@ namespace {
 
 std::atomic<std::uint64_t> allocations{0};
 thread_local std::uint64_t allocations_of_this_thread = 0;
+thread_local std::uint64_t successes_left = UINT64_MAX;
+thread_local bool failed = false;
+thread_local int unwatched = 0;
 
 void* allocate(std::size_t size) noexcept {
-    ++allocations;
-    ++allocations_of_this_thread;
+    if (unwatched == 0) {
+        ++allocations;
+        ++allocations_of_this_thread;
+        if (successes_left == 0) {
+            return nullptr;
+        }
+        --successes_left;
+    }
     return std::malloc(size == 0 ? 1 : size);
 }
 
@@ -21,6 +31,7 @@ void* operator new(std::size_t size) {
     if (void* const memory = allocate(size)) {
         return memory;
     }
+    failed = true;
     throw std::bad_alloc();
 }
 
@@ -48,6 +59,27 @@ std::uint64_t allocation_count() noexcept {
 
 std::uint64_t allocation_count_of_this_thread() noexcept {
     return allocations_of_this_thread;
+}
+
+FailingAllocations::FailingAllocations(std::uint64_t successes) noexcept {
+    failed = false;
+    successes_left = successes;
+}
+
+FailingAllocations::~FailingAllocations() {
+    successes_left = UINT64_MAX;
+}
+
+bool FailingAllocations::has_failed() noexcept {
+    return failed;
+}
+
+UnwatchedAllocations::UnwatchedAllocations() noexcept {
+    ++unwatched;
+}
+
+UnwatchedAllocations::~UnwatchedAllocations() {
+    --unwatched;
 }
 
 }  // namespace nearfield::test_support

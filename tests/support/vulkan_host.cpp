@@ -37,13 +37,13 @@ Function VulkanHost::function(const char* name) const {
     return found;
 }
 
-VulkanHost::VulkanHost(const VkPhysicalDeviceFeatures& features) {
+VulkanHost::VulkanHost(const Enabled& enabled) {
     try {
         open_loader();
         require_layer();
         create_instance();
         choose_physical_device();
-        create_device(features);
+        create_device(enabled);
     } catch (...) {
         destroy();
         throw;
@@ -173,7 +173,7 @@ void VulkanHost::choose_physical_device() {
          "mesa-vulkan-drivers has one that needs no graphics card)");
 }
 
-void VulkanHost::create_device(const VkPhysicalDeviceFeatures& features) {
+void VulkanHost::create_device(const Enabled& enabled) {
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -184,13 +184,22 @@ void VulkanHost::create_device(const VkPhysicalDeviceFeatures& features) {
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.pEnabledFeatures = &features;
+    info.pEnabledFeatures = &enabled.features;
+    VkPhysicalDeviceTimelineSemaphoreFeatures timeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, nullptr, VK_TRUE};
+    const char* const extension = VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME;
+    if (enabled.timeline_semaphore) {
+        info.pNext = &timeline;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+    }
     require(function<PFN_vkCreateDevice>("vkCreateDevice")(device_.physical_device, &info, nullptr,
                                                            &device_.device),
             "vkCreateDevice");
     function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device_.device, device_.queue_family, 0,
                                                        &device_.queue);
-    device_.logic_op = features.logicOp == VK_TRUE;
+    device_.logic_op = enabled.features.logicOp == VK_TRUE;
+    device_.timeline_semaphore = enabled.timeline_semaphore;
 }
 
 void VulkanHost::destroy() {

@@ -9,6 +9,12 @@
 
 namespace nearfield::test_support {
 
+/// What a VulkanHost enables beyond the base: nothing, unless asked for.
+struct Enabled {
+    VkPhysicalDeviceFeatures features{};
+    bool timeline_semaphore = false;  ///< by VK_KHR_timeline_semaphore
+};
+
 /// A renderer in small: a Vulkan 1.1 device with no extension and, unless asked for, no feature
 /// enabled, under the Khronos validation layer with synchronisation validation. What the layer says
 /// is collected.
@@ -16,8 +22,10 @@ class VulkanHost {
 public:
     /// Throws std::runtime_error where the loader, the layer or a device is missing, so that a test
     /// without validation fails rather than passes.
-    VulkanHost() : VulkanHost(VkPhysicalDeviceFeatures{}) {}
-    explicit VulkanHost(const VkPhysicalDeviceFeatures& features);
+    VulkanHost() : VulkanHost(Enabled{}) {}
+    explicit VulkanHost(const VkPhysicalDeviceFeatures& features)
+        : VulkanHost(Enabled{features, false}) {}
+    explicit VulkanHost(const Enabled& enabled);
     ~VulkanHost();
     VulkanHost(const VulkanHost&) = delete;
     VulkanHost& operator=(const VulkanHost&) = delete;
@@ -48,7 +56,7 @@ private:
     void require_layer() const;
     void create_instance();
     void choose_physical_device();
-    void create_device(const VkPhysicalDeviceFeatures& features);
+    void create_device(const Enabled& enabled);
     void destroy();
 
     mutable std::mutex mutex_;  // the layer may speak from any thread

@@ -40,7 +40,7 @@ private:
 
 Status headless_status(const char* device_name) {
     try {
-        const gpu::HeadlessDevice headless(HeadlessOptions{device_name});
+        const gpu::HeadlessDevice headless(HeadlessOptions{.device_name = device_name});
         return {};
     } catch (const Failure& failure) {
         return failure.status();
@@ -114,7 +114,7 @@ TEST(GpuHeadless, FindsEveryUsableDeviceByAPartOfItsName) {
         }
         SCOPED_TRACE(report.name);
         const std::string part = report.name.substr(1, report.name.size() / 2);
-        const gpu::HeadlessDevice headless(HeadlessOptions{part.c_str()});
+        const gpu::HeadlessDevice headless(HeadlessOptions{.device_name = part.c_str()});
         EXPECT_NE(gpu::Device(headless.host()).name().find(part), std::string::npos);
     }
 }

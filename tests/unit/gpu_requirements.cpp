@@ -32,6 +32,26 @@ Status status_with(const HostDevice& host, Lies lies) {
     return status_of(fake.host());
 }
 
+PhysicalDevice physical(const HostDevice& host) {
+    PhysicalDevice device;
+    device.queue_family = host.queue_family;
+    device.instance = host.instance;
+    device.physical_device = host.physical_device;
+    device.get_instance_proc_addr = host.get_instance_proc_addr;
+    device.debug_utils = host.debug_utils;
+    return device;
+}
+
+Requirements requirements_of(const PhysicalDevice& device) {
+    const Expected<Requirements> found = requirements(device);
+    EXPECT_TRUE(found.ok()) << found.status().text();
+    return found.ok() ? *found : Requirements{};
+}
+
+Requirements requirements_of(const HostDevice& host) {
+    return requirements_of(physical(host));
+}
+
 void expect_one_reason(const Status& status, const std::vector<std::string>& words) {
     ASSERT_EQ(status.code(), StatusCode::unsupported_device) << status.text();
     ASSERT_EQ(status.reasons().size(), 1U) << status.text();
@@ -53,9 +73,7 @@ Lies without(VkFormat format, VkFormatFeatureFlags features) {
 
 TEST_F(GpuRequirements, BareDeviceSuffices) {
     const HostDevice& host = host_.device();
-    EXPECT_EQ(gpu::missing_requirements(host.get_instance_proc_addr, host.instance,
-                                        host.physical_device, host.queue_family),
-              std::vector<std::string>{});
+    EXPECT_EQ(requirements_of(host).unmet, std::vector<std::string>{});
     const gpu::Device device(host);
     EXPECT_FALSE(device.name().empty());
     EXPECT_NE(device.stencil_format(), VK_FORMAT_UNDEFINED);
@@ -208,11 +226,139 @@ TEST_F(GpuRequirements, MissingRequirementsNamesMissingEntryPoints) {
     Lies lies;
     lies.entry_points["vkGetPhysicalDeviceFormatProperties"] = nullptr;
     const FakeLoader fake(host_.device(), lies);
-    const HostDevice& host = fake.host();
-    const std::vector<std::string> missing = gpu::missing_requirements(
-        host.get_instance_proc_addr, host.instance, host.physical_device, host.queue_family);
+    const std::vector<std::string> missing = requirements_of(fake.host()).unmet;
     ASSERT_EQ(missing.size(), 1U);
     EXPECT_NE(missing[0].find("vkGetPhysicalDeviceFormatProperties"), std::string::npos);
+}
+
+TEST_F(GpuRequirements, AreAskedForWithNothingCreated) {
+    static std::vector<std::string> asked;
+    asked.clear();
+    PhysicalDevice device = physical(host_.device());
+    static PFN_vkGetInstanceProcAddr truth;
+    truth = device.get_instance_proc_addr;
+    device.get_instance_proc_addr = [](VkInstance instance, const char* name) {
+        asked.emplace_back(name);
+        return truth(instance, name);
+    };
+    const Requirements found = requirements_of(device);
+    EXPECT_TRUE(found.met());
+    EXPECT_FALSE(asked.empty());
+    for (const std::string& name : asked) {
+        EXPECT_TRUE(name.starts_with("vkGet") || name.starts_with("vkEnumerate")) << name;
+    }
+    EXPECT_EQ(found.queue_family, device.queue_family);
+    EXPECT_EQ(found.limits.size(), 3U);
+    EXPECT_EQ(found.formats.size(), 9U);
+}
+
+TEST_F(GpuRequirements, NameAQueueFamilyWhereNoneIsGiven) {
+    Lies lies;
+    lies.queue_families = [](std::vector<VkQueueFamilyProperties>& families) {
+        VkQueueFamilyProperties transfer = families.front();
+        transfer.queueFlags = VK_QUEUE_TRANSFER_BIT;
+        families.insert(families.begin(), {transfer, transfer});
+    };
+    const FakeLoader fake(host_.device(), lies);
+    PhysicalDevice device = physical(fake.host());
+    device.queue_family = PhysicalDevice::any_queue_family;
+    EXPECT_EQ(requirements_of(device).queue_family, 2U);
+    device.queue_family = 1;
+    const Requirements found = requirements_of(device);
+    EXPECT_FALSE(found.queue_family.has_value());
+    EXPECT_EQ(found.unmet.size(), 2U);
+}
+
+TEST_F(GpuRequirements, OptionalPartsSayWhatTheyUnlockAndWhatIsMissing) {
+    const Requirements all = requirements_of(host_.device());
+    for (const OptionalPart& part : all.optional) {
+        SCOPED_TRACE(part.name);
+        EXPECT_EQ(part.available, part.missing.empty());
+        EXPECT_NE(std::string(part.unlocks), "");
+        EXPECT_EQ(all.find(part.name), &part);
+    }
+    EXPECT_EQ(all.find("no such part"), nullptr);
+    // lavapipe has all of it, once the host says what it enabled on the instance.
+    ASSERT_EQ(all.optional.size(), 6U);
+    EXPECT_EQ(all.features.logicOp, VK_TRUE);
+    EXPECT_EQ(all.timeline_semaphore.timelineSemaphore, VK_TRUE);
+    ASSERT_EQ(all.device_extensions.size(), 1U);
+    EXPECT_EQ(std::string(all.device_extensions[0]), "VK_KHR_timeline_semaphore");
+    PhysicalDevice newer = physical(host_.device());
+    newer.api_version = VK_API_VERSION_1_2;
+    EXPECT_TRUE(requirements_of(newer).device_extensions.empty());
+    EXPECT_EQ(requirements_of(newer).timeline_semaphore.timelineSemaphore, VK_TRUE);
+
+    const auto missing = [&](const char* name, Lies lies) {
+        const FakeLoader fake(host_.device(), std::move(lies));
+        const Requirements found = requirements_of(fake.host());
+        EXPECT_TRUE(found.met());
+        const OptionalPart* const part = found.find(name);
+        return part == nullptr || part->missing.empty() ? std::string() : part->missing.front();
+    };
+    EXPECT_EQ(missing("logicOp", {}), "");
+    Lies no_timestamps;
+    no_timestamps.queue_families = [](std::vector<VkQueueFamilyProperties>& families) {
+        families.front().timestampValidBits = 0;
+    };
+    EXPECT_NE(missing("timestamps", no_timestamps).find("timestampValidBits"), std::string::npos);
+    EXPECT_NE(
+        missing("blending of VK_FORMAT_R32G32_SFLOAT",
+                without(VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
+            .find("VK_FORMAT_R16G16_SFLOAT"),
+        std::string::npos);
+    Lies no_features;
+    no_features.entry_points["vkGetPhysicalDeviceFeatures"] = nullptr;
+    EXPECT_NE(missing("logicOp", no_features).find("feature logicOp"), std::string::npos);
+    Lies core_name_only;
+    core_name_only.entry_points["vkGetPhysicalDeviceFeatures2KHR"] = nullptr;
+    EXPECT_EQ(missing("timelineSemaphore", core_name_only), "");
+    Lies neither = core_name_only;
+    neither.entry_points["vkGetPhysicalDeviceFeatures2"] = nullptr;
+    EXPECT_NE(missing("timelineSemaphore", neither).find("vkGetPhysicalDeviceFeatures2KHR"),
+              std::string::npos);
+    Lies no_extensions = {};
+    no_extensions.entry_points["vkEnumerateDeviceExtensionProperties"] = nullptr;
+    EXPECT_NE(missing("timelineSemaphore", no_extensions).find("VK_KHR_timeline_semaphore"),
+              std::string::npos);
+    HostDevice quiet = host_.device();
+    quiet.debug_utils = false;
+    EXPECT_FALSE(requirements_of(quiet).find("VK_EXT_debug_utils")->available);
+}
+
+TEST_F(GpuRequirements, TheAliasDoesWhereTheCoreNameIsMissing) {
+    // An instance for 1.0 with VK_KHR_get_physical_device_properties2 has the alias alone.
+    static PFN_vkVoidFunction alias;
+    alias = host_.device().get_instance_proc_addr(host_.device().instance,
+                                                  "vkGetPhysicalDeviceFeatures2");
+    Lies lies;
+    lies.entry_points["vkGetPhysicalDeviceFeatures2"] = nullptr;
+    lies.entry_points["vkGetPhysicalDeviceFeatures2KHR"] = alias;
+    const FakeLoader fake(host_.device(), lies);
+    EXPECT_TRUE(requirements_of(fake.host()).find("timelineSemaphore")->available);
+}
+
+TEST_F(GpuRequirements, OfAnInstanceForVulkan10AreUnmet) {
+    PhysicalDevice device = physical(host_.device());
+    device.api_version = VK_API_VERSION_1_0;
+    const Requirements found = requirements_of(device);
+    ASSERT_EQ(found.unmet.size(), 1U);
+    EXPECT_NE(found.unmet[0].find("api_version"), std::string::npos) << found.unmet[0];
+    HostDevice host = host_.device();
+    host.api_version = VK_API_VERSION_1_0;
+    expect_one_reason(status_of(host), {"Vulkan 1.1", "api_version"});
+}
+
+TEST_F(GpuRequirements, OfNothingAreRefused) {
+    for (const auto clear :
+         {+[](PhysicalDevice& device) { device.instance = VK_NULL_HANDLE; },
+          +[](PhysicalDevice& device) { device.physical_device = VK_NULL_HANDLE; },
+          +[](PhysicalDevice& device) { device.get_instance_proc_addr = nullptr; },
+          +[](PhysicalDevice& device) { device.structure_size = 4; }}) {
+        PhysicalDevice device = physical(host_.device());
+        clear(device);
+        EXPECT_EQ(requirements(device).status().code(), StatusCode::invalid_settings);
+    }
 }
 
 TEST_F(GpuRequirements, DebugFunctionsAreNotAskedForWithoutDebugUtils) {

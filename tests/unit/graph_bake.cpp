@@ -367,6 +367,40 @@ TEST(GraphBake, OnlyWhatWasWrittenGoesToTheHost) {
     EXPECT_EQ(baked.to_host[0].destination_access, VK_ACCESS_HOST_READ_BIT);
 }
 
+TEST(GraphBake, ImportedResourcesWaitForWhatIsOutsideAndAreHandedOver) {
+    Graph graph;
+    const Handle words =
+        graph.import_buffer({.name = "words"}, {.before = Access::storage_write_in_compute});
+    const Handle image = graph.import_image(
+        {.name = "distance", .format = VK_FORMAT_R32_SFLOAT},
+        {.before = Access::handed_over_image, .after = Access::handed_over_image});
+    add_pass(graph, "hand over", PassKind::compute,
+             {reads(words, Access::storage_read_in_compute),
+              writes(image, Access::storage_image_in_compute)});
+    const BakedGraph baked = bake_valid(graph);
+    EXPECT_EQ(simulate(graph, baked), "");
+    EXPECT_EQ(baked.memory_slots, 0U);
+    ASSERT_EQ(baked.passes[0].barriers.size(), 2U);
+    const Barrier& of_words = baked.passes[0].barriers[0];
+    EXPECT_EQ(of_words.source_stages, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
+    EXPECT_EQ(of_words.source_access, VK_ACCESS_SHADER_WRITE_BIT);
+    const Barrier& of_image = baked.passes[0].barriers[1];
+    EXPECT_EQ(of_image.old_layout, VK_IMAGE_LAYOUT_UNDEFINED);
+    EXPECT_EQ(of_image.new_layout, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_NE(of_image.source_stages & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0U);
+    ASSERT_EQ(baked.to_host.size(), 1U);
+    EXPECT_EQ(baked.to_host[0].new_layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    EXPECT_NE(baked.to_host[0].destination_stages & VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, 0U);
+
+    // The simulation sees what is missing.
+    BakedGraph without_wait = baked;
+    without_wait.passes[0].barriers.erase(without_wait.passes[0].barriers.begin());
+    EXPECT_NE(simulate(graph, without_wait), "");
+    BakedGraph not_handed_over = baked;
+    not_handed_over.to_host.clear();
+    EXPECT_NE(simulate(graph, not_handed_over), "");
+}
+
 TEST(GraphBake, FirstUseOfAnImageWaitsForTheExecutionBefore) {
     Graph graph;
     const Handle sign = color(graph, "sign");

@@ -1,6 +1,7 @@
 #include <tests/unit/graph_simulation.hpp>
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace nearfield::graph::testing {
@@ -13,6 +14,10 @@ struct Need {
     VkAccessFlags write_access;
     VkImageLayout layout;
 };
+
+constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                                                  VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 
 Need need(Access access) {
     switch (access) {
@@ -46,6 +51,17 @@ Need need(Access access) {
         case Access::transfer_write:
             return {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                     VK_ACCESS_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::transfer_read:
+            return {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::storage_image_in_compute:
+            return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                    VK_ACCESS_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
+        case Access::handed_over_buffer:
+            return {shaders_of_users, VK_ACCESS_SHADER_READ_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED};
+        case Access::handed_over_image:
+            return {shaders_of_users, VK_ACCESS_SHADER_READ_BIT, 0,
+                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     }
     return {};
 }
@@ -110,6 +126,13 @@ struct Event {
     }
 };
 
+const char* hazard(bool wrote, bool writes) {
+    if (!wrote) {
+        return "write after read";
+    }
+    return writes ? "write after write" : "read after write";
+}
+
 /// What images of a slot share, or a buffer has for itself.
 struct Memory {
     std::vector<Event> events;
@@ -127,7 +150,7 @@ public:
     std::string run() {
         for (int execution = 0; execution < 2 && breach_.empty(); ++execution) {
             versions_.assign(graph_.resources().size(), 0);
-            wait_for_fence_of_buffers();
+            begin_imported();
             for (const BakedPass& pass : baked_.passes) {
                 apply(pass.barriers);
                 for (const Use& use : graph_.passes()[pass.pass].uses) {
@@ -136,6 +159,7 @@ public:
             }
             apply(baked_.to_host);
             read_by_host();
+            use_afterwards();
         }
         return breach_;
     }
@@ -146,8 +170,9 @@ private:
     }
 
     Memory& memory_of(std::uint32_t resource) {
-        return memory_[is_image(resource) ? baked_.lifetimes[resource].memory_slot
-                                          : baked_.memory_slots + resource];
+        return memory_[graph_.resources()[resource].imported
+                           ? baked_.memory_slots + resource
+                           : baked_.lifetimes[resource].memory_slot];
     }
 
     void expect(bool condition, std::uint32_t resource, const std::string& what) {
@@ -156,9 +181,43 @@ private:
         }
     }
 
-    void wait_for_fence_of_buffers() {
-        for (std::size_t i = baked_.memory_slots; i < memory_.size(); ++i) {
-            memory_[i].events.clear();
+    /// Whoever hands a resource over has waited for the fence of its former use, but for what it
+    /// says happened before.
+    void begin_imported() {
+        for (std::uint32_t i = 0; i < graph_.resources().size(); ++i) {
+            const Resource& resource = graph_.resources()[i];
+            if (!resource.imported) {
+                continue;
+            }
+            memory_of(i).events.clear();
+            if (resource.outside.before) {
+                add_event(i, need(*resource.outside.before));
+            }
+        }
+    }
+
+    void add_event(std::uint32_t resource, const Need& done) {
+        Event event;
+        event.resource = resource;
+        event.stages = done.stages;
+        event.writes = done.write_access != 0;
+        event.write_access = done.write_access;
+        memory_of(resource).events.push_back(event);
+    }
+
+    void use_afterwards() {
+        for (std::uint32_t i = 0; i < graph_.resources().size(); ++i) {
+            const std::optional<Access> after = graph_.resources()[i].outside.after;
+            if (!after || !baked_.lifetimes[i].used) {
+                continue;
+            }
+            const Need wanted = need(*after);
+            expect(!is_image(i) || layouts_[i] == wanted.layout, i,
+                   "is handed over in another layout");
+            for (const Event& event : memory_of(i).events) {
+                expect(!event.writes || event.is_settled_for(i, wanted.stages, wanted.access), i,
+                       "is handed over with a write that is not to be seen");
+            }
         }
     }
 
@@ -213,14 +272,9 @@ private:
         for (const Event& event : memory.events) {
             expect((!event.writes && !use.write) ||
                        event.is_settled_for(resource, wanted.stages, wanted.access),
-                   resource, pass + " has a hazard with something earlier");
+                   resource, pass + " has a hazard: " + hazard(event.writes, use.write));
         }
-        Event event;
-        event.resource = resource;
-        event.stages = wanted.stages;
-        event.writes = use.write;
-        event.write_access = wanted.write_access;
-        memory.events.push_back(event);
+        add_event(resource, wanted);
         versions_[resource] += use.write ? 1 : 0;
     }
 

@@ -4,6 +4,7 @@
 #include <tools/benchmark/spread.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/paper_tables.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/standard_table.hpp>
 #include <tools/input/input_error.hpp>
@@ -95,11 +96,24 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
                          "Scene: shapes, instances (shape and pose) and queries; default: the "
                          "standard table, by each technique")
             ->type_name("FILE.json");
+    CLI::Option* const filter =
+        command
+            ->add_option("--filter", arguments.filter,
+                         "Only the rows of the standard table whose names hold this text")
+            ->type_name("TEXT")
+            ->excludes(scene);
+    CLI::Option* const paper =
+        command
+            ->add_flag("--paper", arguments.paper,
+                       "The paper's Tables 2 and 3: proximity queries of its simulations, by each "
+                       "technique, the paper's figures beside them")
+            ->excludes(scene)
+            ->excludes(filter);
     command
-        ->add_option("--filter", arguments.filter,
-                     "Only the rows of the standard table whose names hold this text")
-        ->type_name("TEXT")
-        ->excludes(scene);
+        ->add_option("--curves", arguments.curves,
+                     "Of --paper: draw how times grow with lines and tolerance; default none")
+        ->type_name("FILE.png")
+        ->needs(paper);
     command
         ->add_option("--technique", arguments.technique,
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
@@ -125,6 +139,10 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 }
 
 void run_bench(const BenchArguments& arguments) {
+    if (arguments.paper) {
+        run_paper_tables(parse_settings(arguments.settings), arguments.json, arguments.curves);
+        return;
+    }
     if (arguments.scene.empty()) {
         run_standard_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
         return;

@@ -13,6 +13,8 @@ namespace nearfield::tools {
 struct BenchArguments {
     std::string scene;   ///< empty: the standard table
     std::string filter;  ///< of the standard table's rows
+    bool paper = false;  ///< the paper's tables instead
+    std::optional<std::string> curves;
     std::optional<std::string> technique;
     SettingsArguments settings;
     std::optional<std::string> json;

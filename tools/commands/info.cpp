@@ -1,4 +1,5 @@
 #include <nearfield/context.hpp>
+#include <nearfield/version.hpp>
 
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
@@ -17,7 +18,7 @@ CLI::App* add_info_command(CLI::App& program) {
 }
 
 int run_info() {
-    std::cout << "nearfield " NEARFIELD_VERSION "\n";
+    std::cout << "nearfield " << version().text << '\n';
     const std::vector<DeviceReport> devices = take(list_devices());
     bool any_usable = false;
     for (const DeviceReport& device : devices) {
@@ -25,6 +26,14 @@ int run_info() {
                   << (device.usable ? "usable" : "not usable") << '\n';
         for (const std::string& reason : device.missing) {
             std::cout << "  missing: " << reason << '\n';
+        }
+        for (const OptionalPart& part : device.optional) {
+            std::cout << "  optional " << part.name << ": "
+                      << (part.available ? "available" : "not available") << "; unlocks "
+                      << part.unlocks << '\n';
+            for (const std::string& reason : part.missing) {
+                std::cout << "    missing: " << reason << '\n';
+            }
         }
         for (const StrategyReport& report : device.strategies) {
             std::cout << "  strategy " << name_of(report.strategy) << ": "

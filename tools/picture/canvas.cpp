@@ -184,6 +184,20 @@ std::string Canvas::shortened(std::string text, double size, double width, Weigh
     return text + ellipsis;
 }
 
+std::vector<std::uint32_t> Canvas::pixels() const {
+    cairo_surface_flush(surface_.get());
+    const auto width = static_cast<std::size_t>(cairo_image_surface_get_width(surface_.get()));
+    const auto height = static_cast<std::size_t>(cairo_image_surface_get_height(surface_.get()));
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
+    const unsigned char* const rows = cairo_image_surface_get_data(surface_.get());
+    std::vector<std::uint32_t> pixels(width * height);
+    for (std::size_t row = 0; row < height; ++row) {
+        std::memcpy(pixels.data() + row * width, rows + row * stride,
+                    width * sizeof(std::uint32_t));
+    }
+    return pixels;
+}
+
 std::string Canvas::png() const {
     std::string bytes;
     const auto append = [](void* closure, const unsigned char* data, unsigned length) {

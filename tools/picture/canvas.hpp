@@ -56,6 +56,8 @@ public:
     [[nodiscard]] std::string shortened(std::string text, double size, double width,
                                         Weight weight = Weight::normal);
 
+    /// The page as it is, 0xAARRGGBB row by row.
+    [[nodiscard]] std::vector<std::uint32_t> pixels() const;
     /// The page as the bytes of a PNG file.
     [[nodiscard]] std::string png() const;
 

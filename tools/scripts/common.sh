@@ -33,9 +33,9 @@ wants_setup() {
     esac
 }
 
-# configure FOLDER OPTION...: makes build/FOLDER.
+# configure PRESET OPTION...: makes build/PRESET.
 configure() {
-    cmake -S "$root" -B "$root/build/$1" -G Ninja "${@:2}"
+    cmake -S "$root" --preset "$1" "${@:2}"
 }
 
 # build FOLDER OPTION...: brings build/FOLDER up to date.

@@ -14,7 +14,7 @@ query_penetration() {
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" run
 fi
-step "Configure" configure release -DCMAKE_BUILD_TYPE=Release -DNEARFIELD_BUILD_TESTS=OFF
+step "Configure" configure release -DNEARFIELD_BUILD_TESTS=OFF
 step "Build" build release
 step "Penetration of two coast lines" query_penetration
 printf '\nThe picture: %s\n' "$root/out/penetration.png"

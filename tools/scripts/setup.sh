@@ -11,7 +11,15 @@ run_packages=(
     libvulkan-dev libvulkan1 mesa-vulkan-drivers
     libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
-test_packages=(libgtest-dev libgeos-dev vulkan-validationlayers clang-format clang-tidy)
+test_packages=(
+    libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
+    doxygen dpkg-dev gdb python3
+)
+# What the examples stand on, and an X server for their windows.
+test_packages+=(
+    qt6-base-dev qt6-base-private-dev qt6-declarative-dev qml6-module-qtquick
+    qml6-module-qtquick-window qml6-module-qtqml-workerscript libsdl2-dev xvfb xauth
+)
 bench_packages=(
     libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
 )

@@ -1,0 +1,82 @@
+#include <engine/gpu/image.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nearfield::gpu {
+
+KeptImage::KeptImage(const Device& device, VkFormat format, std::string name)
+    : device_(&device), format_(format), name_(std::move(name)) {}
+
+void KeptImage::reserve(VkExtent2D extent) {
+    extent = {std::max(extent.width, extent_.width), std::max(extent.height, extent_.height)};
+    if (extent.width == extent_.width && extent.height == extent_.height) {
+        return;
+    }
+    // The former image goes first, so that both never need memory at the same time.
+    extent_ = {};
+    view_.reset();
+    image_.reset();
+    memory_ = {};
+    create_image(extent);
+    allocate_memory();
+    create_view();
+    extent_ = extent;
+}
+
+void KeptImage::create_image(VkExtent2D extent) {
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format_;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = 1;
+    info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage =
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImage image = VK_NULL_HANDLE;
+    check(
+        device_->functions().vkCreateImage(device_->handle(), &info, device_->allocator(), &image),
+        "vkCreateImage", name_);
+    image_ = Owned<VkImage>(*device_, image);
+    device_->name_object(VK_OBJECT_TYPE_IMAGE, image, name_);
+}
+
+void KeptImage::allocate_memory() {
+    const Functions& functions = device_->functions();
+    VkMemoryRequirements needs{};
+    functions.vkGetImageMemoryRequirements(device_->handle(), image_.get(), &needs);
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = needs.size;
+    info.memoryTypeIndex =
+        device_->memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    check(functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory),
+          "vkAllocateMemory", name_);
+    memory_ = DeviceMemory(*device_, memory, needs.size);
+    device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_);
+    check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory, 0),
+          "vkBindImageMemory", name_);
+}
+
+void KeptImage::create_view() {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image_.get();
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format_;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    check(device_->functions().vkCreateImageView(device_->handle(), &info, device_->allocator(),
+                                                 &view),
+          "vkCreateImageView", name_);
+    view_ = Owned<VkImageView>(*device_, view);
+    device_->name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name_);
+}
+
+}  // namespace nearfield::gpu

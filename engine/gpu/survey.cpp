@@ -1,0 +1,49 @@
+#include <engine/failure.hpp>
+#include <engine/gpu/requirements.hpp>
+#include <engine/growable.hpp>
+
+#include <cstring>
+#include <exception>
+
+namespace nearfield {
+namespace {
+
+void refuse_null(bool present, const char* name) {
+    if (!present) {
+        throw Failure({StatusCode::invalid_settings, std::string("PhysicalDevice::") + name +
+                                                         " is null, so there is nothing to "
+                                                         "ask"});
+    }
+}
+
+}  // namespace
+
+const OptionalPart* Requirements::find(const char* name) const noexcept {
+    for (const OptionalPart& part : optional) {
+        if (std::strcmp(part.name, name) == 0) {
+            return &part;
+        }
+    }
+    return nullptr;
+}
+
+Expected<Requirements> requirements(const PhysicalDevice& device) {
+    try {
+        const PhysicalDevice asked =
+            adopted(device, "PhysicalDevice", offsetof(PhysicalDevice, api_version));
+        refuse_null(asked.instance != VK_NULL_HANDLE, "instance");
+        refuse_null(asked.physical_device != VK_NULL_HANDLE, "physical_device");
+        refuse_null(asked.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+        Requirements found;
+        gpu::survey_base(asked, found);
+        gpu::survey_optional_parts(asked, found);
+        return found;
+    } catch (const Failure& failure) {
+        return failure.status();
+    } catch (const std::exception& error) {
+        return Status(StatusCode::out_of_memory,
+                      std::string("requirements could not be listed: ") + error.what());
+    }
+}
+
+}  // namespace nearfield

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <engine/geometry/vector.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// What of a batch stays on the device, in the form that the passes take which hand it over
+/// (shaders/hand_over_field.comp, hand_over_records.comp).
+
+/// Points that one thread makes records of, one after the other.
+inline constexpr std::uint32_t points_per_block = 32;
+
+/// What is known of such a block, or of those before it.
+struct RecordBlockData {
+    std::uint32_t count = 0;
+    std::uint32_t deepest = 0;
+    float depth = 0.0F;
+    std::uint32_t unused = 0;
+    float low[2]{};
+    float high[2]{};
+};
+static_assert(sizeof(RecordBlockData) == 32);
+
+/// Rings of a polygon in the tables: the first edge of each, then the number of all edges.
+struct RingTable {
+    std::uint32_t first_word = 0;
+    std::uint32_t count = 0;  ///< of rings
+};
+
+/// The cells of one tile, as they lie in the words of fields of a round and in the images.
+struct FieldPartHandOver {
+    std::uint32_t round = 0;
+    std::uint32_t value = 0;    ///< word of the first cell's value,
+    std::uint32_t feature = 0;  ///< and of its feature
+    std::uint32_t stride = 0;   ///< words from row to row
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t column = 0;  ///< of the first cell in the images
+    std::uint32_t row = 0;
+};
+
+/// A field of which images are made.
+struct FieldHandOver {
+    std::uint32_t query = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    geometry::Vector origin = geometry::Vector::Zero();
+    double cell = 0.0;
+    double error_bound = 0.0;
+    RingTable rings;               ///< of B
+    std::uint32_t first_part = 0;  ///< in HandOver::field_parts
+    std::uint32_t part_count = 0;
+};
+
+/// Points of one boundary that one round resolves.
+struct PointRunHandOver {
+    std::uint32_t round = 0;
+    std::uint32_t first = 0;  ///< in Round::points
+    std::uint32_t count = 0;
+    std::uint32_t first_block = 0;  ///< of the query's
+    /// Where they stand in the tables, four words each: the position relative to the query's origin
+    /// (two floats), B's normal where it is B's point (packSnorm2x16), the place among the points
+    /// of the query.
+    std::uint32_t table = 0;
+    RingTable rings;                ///< of the shape whose features they name
+    std::uint32_t flags = 0;        ///< resident_flags of their records
+
+    [[nodiscard]] std::uint32_t blocks() const {
+        return (count + points_per_block - 1) / points_per_block;
+    }
+};
+
+/// Points of which records are made.
+struct RecordsHandOver {
+    std::uint32_t query = 0;
+    std::uint32_t capacity = 0;  ///< points
+    geometry::Vector origin = geometry::Vector::Zero();
+    double cell = 0.0;
+    double error_bound = 0.0;
+    float near = -1.0F;           ///< contacts: how far at the most, world units
+    std::uint32_t first_run = 0;  ///< in HandOver::point_runs
+    std::uint32_t run_count = 0;
+    std::uint32_t block_count = 0;
+};
+
+struct HandOver {
+    std::vector<FieldHandOver> fields;
+    std::vector<FieldPartHandOver> field_parts;
+    std::vector<RecordsHandOver> records;
+    std::vector<PointRunHandOver> point_runs;
+    std::vector<std::uint32_t> tables;
+
+    void clear() {
+        fields.clear();
+        field_parts.clear();
+        records.clear();
+        point_runs.clear();
+        tables.clear();
+    }
+    [[nodiscard]] bool empty() const { return fields.empty() && records.empty(); }
+};
+
+}  // namespace nearfield::plan

@@ -1,0 +1,83 @@
+#include "common/own_device.hpp"
+#include "common/resources.hpp"
+#include "way.hpp"
+
+#include <QCoreApplication>
+#include <QQuickGraphicsDevice>
+#include <QQuickRenderControl>
+#include <QQuickRenderTarget>
+#include <QUrl>
+#include <QVulkanInstance>
+#include <stdexcept>
+
+namespace nearfield::examples {
+namespace {
+
+constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+constexpr VkImageLayout layout_after = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;  // Qt leaves it so
+
+class IntoOwnImage : public Way {
+public:
+    IntoOwnImage()
+        : own_instance_(surface_extensions()),
+          device_(own_instance_.get(), [](VkPhysicalDevice, std::uint32_t) { return true; }),
+          control_(std::make_unique<QQuickRenderControl>()),
+          view_(std::make_unique<QQuickView>(QUrl(), control_.get())) {
+        instance_.setVkInstance(own_instance_.get());
+        create(instance_);
+        view_->setVulkanInstance(&instance_);
+        view_->setGraphicsDevice(QQuickGraphicsDevice::fromDeviceObjects(
+            device_.physical_device(), device_.device(), static_cast<int>(device_.queue_family())));
+    }
+    QQuickView& view() override { return *view_; }
+
+    QImage render() override {
+        if (image_.image.get() == VK_NULL_HANDLE) {
+            start();
+        }
+        QCoreApplication::processEvents();
+        control_->polishItems();
+        control_->beginFrame();
+        control_->sync();
+        control_->render();
+        control_->endFrame();  // waits until the image is there
+        const std::vector<std::uint8_t> pixels =
+            read_back(device_, image_.image.get(), layout_after, extent());
+        return QImage(pixels.data(), view_->width(), view_->height(), QImage::Format_RGBA8888)
+            .copy();
+    }
+
+private:
+    [[nodiscard]] VkExtent2D extent() const {
+        return {static_cast<std::uint32_t>(view_->width()),
+                static_cast<std::uint32_t>(view_->height())};
+    }
+
+    void start() {
+        if (!control_->initialize()) {
+            throw std::runtime_error("Qt Quick cannot render with our device");
+        }
+        image_ = DeviceImage(device_.physical_device(), device_.device(), format, extent(),
+                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                             VK_IMAGE_ASPECT_COLOR_BIT);
+        view_->setRenderTarget(QQuickRenderTarget::fromVulkanImage(
+            image_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, format, view_->size()));
+    }
+
+    // What is below goes first: the window, the image, the device, Qt's wrapper, the instance.
+    OwnInstance own_instance_;
+    QVulkanInstance instance_;
+    OwnDevice device_;
+    DeviceImage image_;
+    std::unique_ptr<QQuickRenderControl> control_;
+    std::unique_ptr<QQuickView> view_;
+};
+
+}  // namespace
+
+std::unique_ptr<Way> into_own_image() {
+    return std::make_unique<IntoOwnImage>();
+}
+
+}  // namespace nearfield::examples

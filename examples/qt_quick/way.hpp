@@ -1,0 +1,34 @@
+#pragma once
+
+#include <QImage>
+#include <QQuickView>
+#include <memory>
+
+namespace nearfield::examples {
+
+/// One way to have Qt Quick and nearfield on the same Vulkan device.
+class Way {
+public:
+    Way() = default;
+    virtual ~Way() = default;
+    Way(const Way&) = delete;
+    Way& operator=(const Way&) = delete;
+
+    [[nodiscard]] virtual QQuickView& view() = 0;
+    /// Renders a frame and returns what it looks like.
+    virtual QImage render() = 0;
+};
+
+/// Qt makes instance and device; nearfield adopts them.
+[[nodiscard]] std::unique_ptr<Way> on_device_of_qt();
+/// We make instance and device; Qt and nearfield adopt them.
+[[nodiscard]] std::unique_ptr<Way> on_own_device();
+/// The same, and Qt renders into an image of ours instead of a window.
+[[nodiscard]] std::unique_ptr<Way> into_own_image();
+
+/// Makes it, or throws where this Qt, its platform or this machine has no Vulkan.
+void create(QVulkanInstance& instance);
+/// Waits until the window system shows the window, then renders as Way::render.
+QImage render_window(QQuickView& view);
+
+}  // namespace nearfield::examples

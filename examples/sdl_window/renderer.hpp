@@ -1,0 +1,50 @@
+#pragma once
+
+#include "common/live_contacts.hpp"
+#include "common/own_device.hpp"
+#include "common/painter.hpp"
+#include "screen.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace nearfield::examples {
+
+/// An engine in small: three frames in flight, and nearfield's work at the head of each.
+class Renderer {
+public:
+    static constexpr std::uint32_t frames_in_flight = 3;
+
+    Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR surface, VkExtent2D extent,
+             const Scene& scene);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Draws a frame and shows it. `window_extent` is the size the window has now, not zero. The
+    /// file, if one is named, gets a picture (PNG). False where the frame was left out, because the
+    /// window changed meanwhile.
+    bool draw(const Scene& scene, VkExtent2D window_extent, const std::string& screenshot = {});
+
+private:
+    struct Frame {
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        Semaphore available;  ///< the image to draw to
+        Fence done;
+    };
+
+    void record(const Frame& frame, std::uint32_t slot, std::uint32_t image, const Scene& scene);
+    void submit(const Frame& frame, std::uint32_t image);
+    void resize(VkExtent2D extent);
+
+    const OwnDevice& device_;
+    Screen screen_;
+    Painter painter_;
+    LiveContacts contacts_;
+    CommandPool pool_;
+    std::array<Frame, frames_in_flight> frames_;
+    std::uint64_t frame_ = 0;
+};
+
+}  // namespace nearfield::examples

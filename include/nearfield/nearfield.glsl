@@ -1,0 +1,79 @@
+// What nearfield leaves on the device, for shaders to read: include this file in GLSL 4.50 for
+// Vulkan. resident.hpp declares the same structures in C++ and says how they are handed over;
+// docs/resident_results.md has the whole story.
+//
+// Everything a host might have too begins with nearfield_ or Nearfield.
+#ifndef NEARFIELD_GLSL
+#define NEARFIELD_GLSL
+
+// A feature id, in a texel of the feature image and in a record: which part of a boundary is
+// nearest (Feature in result.hpp) and two flags.
+const uint nearfield_index_mask = 0x0fffffffu;   // index of the edge or vertex
+const uint nearfield_vertex_flag = 1u << 28;     // a vertex, else an edge
+const uint nearfield_unique_flag = 1u << 30;     // no other part of the boundary is as near
+const uint nearfield_inside_flag = 1u << 31;     // the place lies inside the shape
+
+// NearfieldRecord::flags
+const uint nearfield_on_b_flag = 1u;        // a contact of B's boundary, else a point of A's
+const uint nearfield_touching_flag = 2u;    // too near the boundary to say inside or outside
+
+const uint nearfield_no_record = 0xffffffffu;
+
+struct NearfieldSummary {
+    uint count;     // records
+    uint capacity;  // there is room for so many; never fewer than there are records
+    uint deepest;   // the record of the greatest depth; nearfield_no_record where there is none
+    float depth;    // its depth: distance to the boundary inside, less than 0 outside
+    vec2 low;       // the smallest box that holds all records' points, where there are some;
+    vec2 high;      // relative to the origin
+};
+
+struct NearfieldRecord {
+    vec2 point;      // on the boundary of A, or of B (nearfield_on_b_flag); relative to the origin
+    vec2 nearest;    // of the other shape's boundary, nearest to it
+    vec2 normal;     // unit, where B's signed distance grows: of a point inside B the way out
+    float distance;  // from `point` to `nearest`
+    uint feature;    // id of the feature that `nearest` lies on
+    uint flags;
+    uint place;      // among the points looked at, in order along A's rings, then B's
+};
+
+uint nearfield_index(uint feature) {
+    return feature & nearfield_index_mask;
+}
+bool nearfield_is_vertex(uint feature) {
+    return (feature & nearfield_vertex_flag) != 0u;
+}
+bool nearfield_is_unique(uint feature) {
+    return (feature & nearfield_unique_flag) != 0u;
+}
+bool nearfield_is_inside(uint feature) {
+    return (feature & nearfield_inside_flag) != 0u;
+}
+
+// Depth of a record: its distance inside the other shape, less than 0 outside.
+float nearfield_depth(NearfieldRecord record) {
+    return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
+}
+
+// Where a place lies in a field's images, in texels: its centres are at halves. `place` and
+// `origin` in one frame.
+vec2 nearfield_texel(vec2 place, vec2 origin, float cell) {
+    return (place - origin) / cell;
+}
+
+// The signed distance at a place given in texels: bilinear between the four cells around, those at
+// the rim beyond it. By fetches, since a device need not filter this format.
+float nearfield_signed_distance(sampler2D field, ivec2 size, vec2 texel) {
+    vec2 low = floor(texel - 0.5);
+    vec2 way = texel - 0.5 - low;
+    ivec2 first = clamp(ivec2(low), ivec2(0), size - 1);
+    ivec2 last = clamp(ivec2(low) + 1, ivec2(0), size - 1);
+    float below = mix(texelFetch(field, first, 0).x,
+                      texelFetch(field, ivec2(last.x, first.y), 0).x, way.x);
+    float above = mix(texelFetch(field, ivec2(first.x, last.y), 0).x,
+                      texelFetch(field, last, 0).x, way.x);
+    return mix(below, above, way.y);
+}
+
+#endif

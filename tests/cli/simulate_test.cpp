@@ -1,0 +1,100 @@
+#include "cli_test.hpp"
+
+#include <string>
+
+namespace nearfield::test {
+namespace {
+
+class Simulate : public CliTest {
+protected:
+    static Json run(const Arguments& options) { return answer(Arguments{"simulate"} + options); }
+};
+
+TEST_F(Simulate, TellsObjectsLinesEnergiesTimesAndPenetration) {
+    const Json json = run({"cars", "--frames", "12", "--technique", "cpu"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("scene"), "cars");
+    EXPECT_EQ(json.at("response"), "penalty");
+    EXPECT_EQ(json.at("objects"), 18);
+    EXPECT_EQ(json.at("lines"), 266);
+    EXPECT_TRUE(json.at("worst_penetration").is_number());
+    EXPECT_GT(json.at("energies").at("kinetic").get<double>(), 0.0);
+    ASSERT_EQ(json.at("frames").size(), 12U);
+    for (const Json& frame : json.at("frames")) {
+        EXPECT_GT(frame.at("query_ms").get<double>(), 0.0);
+        EXPECT_TRUE(frame.at("energies").at("total").is_number());
+        EXPECT_TRUE(frame.at("worst_penetration").is_number());
+    }
+}
+
+TEST_F(Simulate, EveryRunIsTheSameButForTimes) {
+    const Arguments links{"links", "--frames", "20", "--response", "backtracking"};
+    const Json first = run(links);
+    const Json second = run(links);
+    ASSERT_TRUE(first.is_object());
+    ASSERT_TRUE(second.is_object());
+    for (std::size_t i = 0; i < 20; ++i) {
+        const Json& frame = first.at("frames").at(i);
+        EXPECT_EQ(frame.at("energies"), second.at("frames").at(i).at("energies")) << i;
+        EXPECT_EQ(frame.at("worst_penetration"), 0.0) << i;
+    }
+}
+
+TEST_F(Simulate, DrawsTheFramesThatAreAskedFor) {
+    const Outcome outcome = run_program({"simulate", "wavy", "--frames", "5", "--every", "2",
+                                         "--field", "--image", folder_.path("wavy_%03d.png")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("2, 200"), std::string::npos) << outcome.out;
+    const auto files = folder_.contents();
+    for (const char* name : {"wavy_000.png", "wavy_002.png", "wavy_004.png", "wavy_005.png"}) {
+        ASSERT_TRUE(files.contains(name)) << name;
+        EXPECT_EQ(files.at(name).substr(1, 3), "PNG");
+    }
+    EXPECT_FALSE(files.contains("wavy_001.png"));
+    EXPECT_NE(files.at("wavy_000.png"), files.at("wavy_005.png"));
+}
+
+TEST_F(Simulate, APatternWithoutANumberKeepsTheLastFrame) {
+    ASSERT_EQ(
+        run_program({"simulate", "cars", "--frames", "2", "--image", folder_.path("100%%.png")})
+            .status,
+        0);
+    EXPECT_TRUE(folder_.contents().contains("100%.png"));
+}
+
+TEST_F(Simulate, RefusesWhatItCannotDoBeforeItStarts) {
+    const Arguments simulate{"simulate"};
+    expect_refused(simulate + Arguments{"planets"}, {"planets", "map, gears, links, cars, wavy"});
+    expect_refused(simulate, {"scene"});
+    expect_refused(simulate + Arguments{"map", "--frames", "0"}, {"--frames"});
+    expect_refused(simulate + Arguments{"map", "--frames", "-3"}, {"--frames"});
+    expect_refused(simulate + Arguments{"map", "--response", "magic"}, {"--response", "magic"});
+    expect_refused(simulate + Arguments{"map", "--technique", "magic"}, {"--technique", "magic"});
+    expect_refused(simulate + Arguments{"map", "-d", "0"}, {"-d"});
+    expect_refused(simulate + Arguments{"map", "--image", folder_.path("no/such/%d.png")},
+                   {"no/such/0.png", "cannot be written"});
+    expect_refused(simulate + Arguments{"map", "--image", folder_.path("%s.png")},
+                   {"--image", "%"});
+    expect_refused(simulate + Arguments{"map", "--image", folder_.path("%d%d.png")},
+                   {"--image", "more than one"});
+    expect_refused(simulate + Arguments{"map", "--video", folder_.path("no/such.mp4")},
+                   {"no/such.mp4", "cannot be written"});
+    expect_refused(simulate + Arguments{"map", "--json", folder_.path("no/such.json")},
+                   {"no/such.json", "cannot be written"});
+    expect_refused(simulate + Arguments{"overlap", "--response", "backtracking", "--json",
+                                        folder_.path("a.json")},
+                   {"overlap", "backtracking"});
+}
+
+TEST_F(Simulate, WithoutFfmpegAVideoIsRefusedByName) {
+    Surroundings surroundings;
+    surroundings.environment = {{"PATH", folder_.path("")}};
+    const Outcome outcome = run_program(
+        {"simulate", "cars", "--frames", "2", "--video", folder_.path("cars.mp4")}, surroundings);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("ffmpeg"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(folder_.contents().contains("cars.mp4"));
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,238 @@
+#include <gtest/gtest.h>
+#include <tests/driver/world.hpp>
+#include <tests/support/driver_errors.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::EntryPoint;
+using test_support::errors_of;
+using test_support::MockDriver;
+using test_support::name_of;
+
+constexpr Technique techniques[] = {Technique::raster, Technique::compute};
+
+StatusCode code_of(VkResult error) {
+    switch (error) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return StatusCode::out_of_memory;
+        case VK_ERROR_DEVICE_LOST:
+            return StatusCode::device_lost;
+        default:
+            return StatusCode::device_error;
+    }
+}
+
+/// One way in which a driver can fail.
+struct Failure {
+    World::Step step{};
+    std::string_view call;
+    std::size_t successes = 0;  ///< of that call in the step, before it fails
+    VkResult error = VK_SUCCESS;
+
+    friend std::ostream& operator<<(std::ostream& out, const Failure& failure) {
+        return out << "call " << failure.successes << " of " << failure.call << " says "
+                   << name_of(failure.error) << " in: " << to_string(failure.step);
+    }
+};
+
+/// Every failure that a life without any shows to be possible, of the steps that ask the driver.
+std::vector<Failure> all_failures(Technique technique) {
+    std::vector<Failure> failures;
+    World world(technique);
+    for (const World::Step step : World::steps) {
+        world.driver().forget_calls();
+        EXPECT_TRUE(world.take(step).ok());
+        std::map<std::string_view, std::size_t> count;
+        for (const std::string_view call : world.driver().calls()) {
+            for (const VkResult error : errors_of(call)) {
+                failures.push_back({step, call, count[call], error});
+            }
+            ++count[call];
+        }
+    }
+    return failures;
+}
+
+/// After device loss: every call says so, the driver is asked for nothing more, and all goes.
+void expect_lost(World& world, Ticket in_flight) {
+    Context& context = world.context();
+    Results results;
+    EXPECT_EQ(context.submit(world.batch(8)).status().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.run(world.batch(8), results).code(), StatusCode::device_lost);
+    EXPECT_TRUE(context.is_ready(in_flight));
+    EXPECT_EQ(context.add_shape({}).status().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.update_shape({}, {}).code(), StatusCode::device_lost);
+    EXPECT_EQ(context.remove_shape({}).code(), StatusCode::device_lost);
+    std::vector<InstancePair> pairs;
+    EXPECT_EQ(context.find_pairs({}, 1.0, pairs).code(), StatusCode::device_lost);
+    EXPECT_EQ(context.measure_costs().status().code(), StatusCode::device_lost);
+    EXPECT_TRUE(world.take(World::Step::destroy).ok());
+    EXPECT_EQ(world.driver().work_after_loss(), std::vector<std::string>{});
+}
+
+/// Lets one failure happen and looks at what becomes of the context.
+void try_failure(Technique technique, const Failure& failure, const std::vector<double>& expected) {
+    World world(technique);
+    MockDriver& driver = world.driver();
+    world.take_all_before(failure.step);
+    driver.fail(failure.call, failure.successes, failure.error, MockDriver::Failing::from_then_on);
+    const Status status = world.take(failure.step);
+    driver.work_again();
+    ASSERT_TRUE(driver.has_failed()) << "the life with failures differs from the one without";
+    // What asks whether a batch is done, and waits for it in the end, has nobody to tell.
+    const bool silent =
+        failure.step == World::Step::destroy ||
+        (failure.call == "vkGetFenceStatus" && failure.error != VK_ERROR_DEVICE_LOST);
+    if (!silent) {
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(status.code(), code_of(failure.error)) << status.text();
+        EXPECT_NE(status.message().find(name_of(failure.error)), std::string::npos)
+            << status.text();
+        const bool lost_earlier =
+            failure.call == "vkGetFenceStatus" && failure.error == VK_ERROR_DEVICE_LOST;
+        EXPECT_NE(status.message().find(lost_earlier ? "vkWaitForFences" : failure.call),
+                  std::string::npos)
+            << status.text();
+    }
+    if (failure.error == VK_ERROR_DEVICE_LOST && world.has_context()) {
+        expect_lost(world, {});
+    } else if (failure.step == World::Step::create) {
+        EXPECT_EQ(driver.alive(), std::vector<std::string>{});
+    } else if (world.has_context()) {
+        std::vector<double> numbers;
+        const Status next = world.answer(numbers);
+        EXPECT_TRUE(next.ok()) << next.text();
+        EXPECT_EQ(numbers, expected);
+        EXPECT_TRUE(world.take(World::Step::destroy).ok());
+    }
+    EXPECT_EQ(driver.alive(), std::vector<std::string>{});
+    EXPECT_EQ(driver.breaches(), std::vector<std::string>{});
+}
+
+TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
+    for (const Technique technique : techniques) {
+        const std::vector<double> expected = World::undisturbed(technique);
+        const std::vector<Failure> failures = all_failures(technique);
+        for (const Failure& failure : failures) {
+            if (technique == Technique::compute && failure.step == World::Step::create) {
+                continue;  // the same whatever is asked later
+            }
+            SCOPED_TRACE(::testing::Message() << to_string(technique) << ": " << failure);
+            try_failure(technique, failure, expected);
+            if (::testing::Test::HasFailure()) {
+                return;
+            }
+        }
+        RecordProperty(to_string(technique), static_cast<int>(failures.size()));
+    }
+}
+
+TEST(FailingCalls, CoverEveryEntryPointThatCanFail) {
+    std::set<std::string_view> covered;
+    for (const Technique technique : techniques) {
+        for (const Failure& failure : all_failures(technique)) {
+            covered.insert(failure.call);
+        }
+    }
+    for (const EntryPoint& entry : test_support::entry_points()) {
+        if (entry.returns_result) {
+            EXPECT_FALSE(errors_of(entry.name).empty())
+                << entry.name << " has no row in the table of errors (driver_errors.cpp)";
+            EXPECT_TRUE(covered.contains(entry.name))
+                << entry.name << " is called in no step (world.cpp)";
+        }
+    }
+}
+
+TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
+    std::set<std::string_view> used;
+    for (const Technique technique : techniques) {
+        World world(technique);
+        for (const World::Step step : World::steps) {
+            ASSERT_TRUE(world.take(step).ok());
+        }
+        used.insert(world.driver().calls().begin(), world.driver().calls().end());
+    }
+    for (const EntryPoint& entry : test_support::entry_points()) {
+        EXPECT_TRUE(used.contains(entry.name)) << entry.name << " is loaded for nothing";
+    }
+}
+
+/// The part of device memory that the host sees is small on many cards.
+TEST(FailingCalls, MemoryThatIsRefusedOnceIsTakenElsewhere) {
+    const std::vector<double> expected = World::undisturbed(Technique::compute);
+    for (const Failure& failure : all_failures(Technique::compute)) {
+        if (failure.call != "vkAllocateMemory" || failure.error != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+            continue;
+        }
+        SCOPED_TRACE(::testing::Message() << failure);
+        World world(Technique::compute);
+        world.take_all_before(failure.step);
+        world.driver().fail(failure.call, failure.successes, failure.error,
+                            MockDriver::Failing::once);
+        const Status status = world.take(failure.step);
+        EXPECT_TRUE(status.ok()) << status.text();
+        ASSERT_TRUE(world.driver().has_failed());
+        std::vector<double> numbers;
+        EXPECT_TRUE(world.has_context());
+        EXPECT_TRUE(world.answer(numbers).ok());
+        EXPECT_EQ(numbers, expected);
+    }
+}
+
+TEST(MissingCalls, AreNamed) {
+    for (const EntryPoint& entry : test_support::entry_points()) {
+        SCOPED_TRACE(entry.name);
+        World world(Technique::raster);
+        world.driver().hide(std::string(entry.name));
+        const Status status = world.take(World::Step::create);
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(status.code(), StatusCode::unsupported_device);
+        ASSERT_EQ(status.reasons().size(), 1U) << status.text();
+        EXPECT_NE(status.reasons()[0].find("entry point " + std::string(entry.name) + ":"),
+                  std::string::npos)
+            << status.text();
+        EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
+        world.driver().hide({});
+        EXPECT_TRUE(world.take(World::Step::create).ok());
+    }
+}
+
+TEST(LostDevice, GivesUpEveryBatchInFlightAndCanBeMadeAgain) {
+    for (int life = 0; life < 2; ++life) {
+        World world(Technique::raster);
+        world.take_all_before(World::Step::submit_first);
+        const Expected<Ticket> first = world.context().submit(world.batch(8));
+        const Expected<Ticket> second = world.context().submit(world.batch(9));
+        ASSERT_TRUE(first.ok() && second.ok());
+        world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
+        Results results;
+        const Status status = world.context().collect(*second, results);
+        EXPECT_EQ(status.code(), StatusCode::device_lost);
+        EXPECT_EQ(world.context().collect(*first, results).code(), StatusCode::device_lost);
+        expect_lost(world, *first);
+        EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
+        EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
+    }
+}
+
+TEST(LostDevice, IsNoticedWhereABatchIsAskedForAndNotWaitedFor) {
+    World world(Technique::compute);
+    world.take_all_before(World::Step::submit_first);
+    const Expected<Ticket> ticket = world.context().submit(world.batch(8));
+    ASSERT_TRUE(ticket.ok());
+    world.driver().fail("vkGetFenceStatus", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
+    EXPECT_TRUE(world.context().is_ready(*ticket));
+    Results results;
+    EXPECT_EQ(world.context().collect(*ticket, results).code(), StatusCode::device_lost);
+    expect_lost(world, *ticket);
+}
+
+}  // namespace
+}  // namespace nearfield::test

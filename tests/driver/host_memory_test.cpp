@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+#include <tests/driver/world.hpp>
+#include <tests/support/allocations.hpp>
+
+#include <algorithm>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::FailingAllocations;
+
+/// How many of a step's allocations are let fail: all of them where it makes few, else these many,
+/// spread over all.
+constexpr std::uint64_t most_tries = 120;
+
+std::uint64_t allocations_of(Technique technique, World::Step step) {
+    World world(technique);
+    world.take_all_before(step);
+    const std::uint64_t before = test_support::allocation_count_of_this_thread();
+    EXPECT_TRUE(world.take(step).ok());
+    return test_support::allocation_count_of_this_thread() - before;
+}
+
+/// Lets host memory run out after so many allocations of a step, for good; then there is some
+/// again.
+void try_without_memory(Technique technique, World::Step step, std::uint64_t successes,
+                        const std::vector<double>& expected) {
+    SCOPED_TRACE(::testing::Message() << to_string(technique) << ", " << to_string(step)
+                                      << ": memory for " << successes << " allocations");
+    World world(technique);
+    world.take_all_before(step);
+    Status status;
+    {
+        const FailingAllocations scarce(successes);
+        status = world.take(step);
+    }
+    // Sorting makes do without the memory that it would like to have.
+    EXPECT_EQ(status.code(),
+              FailingAllocations::has_failed() ? StatusCode::out_of_memory : StatusCode::ok)
+        << status.text();
+    if (!world.has_context()) {
+        EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
+        EXPECT_TRUE(world.take(World::Step::create).ok());
+    }
+    if (step <= World::Step::add_shapes) {
+        EXPECT_TRUE(world.take(World::Step::add_shapes).ok());
+    }
+    std::vector<double> numbers;
+    const Status next = world.answer(numbers);
+    EXPECT_TRUE(next.ok()) << next.text();
+    EXPECT_EQ(numbers, expected);
+    EXPECT_TRUE(world.take(World::Step::destroy).ok());
+    EXPECT_EQ(world.driver().alive(), std::vector<std::string>{});
+    EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
+}
+
+TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        const std::vector<double> expected = World::undisturbed(technique);
+        for (const World::Step step : {World::Step::create, World::Step::add_shapes,
+                                       World::Step::submit_first, World::Step::collect_first,
+                                       World::Step::submit_larger, World::Step::collect_larger}) {
+            const std::uint64_t count = allocations_of(technique, step);
+            ASSERT_GT(count, 0U) << to_string(step);
+            const std::uint64_t stride = std::max<std::uint64_t>(1, count / most_tries);
+            for (std::uint64_t successes = 0; successes < count; successes += stride) {
+                try_without_memory(technique, step, successes, expected);
+                if (HasFailure()) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// A context whose host memory is gone can still say so, and that its device is lost.
+TEST(HostMemory, IsNotNeededToSayWhatIsWrong) {
+    World world(Technique::raster);
+    world.take_all_before(World::Step::submit_first);
+    Results results;
+    const Batch batch = world.batch(8);
+    {
+        const FailingAllocations none(0);
+        const Status status = world.context().run(batch, results);
+        EXPECT_EQ(status.code(), StatusCode::out_of_memory);
+        EXPECT_EQ(world.context().describe_graph(GraphFormat::text), "");
+    }
+    const Expected<Ticket> ticket = world.context().submit(batch);
+    ASSERT_TRUE(ticket.ok());
+    world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST,
+                        test_support::MockDriver::Failing::once);
+    EXPECT_EQ(world.context().collect(*ticket, results).code(), StatusCode::device_lost);
+    const FailingAllocations none(0);
+    const Status status = world.context().run(batch, results);
+    EXPECT_EQ(status.code(), StatusCode::device_lost);
+    EXPECT_NE(status.message(), "");
+}
+
+}  // namespace
+}  // namespace nearfield::test

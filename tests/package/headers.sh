@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Each installed header compiles alone, and all of them without Vulkan's prototypes, by GCC and by
+# Clang, with more warnings than a host is likely to have.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+compile() {
+    printf '#include <nearfield/%s>\n' "$3" |
+        "$1" -x c++ -std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion \
+            -Wshadow -Werror "$2" "-I$prefix/include" -
+}
+export prefix
+export -f compile
+
+clang=$(command -v clang++ || true)
+[[ -n $clang ]] || fail "there is no clang++ (package clang)"
+cd "$prefix/include/nearfield"
+for compiler in "$CXX" "$clang"; do
+    for header in *.hpp; do
+        printf '%s\0' "$compiler" -UVK_NO_PROTOTYPES "$header"
+    done
+    printf '%s\0' "$compiler" -DVK_NO_PROTOTYPES nearfield.hpp
+done | xargs -0 -n 3 -P 2 bash -c 'compile "$@"' _
+printf '%s headers\n' "$(find . -name '*.hpp' | wc -l)"

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# A host takes the sources into its own build by FetchContent and gets the library, nothing else. Only
+# the host's own file is compiled here; what else would be is seen in the commands that ninja has for it.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+work="$place/subproject"
+mkdir "$work"
+cp -r "$SOURCE/tests/package/consumer" "$work/host"
+cmake -S "$work/host/subproject" -B "$work/build" -G Ninja "-DCMAKE_CXX_COMPILER=$CXX" \
+    "-DNEARFIELD_SOURCE=$SOURCE" -DCMAKE_CXX_FLAGS=-Werror
+cd "$work/build"
+ninja -t targets all | sed -n 's/^\(.*main\.cpp\.o\): .*/\1/p' | xargs --delimiter='\n' ninja
+
+commands=$(ninja -t commands all)
+grep --quiet 'libnearfield\.a' <<<"$commands" || fail "the library would not be built"
+! grep --extended-regexp "$SOURCE/(tests|tools)|libnearfield\.so" <<<"$commands" ||
+    fail "more than the library would be built"
+rules=$(cmake --install . --prefix "$work/installed" 2>&1 || true)
+[[ ! -e $work/installed ]] || fail "nearfield would be installed with the host: $rules"

@@ -1,0 +1,97 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/query/all_numbers.hpp>
+#include <tests/support/fake_loader.hpp>
+#include <tests/support/vulkan_host.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+// One barrier of a frame is left out, and what becomes of the answers is looked at. Waits are
+// proven needed on a model of memory (tests/unit/graph_bake.cpp); this shows that the model is no
+// invention: the device, or the layer that watches it, misses them too.
+
+constexpr std::uint32_t none = UINT32_MAX;
+std::uint32_t left_out = none;
+std::uint32_t barriers = 0;
+bool to_the_host = false;  // the one left out
+bool of_images = false;
+
+void VKAPI_CALL most_barriers(VkCommandBuffer commands, VkPipelineStageFlags source,
+                              VkPipelineStageFlags destination, VkDependencyFlags flags,
+                              std::uint32_t memory_count, const VkMemoryBarrier* memory,
+                              std::uint32_t buffer_count, const VkBufferMemoryBarrier* buffers,
+                              std::uint32_t image_count, const VkImageMemoryBarrier* images) {
+    static const auto record = reinterpret_cast<PFN_vkCmdPipelineBarrier>(
+        test_support::true_device_function("vkCmdPipelineBarrier"));
+    if (barriers++ == left_out) {
+        to_the_host = (destination & VK_PIPELINE_STAGE_HOST_BIT) != 0;
+        of_images = image_count > 0;
+        return;
+    }
+    record(commands, source, destination, flags, memory_count, memory, buffer_count, buffers,
+           image_count, images);
+}
+
+const std::vector<Vector2> ring_a{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}};
+const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}};
+
+/// A frame of a context of its own, its answers as numbers.
+std::vector<double> frame(const HostDevice& host, Technique technique) {
+    Expected<Context> context = Context::create(host);
+    EXPECT_TRUE(context.ok()) << context.status().text();
+    const Expected<ShapeHandle> a = context->add_shape({{ring_a}});
+    const Expected<ShapeHandle> b = context->add_shape({{ring_b}});
+    EXPECT_TRUE(a.ok() && b.ok());
+    const Instance here{*a, {}};
+    const Instance there{*b, {{1.2, 0.4}, 0.3}};
+    Batch batch;
+    batch.add(PenetrationQuery{here, there, 0.02, {}, true, technique});
+    batch.add(IntersectionQuery{here, there, 0.02, IntersectionKind::volume_volume, true,
+                                IntersectionStrategy::blend, technique});
+    DistanceFieldQuery field{here, there, 0.02};
+    field.features = true;
+    field.technique = technique;
+    batch.add(field);
+    Results results;
+    barriers = 0;
+    const Status status = context->run(batch, results);
+    EXPECT_TRUE(status.ok()) << status.text();
+    return all_numbers(results);
+}
+
+TEST(Barriers, ThatAreLeftOutAreMissed) {
+    test_support::VulkanHost host;
+    {
+        test_support::Lies lies;
+        lies.entry_points["vkCmdPipelineBarrier"] =
+            reinterpret_cast<PFN_vkVoidFunction>(&most_barriers);
+        const test_support::FakeLoader loader(host.device(), lies);
+        for (const Technique technique : {Technique::raster, Technique::compute}) {
+            SCOPED_TRACE(to_string(technique));
+            left_out = none;
+            const std::vector<double> expected = frame(loader.host(), technique);
+            const std::uint32_t count = barriers;
+            EXPECT_GT(count, 3U);
+            EXPECT_EQ(host.messages(), std::vector<std::string>{});
+            for (std::uint32_t i = 0; i < count; ++i) {
+                left_out = i;
+                const bool corrupted = frame(loader.host(), technique) != expected;
+                const bool complained = !host.messages().empty();
+                std::printf("%s %u: image %d host %d corrupted %d complained %d\n",
+                            to_string(technique), i, of_images, to_the_host, corrupted, complained);
+                host.clear_messages();
+            }
+        }
+        left_out = none;
+    }
+    EXPECT_EQ(host.close(), std::vector<std::string>{});
+}
+
+}  // namespace
+}  // namespace nearfield::test

@@ -1,0 +1,87 @@
+#include <tests/query/every_query.hpp>
+
+namespace nearfield::test {
+namespace {
+
+constexpr Technique by_device[] = {Technique::raster, Technique::compute};
+constexpr Technique all_techniques[] = {Technique::raster, Technique::compute, Technique::cpu};
+constexpr Vector2 field_points[] = {{0.1, 0.2}, {-0.3, 0.4}};
+
+void add_points(Batch& batch, const Instance& a, const Instance& b, bool recordable) {
+    const Instance apart{b.shape, {{3.0, b.pose.translation.y}, b.pose.angle}};
+    for (const Technique technique : all_techniques) {
+        for (const PenetrationPoints points :
+             {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
+            batch.add(PenetrationQuery{a, b, 0.05, points, true, technique});
+        }
+        batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::analytic, true, technique});
+        if (!recordable || technique == Technique::cpu) {
+            batch.add(ContactQuery{a, b, 0.05, 0.05, ContactNormals::gradient, true, technique});
+        }
+        batch.add(SeparationQuery{a, apart, 0.05, technique});
+        batch.add(ClosestPointQuery{a, apart, 0.05, technique});
+    }
+    batch.add(IntersectionTestQuery{a, b, Technique::cpu});
+}
+
+void add_intersections(Batch& batch, const Instance& a, const Instance& b) {
+    for (const IntersectionKind kind :
+         {IntersectionKind::volume_volume, IntersectionKind::boundary_volume,
+          IntersectionKind::boundary_boundary}) {
+        for (const Technique technique : all_techniques) {
+            batch.add(IntersectionQuery{a, b, 0.05, kind, true, IntersectionStrategy::stencil,
+                                        technique});
+        }
+        for (const IntersectionStrategy strategy :
+             {IntersectionStrategy::blend, IntersectionStrategy::depth}) {
+            batch.add(IntersectionQuery{a, b, 0.05, kind, true, strategy, Technique::raster});
+        }
+    }
+}
+
+void add_fields(Batch& batch, const Instance& b) {
+    DistanceFieldQuery field;
+    field.b = b;
+    field.tolerance = 0.1;
+    field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+    field.features = true;
+    field.gradients = true;
+    field.points = field_points;
+    for (const Technique technique : all_techniques) {
+        field.technique = technique;
+        for (const GradientMethod gradient :
+             {GradientMethod::analytic, GradientMethod::central_differences}) {
+            field.gradient = gradient;
+            batch.add(field);
+        }
+    }
+    field.technique = Technique::raster;
+    field.gradient = GradientMethod::blended;
+    batch.add(field);
+    for (const SignEncoding sign : {SignEncoding::color, SignEncoding::feature_bit}) {
+        field.sign = sign;
+        batch.add(field);
+    }
+    for (const Technique technique : by_device) {
+        DistanceFieldQuery values;
+        values.b = b;
+        values.tolerance = 0.1;
+        values.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+        values.technique = technique;
+        batch.add(values);
+    }
+}
+
+}  // namespace
+
+Batch every_query(ShapeHandle a, ShapeHandle b, int number, bool recordable) {
+    Batch batch;
+    const Instance here{a, {}};
+    const Instance there{b, {{0.7, 0.1 * number}, 0.3}};
+    add_points(batch, here, there, recordable);
+    add_intersections(batch, here, there);
+    add_fields(batch, there);
+    return batch;
+}
+
+}  // namespace nearfield::test

@@ -1,0 +1,129 @@
+#include <tests/query/pair.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/query/resident_view.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace nearfield::test {
+namespace {
+
+using ResidentDrawing = QueryTest;
+
+constexpr std::uint64_t seed = 8200;
+constexpr VkExtent2D pixels{720, 540};
+
+struct Scene {
+    PlacedPair pair;
+    ResidentView::Shot shot;
+
+    [[nodiscard]] Vector2 place_of(std::uint32_t column, std::uint32_t row) const {
+        return {shot.low.x + shot.step * (column + 0.5),
+                shot.low.y + shot.step * (pixels.height - (row + 0.5))};
+    }
+};
+
+enum class Shown { inside, outside, arrow_inside, arrow_outside, dark };
+
+Shown shown(const std::array<std::uint8_t, 4>& pixel) {
+    const auto [red, green, blue, alpha] = pixel;
+    if (red == 0 && green == 102 && blue == 0) {
+        return Shown::arrow_inside;
+    }
+    if (red == 102 && green == 0 && blue == 102) {
+        return Shown::arrow_outside;
+    }
+    if (red < 60) {
+        return Shown::dark;
+    }
+    return red > blue ? Shown::inside : Shown::outside;
+}
+
+bool is_arrow(Shown what) {
+    return what == Shown::arrow_inside || what == Shown::arrow_outside;
+}
+
+/// Where no arrow is, the picture has to show the side that the oracle says.
+void check_sides(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
+    std::size_t checked = 0;
+    for (std::uint32_t row = 3; row < picture.height; row += 7) {
+        for (std::uint32_t column = 3; column < picture.width; column += 7) {
+            const Vector2 place = scene.place_of(column, row);
+            const double distance = scene.pair.b().signed_distance(place);
+            const Shown what = shown(picture.at(column, row));
+            const bool near_a_contact = std::any_of(
+                contacts.records.begin(), contacts.records.end(), [&](const ContactRecord& record) {
+                    return std::hypot(record.point.x - place.x, record.point.y - place.y) <
+                           1.1 * scene.shot.arrow_length;
+                });
+            ASSERT_TRUE(near_a_contact || !is_arrow(what)) << column << ", " << row;
+            if (!is_arrow(what) && std::abs(distance) > scene.pair.tolerance()) {
+                ASSERT_EQ(what, distance < 0.0 ? Shown::inside : Shown::outside)
+                    << column << ", " << row << ": distance " << distance;
+                ++checked;
+            }
+        }
+    }
+    EXPECT_GT(checked, 5000U);
+}
+
+/// In the middle of the shaft of every contact's arrow there is an arrow.
+void check_arrows(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
+    ASSERT_GT(contacts.records.size(), 20U);
+    for (const ContactRecord& record : contacts.records) {
+        const double along = 0.4 * scene.shot.arrow_length;
+        const double column =
+            (record.point.x + along * record.normal.x - scene.shot.low.x) / scene.shot.step;
+        const double row =
+            picture.height -
+            (record.point.y + along * record.normal.y - scene.shot.low.y) / scene.shot.step;
+        ASSERT_TRUE(column >= 0.0 && row >= 0.0 && column < picture.width && row < picture.height);
+        EXPECT_TRUE(is_arrow(
+            shown(picture.at(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)))))
+            << "no arrow at " << column << ", " << row;
+    }
+}
+
+TEST_F(ResidentDrawing, AHostDrawsFieldAndContactsWithoutAnyReadBack) {
+    Random random(seed);
+    const Rings rings = with_holes(random, 2);
+    const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.006};
+    ResidentView view(host_device(), pixels);
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        Scene scene{{context(), shapes, technique}, {{-1.45, -1.1}, 2.9 / pixels.width, 0.1, 0.1}};
+        DistanceFieldQuery field;
+        field.b = scene.pair.instance_b();
+        field.tolerance = scene.pair.tolerance();
+        field.technique = technique;
+        field.rectangle = Rectangle{{-1.5, -1.15}, {1.5, 1.15}};
+        field.values = false;
+        field.resident = true;
+        ContactQuery contacts = scene.pair.contacts(0.04);
+        contacts.tolerance = 0.04;
+        contacts.resident = true;
+
+        Batch batch;
+        const auto field_handle = batch.add(field);
+        const auto contacts_handle = batch.add(contacts);
+        const Expected<Ticket> ticket = context().submit(batch);
+        ASSERT_TRUE(ticket.ok()) << ticket.status().text();
+        const Expected<ResidentField> images = context().resident(*ticket, field_handle);
+        const Expected<ResidentRecords> records = context().resident(*ticket, contacts_handle);
+        ASSERT_TRUE(images.ok() && records.ok());
+        // Drawn before anything is collected: nothing has come back to the CPU.
+        const Picture picture = view.draw(*images, *records, scene.shot);
+        Results results;
+        ASSERT_TRUE(context().collect(*ticket, results).ok());
+        EXPECT_TRUE(results[field_handle].values.empty());
+
+        check_sides(scene, picture, results[contacts_handle]);
+        check_arrows(scene, picture, results[contacts_handle]);
+        if (const char* const folder = std::getenv("NEARFIELD_TEST_PICTURES")) {
+            picture.write(std::string(folder) + "/resident_" + to_string(technique) + ".ppm");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test

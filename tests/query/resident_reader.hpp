@@ -1,0 +1,54 @@
+#pragma once
+
+#include <nearfield/nearfield.hpp>
+
+#include <tests/support/host_gpu.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::test {
+
+/// A texel of the feature image, or the feature of a record, taken apart.
+struct FeatureContents {
+    Feature feature;
+    bool unique = false;
+    bool inside = false;
+};
+
+struct FieldContents {
+    std::vector<float> values;              ///< by cell, row by row
+    std::vector<FeatureContents> features;  ///< the same
+};
+
+struct RecordContents : FeatureContents {
+    Vector2 own_point;  ///< relative to the records' origin
+    Vector2 point;      ///< in the world, as the others
+    Vector2 nearest;
+    Vector2 normal;
+    double distance = 0.0;
+    Side on = Side::a;
+    bool touching = false;
+    std::uint32_t place = 0;
+
+    [[nodiscard]] double depth() const { return inside ? distance : -distance; }
+};
+
+struct RecordsContents {
+    SummaryData summary;
+    std::vector<RecordContents> records;
+};
+
+/// Reads back what stays on the device, as a host would that wants to look at it.
+class ResidentReader {
+public:
+    explicit ResidentReader(const HostDevice& host) : gpu_(host) {}
+
+    [[nodiscard]] FieldContents read(const ResidentField& field);
+    [[nodiscard]] RecordsContents read(const ResidentRecords& records);
+
+private:
+    test_support::HostGpu gpu_;
+};
+
+}  // namespace nearfield::test

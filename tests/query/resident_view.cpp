@@ -1,0 +1,298 @@
+#include <tests/query/resident_view.hpp>
+#include <tests/query/shaders/resident_arrows_frag.hpp>
+#include <tests/query/shaders/resident_arrows_vert.hpp>
+#include <tests/query/shaders/resident_field_frag.hpp>
+#include <tests/query/shaders/resident_field_vert.hpp>
+
+#include <cstring>
+#include <fstream>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::require;
+
+constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
+
+/// As in shaders/view.glsl.
+struct Push {
+    float field_low[2];
+    float records_low[2];
+    float pixels[2];
+    float step;
+    float cell;
+    std::int32_t cells[2];
+    float arrow_length;
+    float line_spacing;
+};
+constexpr VkShaderStageFlags both_stages =
+    VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+}  // namespace
+
+void Picture::write(const std::string& path) const {
+    std::ofstream file(path, std::ios::binary);
+    file << "P6\n" << width << ' ' << height << "\n255\n";
+    for (const auto& pixel : pixels) {
+        file.write(reinterpret_cast<const char*>(pixel.data()), 3);
+    }
+}
+
+ResidentView::ResidentView(const HostDevice& host, VkExtent2D pixels)
+    : gpu_(host),
+      extent_(pixels),
+      pixels_(gpu_.make_buffer(std::uint64_t{4} * pixels.width * pixels.height)) {
+    make_render_pass();
+    make_target();
+    make_layout();
+    make_set();
+    field_pipeline_ = make_pipeline(shaders::resident_field_vert, shaders::resident_field_frag);
+    arrows_pipeline_ = make_pipeline(shaders::resident_arrows_vert, shaders::resident_arrows_frag);
+}
+
+void ResidentView::make_render_pass() {
+    VkAttachmentDescription color{};
+    color.format = format;
+    color.samples = VK_SAMPLE_COUNT_1_BIT;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    color.finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    const VkSubpassDependency to_copy{0,
+                                      VK_SUBPASS_EXTERNAL,
+                                      VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                                      VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                                      VK_ACCESS_TRANSFER_READ_BIT,
+                                      0};
+    VkRenderPassCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
+    info.attachmentCount = 1;
+    info.pAttachments = &color;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    info.dependencyCount = 1;
+    info.pDependencies = &to_copy;
+    require(gpu_.vkCreateRenderPass(gpu_.device(), &info, nullptr, &render_pass_),
+            "vkCreateRenderPass");
+    gpu_.at_end([this] { gpu_.vkDestroyRenderPass(gpu_.device(), render_pass_, nullptr); });
+}
+
+void ResidentView::make_target() {
+    target_ = gpu_.make_image(
+        format, extent_, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    VkFramebufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    info.renderPass = render_pass_;
+    info.attachmentCount = 1;
+    info.pAttachments = &target_.view;
+    info.width = extent_.width;
+    info.height = extent_.height;
+    info.layers = 1;
+    require(gpu_.vkCreateFramebuffer(gpu_.device(), &info, nullptr, &framebuffer_),
+            "vkCreateFramebuffer");
+    gpu_.at_end([this] { gpu_.vkDestroyFramebuffer(gpu_.device(), framebuffer_, nullptr); });
+}
+
+void ResidentView::make_layout() {
+    std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
+    for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType =
+            i < 2 ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = both_stages;
+    }
+    VkDescriptorSetLayoutCreateInfo set{};
+    set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set.bindingCount = static_cast<std::uint32_t>(bindings.size());
+    set.pBindings = bindings.data();
+    require(gpu_.vkCreateDescriptorSetLayout(gpu_.device(), &set, nullptr, &set_layout_),
+            "vkCreateDescriptorSetLayout");
+    gpu_.at_end([this] { gpu_.vkDestroyDescriptorSetLayout(gpu_.device(), set_layout_, nullptr); });
+    const VkPushConstantRange push{both_stages, 0, sizeof(Push)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout_;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &push;
+    require(gpu_.vkCreatePipelineLayout(gpu_.device(), &info, nullptr, &layout_),
+            "vkCreatePipelineLayout");
+    gpu_.at_end([this] { gpu_.vkDestroyPipelineLayout(gpu_.device(), layout_, nullptr); });
+}
+
+void ResidentView::make_set() {
+    VkSamplerCreateInfo sampler{};
+    sampler.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    require(gpu_.vkCreateSampler(gpu_.device(), &sampler, nullptr, &sampler_), "vkCreateSampler");
+    gpu_.at_end([this] { gpu_.vkDestroySampler(gpu_.device(), sampler_, nullptr); });
+    const std::array<VkDescriptorPoolSize, 2> sizes{
+        {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}}};
+    VkDescriptorPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.maxSets = 1;
+    info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    require(gpu_.vkCreateDescriptorPool(gpu_.device(), &info, nullptr, &pool),
+            "vkCreateDescriptorPool");
+    gpu_.at_end([this, pool] { gpu_.vkDestroyDescriptorPool(gpu_.device(), pool, nullptr); });
+    VkDescriptorSetAllocateInfo allocate{};
+    allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    allocate.descriptorPool = pool;
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &set_layout_;
+    require(gpu_.vkAllocateDescriptorSets(gpu_.device(), &allocate, &set_),
+            "vkAllocateDescriptorSets");
+}
+
+VkPipeline ResidentView::make_pipeline(std::span<const std::uint32_t> vertex,
+                                       std::span<const std::uint32_t> fragment) {
+    const auto make_module = [&](std::span<const std::uint32_t> words) {
+        VkShaderModuleCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+        info.codeSize = words.size_bytes();
+        info.pCode = words.data();
+        VkShaderModule module = VK_NULL_HANDLE;
+        require(gpu_.vkCreateShaderModule(gpu_.device(), &info, nullptr, &module),
+                "vkCreateShaderModule");
+        return module;
+    };
+    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+    for (VkPipelineShaderStageCreateInfo& stage : stages) {
+        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        stage.pName = "main";
+    }
+    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+    stages[0].module = make_module(vertex);
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    stages[1].module = make_module(fragment);
+
+    VkPipelineVertexInputStateCreateInfo input{};
+    input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    const VkViewport viewport{
+        0.0F, 0.0F, static_cast<float>(extent_.width), static_cast<float>(extent_.height),
+        0.0F, 1.0F};
+    const VkRect2D scissor{{0, 0}, extent_};
+    VkPipelineViewportStateCreateInfo viewports{};
+    viewports.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+    viewports.viewportCount = viewports.scissorCount = 1;
+    viewports.pViewports = &viewport;
+    viewports.pScissors = &scissor;
+    VkPipelineRasterizationStateCreateInfo raster{};
+    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+    raster.cullMode = VK_CULL_MODE_NONE;
+    raster.lineWidth = 1.0F;
+    VkPipelineMultisampleStateCreateInfo samples{};
+    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    VkPipelineColorBlendAttachmentState attachment{};
+    attachment.colorWriteMask = 0xF;
+    VkPipelineColorBlendStateCreateInfo blend{};
+    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+    blend.attachmentCount = 1;
+    blend.pAttachments = &attachment;
+
+    VkGraphicsPipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    info.stageCount = static_cast<std::uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &input;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewports;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &samples;
+    info.pColorBlendState = &blend;
+    info.layout = layout_;
+    info.renderPass = render_pass_;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    require(
+        gpu_.vkCreateGraphicsPipelines(gpu_.device(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+        "vkCreateGraphicsPipelines");
+    gpu_.at_end([this, pipeline] { gpu_.vkDestroyPipeline(gpu_.device(), pipeline, nullptr); });
+    for (const VkPipelineShaderStageCreateInfo& stage : stages) {
+        gpu_.vkDestroyShaderModule(gpu_.device(), stage.module, nullptr);
+    }
+    return pipeline;
+}
+
+void ResidentView::bind(const ResidentField& field, const ResidentRecords& contacts) const {
+    const std::array<VkDescriptorImageInfo, 2> images{
+        {{sampler_, field.signed_distance.view, field.state.layout},
+         {sampler_, field.feature.view, field.state.layout}}};
+    const VkDescriptorBufferInfo buffer{contacts.buffer, contacts.offset, contacts.size};
+    std::array<VkWriteDescriptorSet, 2> writes{};
+    for (VkWriteDescriptorSet& write : writes) {
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = set_;
+    }
+    writes[0].descriptorCount = static_cast<std::uint32_t>(images.size());
+    writes[0].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    writes[0].pImageInfo = images.data();
+    writes[1].dstBinding = 2;
+    writes[1].descriptorCount = 1;
+    writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    writes[1].pBufferInfo = &buffer;
+    gpu_.vkUpdateDescriptorSets(gpu_.device(), static_cast<std::uint32_t>(writes.size()),
+                                writes.data(), 0, nullptr);
+}
+
+Picture ResidentView::draw(const ResidentField& field, const ResidentRecords& contacts,
+                           const Shot& shot) {
+    bind(field, contacts);
+    const auto narrow = [](double number) { return static_cast<float>(number); };
+    const Push push{
+        {narrow(shot.low.x - field.origin.x), narrow(shot.low.y - field.origin.y)},
+        {narrow(shot.low.x - contacts.origin.x), narrow(shot.low.y - contacts.origin.y)},
+        {static_cast<float>(extent_.width), static_cast<float>(extent_.height)},
+        narrow(shot.step),
+        narrow(field.cell),
+        {static_cast<std::int32_t>(field.width), static_cast<std::int32_t>(field.height)},
+        narrow(shot.arrow_length),
+        narrow(shot.line_spacing)};
+    gpu_.submit([&](VkCommandBuffer commands) {
+        VkRenderPassBeginInfo begin{};
+        begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+        begin.renderPass = render_pass_;
+        begin.framebuffer = framebuffer_;
+        begin.renderArea = {{0, 0}, extent_};
+        gpu_.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+        gpu_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1,
+                                     &set_, 0, nullptr);
+        gpu_.vkCmdPushConstants(commands, layout_, both_stages, 0, sizeof(push), &push);
+        gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, field_pipeline_);
+        gpu_.vkCmdDraw(commands, 3, 1, 0, 0);
+        gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, arrows_pipeline_);
+        gpu_.vkCmdDraw(commands, 9, contacts.capacity, 0, 0);
+        gpu_.vkCmdEndRenderPass(commands);
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {extent_.width, extent_.height, 1};
+        gpu_.vkCmdCopyImageToBuffer(commands, target_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                    pixels_.buffer, 1, &region);
+        VkMemoryBarrier barrier{};
+        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+        barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+        barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+        gpu_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                  VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
+                                  nullptr);
+    });
+    gpu_.finish();
+    Picture picture{extent_.width, extent_.height, {}};
+    picture.pixels.resize(std::size_t{extent_.width} * extent_.height);
+    std::memcpy(picture.pixels.data(), pixels_.data, 4 * picture.pixels.size());
+    return picture;
+}
+
+}  // namespace nearfield::test

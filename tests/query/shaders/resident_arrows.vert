@@ -1,0 +1,37 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// A host's arrows for contacts, an instance a record that there is room for: those beyond the count
+// collapse into nothing, so that the host need not know how many there are.
+
+#include "nearfield/nearfield.glsl"
+#include "view.glsl"
+
+layout(std430, set = 0, binding = 2) readonly buffer Contacts {
+    NearfieldSummary summary;
+    NearfieldRecord records[];
+};
+
+layout(location = 0) flat out uint inside;
+
+// Along the arrow and across it, in parts of its length.
+const vec2 corners[9] = vec2[9](vec2(0.0, -0.05), vec2(0.7, -0.05), vec2(0.7, 0.05),
+                                vec2(0.0, -0.05), vec2(0.7, 0.05), vec2(0.0, 0.05),
+                                vec2(0.65, -0.2), vec2(1.0, 0.0), vec2(0.65, 0.2));
+
+void main() {
+    uint index = uint(gl_InstanceIndex);
+    inside = 0u;
+    gl_Position = vec4(-2.0, -2.0, 0.0, 1.0);
+    if (index >= summary.count) {
+        return;
+    }
+    NearfieldRecord record = records[index];
+    inside = nearfield_is_inside(record.feature) ? 1u : 0u;
+    vec2 corner = view.arrow_length * corners[gl_VertexIndex];
+    vec2 across = vec2(-record.normal.y, record.normal.x);
+    vec2 place = record.point + corner.x * record.normal + corner.y * across;
+    vec2 pixel = (place - view.records_low) / view.step;
+    gl_Position = vec4(2.0 * pixel.x / view.pixels.x - 1.0,
+                       1.0 - 2.0 * pixel.y / view.pixels.y, 0.0, 1.0);
+}

@@ -1,0 +1,12 @@
+// What both of a host's shaders know of the picture: y up in the world, down in the picture.
+
+layout(push_constant) uniform View {
+    vec2 field_low;      // low corner of the picture from the field's origin, world units
+    vec2 records_low;    // the same from the records' origin
+    vec2 pixels;         // of the picture
+    float step;          // world units a pixel
+    float cell;          // side of the field's cells
+    ivec2 cells;
+    float arrow_length;  // world units
+    float line_spacing;  // world units from one line of equal distance to the next
+} view;

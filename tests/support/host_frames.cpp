@@ -1,0 +1,89 @@
+#include <tests/support/host_frames.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace nearfield::test_support {
+namespace {
+
+void require_success(VkResult result, const char* call) {
+    if (result != VK_SUCCESS) {
+        throw std::runtime_error(std::string("host frames: ") + call + " failed with VkResult " +
+                                 std::to_string(result));
+    }
+}
+
+}  // namespace
+
+#define NEARFIELD_HOST_CALL(name) host_function<PFN_##name>(host_, #name)
+
+HostFrames::HostFrames(const HostDevice& host, std::uint32_t count) : host_(host), frames_(count) {
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = host.queue_family;
+    require_success(NEARFIELD_HOST_CALL(vkCreateCommandPool)(host_.device, &pool, nullptr, &pool_),
+                    "vkCreateCommandPool");
+    for (Frame& frame : frames_) {
+        VkCommandBufferAllocateInfo commands{};
+        commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        commands.commandPool = pool_;
+        commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        commands.commandBufferCount = 1;
+        require_success(
+            NEARFIELD_HOST_CALL(vkAllocateCommandBuffers)(host_.device, &commands, &frame.commands),
+            "vkAllocateCommandBuffers");
+        VkFenceCreateInfo fence{};
+        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+        require_success(
+            NEARFIELD_HOST_CALL(vkCreateFence)(host_.device, &fence, nullptr, &frame.fence),
+            "vkCreateFence");
+    }
+}
+
+HostFrames::~HostFrames() {
+    for (const Frame& frame : frames_) {
+        NEARFIELD_HOST_CALL(vkWaitForFences)
+        (host_.device, 1, &frame.fence, VK_TRUE, UINT64_MAX);
+        NEARFIELD_HOST_CALL(vkDestroyFence)(host_.device, frame.fence, nullptr);
+    }
+    NEARFIELD_HOST_CALL(vkDestroyCommandPool)(host_.device, pool_, nullptr);
+}
+
+VkCommandBuffer HostFrames::begin(std::uint64_t frame) {
+    wait(frame);
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    require_success(NEARFIELD_HOST_CALL(vkBeginCommandBuffer)(at(frame).commands, &info),
+                    "vkBeginCommandBuffer");
+    return at(frame).commands;
+}
+
+void HostFrames::submit(std::uint64_t frame) {
+    abandon(frame);
+    require_success(NEARFIELD_HOST_CALL(vkResetFences)(host_.device, 1, &at(frame).fence),
+                    "vkResetFences");
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &at(frame).commands;
+    require_success(NEARFIELD_HOST_CALL(vkQueueSubmit)(host_.queue, 1, &info, at(frame).fence),
+                    "vkQueueSubmit");
+}
+
+void HostFrames::abandon(std::uint64_t frame) {
+    require_success(NEARFIELD_HOST_CALL(vkEndCommandBuffer)(at(frame).commands),
+                    "vkEndCommandBuffer");
+}
+
+void HostFrames::wait(std::uint64_t frame) {
+    require_success(NEARFIELD_HOST_CALL(vkWaitForFences)(host_.device, 1, &at(frame).fence, VK_TRUE,
+                                                         UINT64_MAX),
+                    "vkWaitForFences");
+}
+
+#undef NEARFIELD_HOST_CALL
+
+}  // namespace nearfield::test_support

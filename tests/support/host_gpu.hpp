@@ -1,0 +1,119 @@
+#pragma once
+
+#include <nearfield/nearfield.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#define NEARFIELD_HOST_FUNCTIONS(X)  \
+    X(vkAllocateCommandBuffers)      \
+    X(vkAllocateDescriptorSets)      \
+    X(vkAllocateMemory)              \
+    X(vkBeginCommandBuffer)          \
+    X(vkBindBufferMemory)            \
+    X(vkBindImageMemory)             \
+    X(vkCmdBeginRenderPass)          \
+    X(vkCmdBindDescriptorSets)       \
+    X(vkCmdBindPipeline)             \
+    X(vkCmdCopyBuffer)               \
+    X(vkCmdCopyImageToBuffer)        \
+    X(vkCmdDraw)                     \
+    X(vkCmdEndRenderPass)            \
+    X(vkCmdPipelineBarrier)          \
+    X(vkCmdPushConstants)            \
+    X(vkCreateBuffer)                \
+    X(vkCreateCommandPool)           \
+    X(vkCreateDescriptorPool)        \
+    X(vkCreateDescriptorSetLayout)   \
+    X(vkCreateFence)                 \
+    X(vkCreateFramebuffer)           \
+    X(vkCreateGraphicsPipelines)     \
+    X(vkCreateImage)                 \
+    X(vkCreateImageView)             \
+    X(vkCreatePipelineLayout)        \
+    X(vkCreateRenderPass)            \
+    X(vkCreateSampler)               \
+    X(vkCreateShaderModule)          \
+    X(vkDestroyBuffer)               \
+    X(vkDestroyCommandPool)          \
+    X(vkDestroyDescriptorPool)       \
+    X(vkDestroyDescriptorSetLayout)  \
+    X(vkDestroyFence)                \
+    X(vkDestroyFramebuffer)          \
+    X(vkDestroyImage)                \
+    X(vkDestroyImageView)            \
+    X(vkDestroyPipeline)             \
+    X(vkDestroyPipelineLayout)       \
+    X(vkDestroyRenderPass)           \
+    X(vkDestroySampler)              \
+    X(vkDestroyShaderModule)         \
+    X(vkEndCommandBuffer)            \
+    X(vkFreeMemory)                  \
+    X(vkGetBufferMemoryRequirements) \
+    X(vkGetImageMemoryRequirements)  \
+    X(vkMapMemory)                   \
+    X(vkQueueSubmit)                 \
+    X(vkResetFences)                 \
+    X(vkUpdateDescriptorSets)        \
+    X(vkWaitForFences)
+
+namespace nearfield::test_support {
+
+/// A host's own side of its device, as far as tests draw and read back: entry points, one command
+/// buffer, objects that live until the end. Throws std::runtime_error where a call fails.
+class HostGpu {
+public:
+    explicit HostGpu(const HostDevice& host);
+    ~HostGpu();
+    HostGpu(const HostGpu&) = delete;
+    HostGpu& operator=(const HostGpu&) = delete;
+
+    struct Buffer {
+        VkBuffer buffer = VK_NULL_HANDLE;
+        const std::byte* data = nullptr;
+    };
+    struct Image {
+        VkImage image = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+    };
+    /// For copies of the device's, mapped.
+    [[nodiscard]] Buffer make_buffer(std::uint64_t bytes);
+    [[nodiscard]] Image make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+    /// Destroys what `destroy` does when this ends, last made first.
+    void at_end(std::function<void()> destroy) { at_end_.push_back(std::move(destroy)); }
+
+    /// Records and submits to the host's queue; finish() waits for it. One at a time.
+    void submit(const std::function<void(VkCommandBuffer)>& record);
+    void finish();
+
+    /// What a resident image or buffer holds: by a copy in the queue, with the barriers that a host
+    /// needs for another use than the one it was handed over for.
+    [[nodiscard]] std::vector<std::uint32_t> read(const ResidentImage& image, VkExtent2D extent,
+                                                  const HandedOver& state);
+    [[nodiscard]] std::vector<std::uint32_t> read(VkBuffer buffer, VkDeviceSize offset,
+                                                  VkDeviceSize size, const HandedOver& state);
+
+    [[nodiscard]] VkDevice device() const { return host_.device; }
+
+#define NEARFIELD_HOST_MEMBER(name) PFN_##name name = nullptr;
+    NEARFIELD_HOST_FUNCTIONS(NEARFIELD_HOST_MEMBER)
+#undef NEARFIELD_HOST_MEMBER
+
+private:
+    [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs,
+                                          VkMemoryPropertyFlags properties);
+
+    HostDevice host_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkFence fence_ = VK_NULL_HANDLE;
+    std::vector<std::function<void()>> at_end_;
+};
+
+/// Throws std::runtime_error, naming the call, unless the result is a success.
+void require(VkResult result, const char* call);
+
+}  // namespace nearfield::test_support

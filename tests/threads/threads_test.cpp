@@ -1,0 +1,165 @@
+#include <engine/gpu/headless.hpp>
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/fake_loader.hpp>
+
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr int frames = 4;
+constexpr int threads = 3;
+
+const std::vector<Vector2> ring_a{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}};
+const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}};
+
+/// What a thread asks of a context of its own: shapes added and changed, pairs found, batches run,
+/// and others in flight two at a time.
+class Simulation {
+public:
+    explicit Simulation(Context context) : context_(std::move(context)) {}
+
+    /// All depths and distances that came back; an error in words where there was one.
+    std::vector<double> run() {
+        const Expected<ShapeHandle> a = context_.add_shape({{ring_a}});
+        const Expected<ShapeHandle> b = context_.add_shape({{ring_b}});
+        if (!a.ok() || !b.ok()) {
+            error_ = "a shape was refused";
+            return {};
+        }
+        a_ = *a;
+        b_ = *b;
+        Ticket former;
+        for (int frame = 0; frame < frames && error_.empty(); ++frame) {
+            find_pairs(frame);
+            const Ticket ticket = submit(frame);
+            collect(former);
+            former = ticket;
+            Results results;
+            expect(context_.run(batch(frame, Technique::cpu), results));
+            note(results);
+            expect(context_.update_shape(b_, {{frame % 2 == 0 ? ring_a : ring_b}}));
+        }
+        collect(former);
+        return numbers_;
+    }
+
+    [[nodiscard]] const std::string& error() const { return error_; }
+
+private:
+    [[nodiscard]] Batch batch(int frame, Technique technique) const {
+        const Instance here{a_, {}};
+        const Instance there{b_, {{1.2, 0.1 * frame}, 0.3}};
+        Batch batch;
+        batch.add(PenetrationQuery{here, there, 0.1, {}, true, technique});
+        batch.add(SeparationQuery{here, {b_, {{6.0, 0.1 * frame}, 0.3}}, 0.1, technique});
+        batch.add(IntersectionQuery{here, there, 0.1, IntersectionKind::volume_volume, true,
+                                    IntersectionStrategy::stencil, technique});
+        return batch;
+    }
+    void expect(const Status& status) {
+        if (!status.ok() && error_.empty()) {
+            error_ = status.text();
+        }
+    }
+    void find_pairs(int frame) {
+        std::vector<InstancePair> pairs;
+        const Instance instances[] = {{a_, {}}, {b_, {{0.5 * frame, 0.0}, 0.0}}};
+        expect(context_.find_pairs(instances, 0.1, pairs));
+        numbers_.push_back(static_cast<double>(pairs.size()));
+    }
+    Ticket submit(int frame) {
+        const Expected<Ticket> ticket =
+            context_.submit(batch(frame, frame % 2 == 0 ? Technique::raster : Technique::compute));
+        expect(ticket.status());
+        return ticket.ok() ? *ticket : Ticket{};
+    }
+    void collect(Ticket ticket) {
+        if (ticket == Ticket{}) {
+            return;
+        }
+        static_cast<void>(context_.is_ready(ticket));
+        Results results;
+        expect(context_.collect(ticket, results));
+        note(results);
+    }
+    void note(const Results& results) {
+        for (const AnyResult& any : results.results) {
+            if (const auto* const depths = std::get_if<PenetrationResult>(&any)) {
+                expect(depths->status);
+                numbers_.push_back(depths->deepest.depth);
+            } else if (const auto* const gap = std::get_if<SeparationResult>(&any)) {
+                expect(gap->status);
+                numbers_.push_back(gap->distance);
+            } else if (const auto* const common = std::get_if<IntersectionResult>(&any)) {
+                expect(common->status);
+                numbers_.push_back(static_cast<double>(common->count));
+            }
+        }
+    }
+
+    Context context_;
+    ShapeHandle a_;
+    ShapeHandle b_;
+    std::vector<double> numbers_;
+    std::string error_;
+};
+
+/// Runs a simulation on each of several threads; `make` is called there. All have to find the same.
+template <class Make>
+void expect_same_on_threads(const Make& make) {
+    std::vector<std::vector<double>> found(threads);
+    std::vector<std::string> errors(threads);
+    std::vector<std::thread> running;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        running.emplace_back([&make, &numbers = found[i], &error = errors[i]] {
+            Expected<Context> made = make();
+            if (!made.ok()) {
+                error = made.status().text();
+                return;
+            }
+            Simulation simulation(std::move(*made));
+            numbers = simulation.run();
+            error = simulation.error();
+        });
+    }
+    for (std::thread& thread : running) {
+        thread.join();
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(errors[i], "");
+        EXPECT_GT(found[i].size(), 3U * frames);
+        EXPECT_EQ(found[i], found[0]) << "thread " << i;
+    }
+}
+
+// The lock that several contexts on one queue need: around submissions, and nothing else.
+std::mutex queue_lock;
+
+VkResult VKAPI_CALL locked_submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
+                                  VkFence fence) {
+    static const auto submit =
+        reinterpret_cast<PFN_vkQueueSubmit>(test_support::true_device_function("vkQueueSubmit"));
+    const std::lock_guard lock(queue_lock);
+    return submit(queue, count, infos, fence);
+}
+
+TEST(Threads, HaveContextsOnOneDeviceAndOneQueue) {
+    const gpu::HeadlessDevice device({});
+    test_support::Lies lies;
+    lies.entry_points["vkQueueSubmit"] = reinterpret_cast<PFN_vkVoidFunction>(&locked_submit);
+    const test_support::FakeLoader loader(device.host(), lies);
+    expect_same_on_threads([&] { return Context::create(loader.host()); });
+}
+
+TEST(Threads, HaveContextsOnDevicesOfTheirOwn) {
+    expect_same_on_threads([] { return Context::create_headless(); });
+}
+
+}  // namespace
+}  // namespace nearfield::test

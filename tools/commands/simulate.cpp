@@ -1,0 +1,227 @@
+#include <nearfield/context.hpp>
+
+#include <tools/commands/library_error.hpp>
+#include <tools/commands/scene_runner.hpp>
+#include <tools/commands/simulate.hpp>
+#include <tools/commands/simulation_report.hpp>
+#include <tools/dynamics/world.hpp>
+#include <tools/input/input_error.hpp>
+#include <tools/input/values.hpp>
+#include <tools/output/frame_files.hpp>
+#include <tools/output/report_target.hpp>
+#include <tools/output/video_file.hpp>
+#include <tools/render/cairo_painter.hpp>
+#include <tools/render/scene_picture.hpp>
+#include <tools/scenes/scenes.hpp>
+#include <unistd.h>
+
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+namespace nearfield::tools {
+namespace {
+
+constexpr double page_width = 960.0;
+
+dynamics::Scene make_scene(const SimulateArguments& arguments) {
+    std::string names;
+    for (const scenes::NamedScene& scene : scenes::all_scenes()) {
+        if (arguments.scene == scene.name) {
+            dynamics::Scene made = scene.make();
+            if (arguments.tolerance) {
+                made.tolerance = parse_positive(*arguments.tolerance, "-d");
+            }
+            return made;
+        }
+        names += std::string(names.empty() ? "" : ", ") + scene.name;
+    }
+    throw InputError("\"" + arguments.scene + "\" is none of the scenes " + names);
+}
+
+dynamics::Response parse_response(const std::string& name) {
+    if (name == "penalty") {
+        return dynamics::Response::penalty;
+    }
+    if (name == "backtracking") {
+        return dynamics::Response::backtracking;
+    }
+    throw InputError("--response: \"" + name + "\" is none of penalty, backtracking");
+}
+
+dynamics::World make_world(Context& context, const SimulateArguments& arguments,
+                           dynamics::Scene scene, dynamics::Response response,
+                           Technique technique) {
+    try {
+        return {context, std::move(scene), response, technique};
+    } catch (const std::invalid_argument& error) {
+        throw InputError("--response backtracking: " + arguments.scene + ": " + error.what());
+    }
+}
+
+View view_of(const dynamics::Scene& scene) {
+    const Rectangle& world = scene.view;
+    // Even numbers of pixels, which video needs.
+    const double height = 2.0 * std::round(0.5 * page_width * (world.max.y - world.min.y) /
+                                           (world.max.x - world.min.x));
+    return {world, {{0.0, 0.0}, {page_width, height}}};
+}
+
+/// Where the frames that are wanted go.
+struct Outputs {
+    std::optional<FrameFiles> files;
+    std::optional<VideoFile> video;
+
+    Outputs(const SimulateArguments& arguments, const dynamics::Scene& scene, const View& view) {
+        if (arguments.image) {
+            files.emplace(*arguments.image);
+        }
+        if (arguments.video) {
+            video.emplace(*arguments.video, static_cast<std::uint32_t>(view.page().max.x),
+                          static_cast<std::uint32_t>(view.page().max.y),
+                          static_cast<std::uint32_t>(std::round(1.0 / scene.frame_time)));
+        }
+    }
+};
+
+/// Draws frames.
+class Pictures {
+public:
+    Pictures(const SimulateArguments& arguments, Outputs& outputs, const View& view)
+        : arguments_(arguments), outputs_(outputs), view_(view) {}
+
+    void add(std::uint32_t frame, Context& context, dynamics::World& world) {
+        const bool in_a_file =
+            outputs_.files && (frame % arguments_.every == 0 || frame == arguments_.frames);
+        if (!in_a_file && !outputs_.video) {
+            return;
+        }
+        drawing_.clear();
+        if (arguments_.field) {
+            drawing_.cells(field_overlay(context, world, view_));
+        }
+        draw_bodies(drawing_, world.scene(), view_);
+        draw_observations(drawing_, observe(world), view_);
+        const FrameImage image = paint(drawing_, view_);
+        if (in_a_file) {
+            outputs_.files->write(frame, png_of(image));
+        }
+        if (outputs_.video) {
+            outputs_.video->add(image.pixels);
+        }
+    }
+
+private:
+    const SimulateArguments& arguments_;
+    Outputs& outputs_;
+    const View& view_;
+    Drawing drawing_;
+};
+
+SimulationReport report_of(const dynamics::World& world, const SimulateArguments& arguments,
+                           const Context& context, Technique technique) {
+    const dynamics::Scene& scene = world.scene();
+    SimulationReport report;
+    report.scene = scene.name;
+    report.response = arguments.response;
+    report.technique = to_string(technique);
+    report.device = context.device_name();
+    report.tolerance = scene.tolerance;
+    report.objects = scene.bodies.size();
+    report.lines = line_count(scene);
+    report.steps = scene.steps;
+    return report;
+}
+
+}  // namespace
+
+CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) {
+    CLI::App* command = program.add_subcommand(
+        "simulate", "Run one of the paper's simulations, or another of their kind");
+    command
+        ->add_option("scene", arguments.scene,
+                     "map, gears, links, cars or wavy, as in the paper; overlap: the bars of wavy, "
+                     "far inside each other; pour: 1,000 stars; required")
+        ->required()
+        ->type_name("NAME");
+    command
+        ->add_option("--response", arguments.response,
+                     "penalty (forces at points inside the other body) or backtracking (to just "
+                     "before a contact, and impulses there); default penalty")
+        ->type_name("NAME");
+    command->add_option("--frames", arguments.frames, "How many frames; default 300")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1U, 10'000'000U));
+    command
+        ->add_option("-d,--tolerance", arguments.tolerance,
+                     "Tolerance d of the queries; default as the scene has it")
+        ->type_name("LENGTH");
+    command
+        ->add_option("--technique", arguments.technique,
+                     "raster, compute, cpu or automatic; default automatic")
+        ->type_name("NAME");
+    add_settings_options(*command, arguments.settings);
+    command
+        ->add_option("--image", arguments.image,
+                     "Draw frames into these files: %d, or %04d with the number of digits, stands "
+                     "for the frame's number; default none")
+        ->type_name("PATTERN.png");
+    CLI::Option* const image = command->get_option("--image");
+    command
+        ->add_option("--every", arguments.every,
+                     "Draw frames whose number this divides, and the last one; default 1")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1U, 10'000'000U))
+        ->needs(image);
+    command
+        ->add_option("--video", arguments.video,
+                     "Draw all frames into a video, by the program ffmpeg; default none")
+        ->type_name("FILE");
+    command->add_flag("--field", arguments.field,
+                      "Draw the distance to the nearest body behind them");
+    command
+        ->add_option("--json", arguments.json,
+                     "Write energies, query times and the worst penetration of each frame as JSON; "
+                     "- for the standard output, the summary then goes to the standard error; "
+                     "default none")
+        ->type_name("FILE|-");
+    return command;
+}
+
+void run_simulate(const SimulateArguments& arguments) {
+    dynamics::Scene scene = make_scene(arguments);
+    const dynamics::Response response = parse_response(arguments.response);
+    const Technique technique =
+        parse_technique_option(arguments.technique).value_or(Technique::automatic);
+    const Settings settings = parse_settings(arguments.settings);
+    const View view = view_of(scene);
+    ReportTarget target(arguments.json);
+    Outputs outputs(arguments, scene, view);
+    Context context = take(Context::create_headless({}, settings));
+    dynamics::World world = make_world(context, arguments, std::move(scene), response, technique);
+
+    SimulationReport report = report_of(world, arguments, context, technique);
+    Pictures pictures(arguments, outputs, view);
+    const bool show_progress = isatty(STDERR_FILENO) == 1;
+    pictures.add(0, context, world);
+    for (std::uint32_t frame = 1; frame <= arguments.frames; ++frame) {
+        if (show_progress) {
+            std::cerr << "\rframe " << frame << " of " << arguments.frames << std::flush;
+        }
+        report.frames.push_back(world.advance());
+        pictures.add(frame, context, world);
+    }
+    if (show_progress) {
+        std::cerr << '\n';
+    }
+    if (outputs.video) {
+        outputs.video->finish();
+    }
+    if (std::ostream* json = target.json()) {
+        write_simulation_json(*json, report);
+    }
+    write_simulation_summary(target.summary(), report);
+    target.commit();
+}
+
+}  // namespace nearfield::tools

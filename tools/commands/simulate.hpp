@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <tools/commands/settings_options.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace nearfield::tools {
+
+/// What stands on the command line of `nearfield simulate`.
+struct SimulateArguments {
+    std::string scene;
+    std::string response = "penalty";
+    std::uint32_t frames = 300;
+    std::optional<std::string> tolerance;
+    std::optional<std::string> technique;
+    SettingsArguments settings;
+    std::optional<std::string> image;
+    std::uint32_t every = 1;  ///< which frames are drawn
+    std::optional<std::string> video;
+    bool field = false;
+    std::optional<std::string> json;
+};
+
+/// Adds the command `simulate` to the program; parsing fills `arguments`, which must outlive it.
+CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments);
+
+/// Runs a scene frame by frame, draws and reports it. Throws InputError, LibraryError or
+/// std::runtime_error.
+void run_simulate(const SimulateArguments& arguments);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <tools/dynamics/proximity.hpp>
+#include <tools/dynamics/scene.hpp>
+
+namespace nearfield::dynamics {
+
+/// What a step with backtracking came to.
+struct BacktrackingReport {
+    std::size_t events = 0;    ///< times the scene was taken back to just before a contact
+    std::size_t contacts = 0;  ///< points where impulses acted
+    std::size_t stopped = 0;   ///< bodies that had to wait for the rest of the step
+};
+
+/// The paper's constrained response. Moves all bodies for `time`; where two would come closer than
+/// a quarter of the tolerance, takes the whole scene back, by bisection in time, to just before
+/// that, lets impulses act at the contacts, and goes on from there. Bodies that keep meeting in one
+/// step stay where they were for the rest of it, so none ever penetrates another.
+///
+/// Precondition: the bodies are settled where none touches another.
+BacktrackingReport move_without_penetration(Proximity& proximity, const Scene& scene, double time);
+
+}  // namespace nearfield::dynamics
