@@ -102,16 +102,17 @@ double FirstContactFinder::pair_step(const VertexAndEdge& pair, double keep) con
     if (!(distance > keep)) {
         return 0.0;
     }
-    const double step = time_behind(vertex, start, end, between / distance, keep);
-    if (nearest.parameter > 0.0 && nearest.parameter < 1.0) {
-        return step;
-    }
-    // Nearest is an end of the edge. A vertex that slides along the edge's line towards it stays
-    // behind the line for longer than it stays away from the end.
+    // The edge's own normal: what slides along the edge does not come closer at all, and in the way
+    // to a point that is very near there is mostly rounding. Where the nearest point is an end of
+    // the edge, what slides towards it stays behind the edge's line for longer than away from the
+    // end.
     const Vector along = end.at - start.at;
     const Vector normal = Vector(-along.y(), along.x()).normalized();
     const bool ahead = normal.dot(start.at - vertex.at) > 0.0;
-    return std::max(step, time_behind(vertex, start, end, ahead ? normal : -normal, keep));
+    const double step = time_behind(vertex, start, end, ahead ? normal : -normal, keep);
+    return nearest.parameter > 0.0 && nearest.parameter < 1.0
+               ? step
+               : std::max(step, time_behind(vertex, start, end, between / distance, keep));
 }
 
 double FirstContactFinder::safe_step(double distance, double keep, double left) {
@@ -151,11 +152,17 @@ double FirstContactFinder::safe_step(double distance, double keep, double left) 
 void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
     double time = 0.0;
     double moved = no_end;      // how far at the most since the time before
+    double path = no_end;       // and how long the way was
     double looked_until = 0.0;  // up to where shapes that met have been looked for
     for (;;) {
         const double before = std::sqrt(contact.closest.squared_distance);
         const ClosestPair closest = find_closest(before + moved + rounding_);
         const double distance = std::sqrt(closest.squared_distance);
+        // On the way away from the one and to the other they came no closer than half way.
+        const double kept =
+            time > 0.0 ? std::max(kept_part * before, 0.5 * (before + distance - path)) : no_end;
+        const double least = std::max(
+            std::min({contact.least_distance, kept - rounding_, distance - rounding_}), 0.0);
         if (distance <= touching * rounding_) {
             contact.kind = FirstContact::Kind::found;
             contact.latest = time;
@@ -163,15 +170,11 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
             if (!(moved <= aim.motion && time - contact.time <= aim.time)) {
                 contact.time = time;
                 contact.closest = closest;
+                contact.least_distance = least;
             }
             return;
         }
-        if (time > 0.0) {
-            const double kept = std::max(kept_part * before, 0.5 * (before + distance - moved));
-            contact.least_distance = std::min(contact.least_distance, kept - rounding_);
-        }
-        contact.least_distance =
-            std::max(std::min(contact.least_distance, distance - rounding_), 0.0);
+        contact.least_distance = least;
         contact.time = time;
         contact.closest = closest;
         if (time == 1.0) {
@@ -181,6 +184,7 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
         const double left = 1.0 - time;
         const double step = safe_step(distance, kept_part * distance, left);
         moved = motion_.length(step);
+        path = motion_.path(step);
         const double next = step < left ? time + step : 1.0;
         // What may be left open.
         const double open = std::min(aim.time, motion_.time(aim.motion));

@@ -12,7 +12,7 @@ using geometry::Vector;
 
 namespace {
 
-constexpr double no_end = std::numeric_limits<double>::infinity();
+constexpr double at_no_time = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -61,16 +61,20 @@ RelativeMotion::RelativeMotion(const Motion& a, const MotionState& at_a, const M
 }
 
 double RelativeMotion::length(double time) const {
-    return std::min(speed_ * time + 0.5 * bend_ * time * time, drift_ * time + turned_);
+    return std::min(path(time), drift_ * time + turned_);
+}
+
+double RelativeMotion::path(double time) const {
+    return speed_ * time + 0.5 * bend_ * time * time;
 }
 
 double RelativeMotion::time(double length) const {
     const double root = speed_ + std::sqrt(speed_ * speed_ + 2.0 * bend_ * length);
-    const double turning = root > 0.0 ? 2.0 * length / root : no_end;
+    const double turning = root > 0.0 ? 2.0 * length / root : at_no_time;
     if (length <= turned_) {
         return turning;
     }
-    return std::max(turning, drift_ > 0.0 ? (length - turned_) / drift_ : no_end);
+    return std::max(turning, drift_ > 0.0 ? (length - turned_) / drift_ : at_no_time);
 }
 
 }  // namespace nearfield::exact

@@ -74,11 +74,13 @@ public:
 
     /// By no more than this within a time.
     [[nodiscard]] double length(double time) const;
+    /// And the way there, however it bends, is no longer than this.
+    [[nodiscard]] double path(double time) const;
     /// By no more than a length within this time, which may be infinite.
     [[nodiscard]] double time(double length) const;
 
 private:
-    // length <= speed * time + bend * time^2 / 2, by what the centres and the radii do; and
+    // path <= speed * time + bend * time^2 / 2, by what the centres and the radii do; and
     // length <= drift * time + turned, since what turns stays within its reach.
     double speed_ = 0.0;
     double bend_ = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -9,8 +10,6 @@ namespace nearfield::exact {
 namespace {
 
 using geometry::Vector;
-
-constexpr double no_way = std::numeric_limits<double>::infinity();
 
 // Directions that are tried whatever the shapes, evenly spread.
 constexpr int even_directions = 32;
@@ -29,9 +28,10 @@ constexpr double work_of_test = 8.0;
 // What is shorter by less than this part is no shorter.
 constexpr double least_gain = 1e-6;
 
-// How often a way is made longer, four times as much each time, until the shapes are seen to be
-// apart: rounding along edges that hardly part is more than that of a vertex.
-constexpr int most_clearances = 10;
+// Until the shapes are seen to be apart a way is made longer, by four times as much each time and
+// by so much at the most: rounding along edges that hardly part is more than that of a vertex.
+constexpr double longer_each_time = 4.0;
+constexpr double most_clearances = 262144.0;
 
 bool is_farther(double nearest, double other_nearest) {
     return nearest > other_nearest;
@@ -49,38 +49,62 @@ bool WayApartFinder::separates(const Vector& shift) {
     return !meeting_.intersect(moved_[index], *b_);
 }
 
+bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, double longest) {
+    const double most = most_clearances * clearance_;
+    // Whose boundaries do not meet are apart or hold each other, and that all along the gap.
+    const double within = std::min(gap.from + most, 0.5 * (gap.from + gap.to));
+    if (within < longest && !separates(within * direction)) {
+        return false;
+    }
+    for (double clearance = clearance_; clearance <= most; clearance *= longer_each_time) {
+        const double way = gap.from + clearance;
+        if (way >= std::min(longest, gap.to)) {
+            return false;
+        }
+        const Vector shift = way * direction;
+        if (separates(shift)) {
+            best_ = shift;
+            length_ = shift.norm();
+            return true;
+        }
+    }
+    return false;
+}
+
 bool WayApartFinder::try_direction(const Vector& direction, ShiftGap& gap) {
     const double longest = (1.0 - least_gain) * length_;
     const std::vector<ShiftGap>& gaps = shifts_.find(*a_, *b_, direction, longest);
     work_left_ -= work_of_pair * static_cast<double>(shifts_.pairs_looked_at());
-    for (const ShiftGap& candidate : gaps) {
-        double clearance = clearance_;
-        for (int i = 0; i < most_clearances; ++i) {
-            const double way = candidate.from + clearance;
-            if (way >= longest) {
-                return false;
-            }
-            // A gap may be narrow, and shapes whose boundaries do not meet may hold each other.
-            if (way >= candidate.to) {
-                break;
-            }
-            const Vector shift = way * direction;
-            if (separates(shift)) {
-                best_ = shift;
-                length_ = shift.norm();
-                gap = candidate;
-                return true;
-            }
-            clearance *= 4.0;
-        }
+    const auto shorter = std::find_if(gaps.begin(), gaps.end(), [&](const ShiftGap& candidate) {
+        return try_gap(candidate, direction, longest);
+    });
+    if (shorter == gaps.end()) {
+        return false;
     }
-    return false;
+    gap = *shorter;
+    return true;
 }
 
 Vector WayApartFinder::normal_of(const PlacedEdges& edges, std::uint32_t edge) const {
     const Vector along = edges.end(edge) - edges.start(edge);
     const Vector normal(-along.y(), along.x());
     return normal.dot(best_) < 0.0 ? Vector(-normal) : normal;
+}
+
+void WayApartFinder::go_past_box() {
+    const geometry::Box& a = a_->box;
+    const geometry::Box& b = b_->box;
+    const double ways[] = {b.max().x() - a.min().x(), a.max().x() - b.min().x(),
+                           b.max().y() - a.min().y(), a.max().y() - b.min().y()};
+    const Vector directions[] = {Vector::UnitX(), -Vector::UnitX(), Vector::UnitY(),
+                                 -Vector::UnitY()};
+    const auto shortest = std::min_element(std::begin(ways), std::end(ways)) - std::begin(ways);
+    double clearance = clearance_;
+    do {
+        best_ = (ways[shortest] + clearance) * directions[shortest];
+        clearance *= longer_each_time;
+    } while (!separates(best_));
+    length_ = best_.norm();
 }
 
 void WayApartFinder::descend(const Vector& direction) {
@@ -121,7 +145,7 @@ double WayApartFinder::depth_of(std::uint32_t witness, const Vector& shift) cons
 WayApartFinder::Word WayApartFinder::ask_witnesses(const Cell& cell, double enough) {
     const auto of_a = static_cast<std::uint32_t>(of_a_.all().size());
     const auto count = of_a + static_cast<std::uint32_t>(of_b_.all().size());
-    Word word{-no_way, 0};
+    Word word{-std::numeric_limits<double>::infinity(), 0};
     const auto ask = [&](std::uint32_t witness) {
         const double depth = depth_of(witness, cell.centre) - clearance_;
         if (depth > word.reach) {
@@ -194,12 +218,12 @@ WayApart WayApartFinder::find(const PlacedEdges& a, const PlacedEdges& b, const 
     pose_a_ = pose_a;
     clearance_ = 4.0 * (a.rounding + b.rounding);
     best_ = Vector::Zero();
-    length_ = no_way;
     WayApart way;
     way.intersect = meeting_.intersect(a, b);
     if (!way.intersect) {
         return way;
     }
+    go_past_box();
     for (int i = 0; i < even_directions; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / even_directions;
         descend({std::cos(angle), std::sin(angle)});

@@ -51,6 +51,11 @@ private:
     };
 
     [[nodiscard]] bool separates(const geometry::Vector& shift);
+    /// The first way there is: along an axis, until the boxes are apart.
+    void go_past_box();
+    /// Tries the shortest way that ends in a gap; true where it separates the shapes and is
+    /// shorter than `longest`.
+    bool try_gap(const ShiftGap& gap, const geometry::Vector& direction, double longest);
     /// True where it gives a shorter way; then `gap` is where it ends.
     bool try_direction(const geometry::Vector& direction, ShiftGap& gap);
     /// Tries a direction and, from there, normals of edges.
@@ -71,7 +76,7 @@ private:
     Pose pose_a_;
     double clearance_ = 0.0;  // what a way is longer than to where the shapes touch
     geometry::Vector best_ = geometry::Vector::Zero();
-    double length_ = 0.0;  // of the best; infinite where there is none yet
+    double length_ = 0.0;  // of the best
     PlacedInstances moved_;
     MeetingFinder meeting_;
     ShiftFinder shifts_;

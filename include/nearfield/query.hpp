@@ -240,7 +240,7 @@ struct TimeOfImpactQuery {
     /// that graze each other, or turn many times close to each other, take more. Where as many are
     /// not enough, the result says so (ImpactState::bound_not_reached).
     std::uint32_t most_steps = 10000;
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
 /// A translation of A after which the shapes share no point, as short as can be found. Goes beyond
@@ -253,7 +253,7 @@ struct SeparationVectorQuery {
     /// longer than the shortest one; or before, after a fixed number of trials, for shapes that
     /// need more (SeparationVectorResult::lower_bound says what is known).
     double tolerance = 0.0;
-    Technique technique = Technique::automatic;
+    Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
 /// Names a query of a batch and, by its type, the kind of result it has.

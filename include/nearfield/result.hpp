@@ -248,7 +248,7 @@ enum class ImpactState : std::uint8_t {
 /// vertices and the shapes' deviations. `intersects`: the shapes were seen to share a point, at
 /// time + time_error_bound or before.
 struct TimeOfImpactResult : ResultSummary {
-    ImpactState state = ImpactState::separated;
+    ImpactState state = ImpactState::separated;  ///< what there is to say of the motion
     /// The shapes are apart from 0 up to it: 0 where they intersect at the start, 1 where they stay
     /// apart.
     double time = 0.0;

@@ -1,6 +1,7 @@
 #include <tests/oracle/overlap.hpp>
 #include <tests/oracle/plane.hpp>
 #include <tests/query/corpus.hpp>
+#include <tests/query/nasty_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -142,6 +143,17 @@ TEST_F(SeparationVectorTest, HoldsForRandomPairs) {
         intersect += check(any_pair(random), random, 25).intersects ? 1 : 0;
     });
     EXPECT_GT(intersect, random_cases(40) / 4);
+}
+
+TEST_F(SeparationVectorTest, HoldsForNastyPolygons) {
+    Random random(seed);
+    const std::vector<NamedRings> shapes = nasty_shapes(context(), 40, seed);
+    int intersect = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
+        intersect += check(pair, random, 15).intersects ? 1 : 0;
+    }
+    EXPECT_GE(intersect, 3);
 }
 
 TEST_F(SeparationVectorTest, NoShorterOneIsFoundByForce) {

@@ -1,6 +1,7 @@
 #include <tests/oracle/overlap.hpp>
 #include <tests/oracle/plane.hpp>
 #include <tests/query/corpus.hpp>
+#include <tests/query/nasty_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -241,6 +242,19 @@ TEST_F(TimeOfImpactTest, HoldsForEveryFamily) {
     }
 }
 
+TEST_F(TimeOfImpactTest, HoldsForNastyPolygons) {
+    const std::vector<NamedRings> shapes = nasty_shapes(context(), 40, seed);
+    int hits = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const MovingPair moving{
+            {shapes[i], shapes[(i + 5) % shapes.size()], {{-300.0, 3.0}, 0.0}, {}, 0.05},
+            {{200.0, -5.0}, 1.0},
+            {{1.0, 2.0}, -0.5}};
+        hits += check(moving, 30).state == ImpactState::hit ? 1 : 0;
+    }
+    EXPECT_GE(hits, 3);
+}
+
 TEST_F(TimeOfImpactTest, OutlinesMeetOnTheWay) {
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
     for (std::size_t i = 0; i < outlines.size(); ++i) {
@@ -288,12 +302,35 @@ TEST_F(TimeOfImpactTest, InsideAHoleTheWallIsHit) {
     EXPECT_GE(spun.least_distance, (1.5 - std::numbers::sqrt2) / 8.0 - 1e-9);
 }
 
+TEST_F(TimeOfImpactTest, SwingingRoundAndBackIsSeen) {
+    // On an arm of 3 a small square goes round: as far from the wall at the end as at the start,
+    // and much closer in between.
+    const Rings weight = rectangle({-3.1, -0.1}, {-2.9, 0.1});
+    const Rings wall = rectangle({0, -9}, {1, 9});
+    for (const double gap : {0.5, 4.0, 40.0}) {
+        const double origin = -3.1 - gap;
+        const TimeOfImpactResult result = check(
+            falling(weight, wall, {{origin, 0}, 0}, {{origin, 0}, 2.0 * std::numbers::pi}, 1e-3),
+            100);
+        EXPECT_EQ(result.state, ImpactState::separated) << gap;
+        EXPECT_GE(result.least_distance, gap / 8.0 - 0.01) << gap;
+    }
+}
+
 TEST_F(TimeOfImpactTest, StartingInEachOther) {
     const Rings square = rectangle({-1, -1}, {1, 1});
     for (const double shift : {0.0, 1.5, 2.0}) {
         const TimeOfImpactResult result =
             check(falling(square, square, {{shift, 0}, 0}, {{9, 0}, 0}, 1e-3));
         EXPECT_EQ(result.state, ImpactState::intersecting_at_start) << shift;
+    }
+    // Nearly: whatever is said, it is said of time 0.
+    for (const double gap : {1e-16, 1e-15, 3e-15, 1e-14, 3e-14, 1e-13}) {
+        const TimeOfImpactResult result =
+            check(falling(square, square, {{2.0 + gap, 0.5}, 0}, {{1.0, 0.5}, 0}, 1e-3));
+        EXPECT_NE(result.state, ImpactState::separated) << gap;
+        EXPECT_LE(result.time, gap) << gap;
+        EXPECT_LE(result.least_distance, gap) << gap;
     }
     const Rings large = rectangle({-5, -5}, {5, 5});
     EXPECT_EQ(check(falling(square, large, {}, {{9, 0}, 0}, 1e-3)).state,
@@ -371,11 +408,11 @@ TEST_F(TimeOfImpactTest, LawsOfSymmetry) {
             EXPECT_LE(result.time + back.time, 1.0 + 1e-9);
         }
         // A finer answer lies in a coarser one.
-        MovingPair finer = moving;
-        finer.pair.tolerance /= 10.0;
-        const TimeOfImpactResult refined = ask(finer);
-        EXPECT_EQ(refined.state, result.state) << "refined";
-        EXPECT_TRUE(brackets_overlap(result, refined)) << "refined";
+        MovingPair coarser = moving;
+        coarser.pair.tolerance *= 10.0;
+        const TimeOfImpactResult coarse = ask(coarser);
+        EXPECT_EQ(coarse.state, result.state) << "coarser";
+        EXPECT_TRUE(brackets_overlap(result, coarse)) << "coarser";
     });
 }
 
