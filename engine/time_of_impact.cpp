@@ -56,8 +56,9 @@ void TimeOfImpact::answer(const plan::PlannedQuery& planned, TimeOfImpactResult&
     if (!result.status.ok()) {
         return;
     }
-    const FirstContact contact =
-        finder_.find(a, b, {tolerance, query.time_bound, query.most_steps});
+    // Less by what sums with times up to 1 round.
+    const double time_bound = query.time_bound - 4.0 * std::numeric_limits<double>::epsilon();
+    const FirstContact contact = finder_.find(a, b, {tolerance, time_bound, query.most_steps});
     result.state = state_of(contact.kind);
     result.intersects = contact.meet_at_latest;
     result.error_bound = contact.rounding + planned.deviations.a + planned.deviations.b;
