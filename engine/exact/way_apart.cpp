@@ -142,6 +142,17 @@ double WayApartFinder::depth_of(std::uint32_t witness, const Vector& shift) cons
     return of_b.radius + depth_in(*a_, of_b.centre - shift);
 }
 
+double WayApartFinder::crossing_depth_at(const Vector& shift) {
+    double deepest = -1.0;
+    for (const Chord& of_a : of_a_.chords()) {
+        for (const Chord& of_b : of_b_.chords()) {
+            deepest = std::max(deepest, crossing_depth(of_a, shift, of_b));
+        }
+    }
+    work_left_ -= static_cast<double>(of_a_.chords().size() * of_b_.chords().size());
+    return deepest;
+}
+
 WayApartFinder::Word WayApartFinder::ask_witnesses(const Cell& cell, double enough) {
     const auto of_a = static_cast<std::uint32_t>(of_a_.all().size());
     const auto count = of_a + static_cast<std::uint32_t>(of_b_.all().size());
@@ -156,6 +167,11 @@ WayApartFinder::Word WayApartFinder::ask_witnesses(const Cell& cell, double enou
     };
     // The square it was cut from mostly had the same.
     if (cell.witness < count && ask(cell.witness)) {
+        return word;
+    }
+    const double crossing = crossing_depth_at(cell.centre) - clearance_;
+    word.reach = std::max(word.reach, crossing);
+    if (crossing >= enough) {
         return word;
     }
     for (std::uint32_t witness = 0; witness < count; ++witness) {

@@ -65,6 +65,7 @@ private:
     [[nodiscard]] geometry::Vector normal_of(const PlacedEdges& edges, std::uint32_t edge) const;
 
     [[nodiscard]] double depth_of(std::uint32_t witness, const geometry::Vector& shift) const;
+    [[nodiscard]] double crossing_depth_at(const geometry::Vector& shift);
     /// Looks no farther than `enough`.
     [[nodiscard]] Word ask_witnesses(const Cell& cell, double enough);
     void push(const geometry::Vector& centre, double half, std::uint32_t witness);

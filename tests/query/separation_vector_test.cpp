@@ -216,6 +216,21 @@ TEST_F(SeparationVectorTest, KnownWays) {
     EXPECT_LT(check(pair(square, square, {2.0, 0.0}), random, 0).length, 1e-12);
 }
 
+TEST_F(SeparationVectorTest, OfThinBarsThatCrossTheBoundIsCloseToo) {
+    const Rings bar = rectangle({-5, -0.1}, {5, 0.1});
+    for_each_case(seed + 1200, 20, [&](Random& random) {
+        const Pair pair{
+            {"A", bar},
+            {"B", bar},
+            {{random.between(-2.0, 2.0), random.between(-2.0, 2.0)}, random.between(0.5, 2.5)},
+            {},
+            0.01};
+        const SeparationVectorResult result = check(pair, random, 20);
+        ASSERT_TRUE(result.intersects);
+        EXPECT_LE(result.length - result.lower_bound, pair.tolerance);
+    });
+}
+
 TEST_F(SeparationVectorTest, OutlinesComeApart) {
     Random random(seed);
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
