@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace nearfield {
 namespace {
@@ -36,28 +35,6 @@ double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
     return std::sqrt(squared);
 }
 
-/// A vertex of `inner` that lies in `outer`, where a ring of it does.
-std::optional<Vector> vertex_inside(const PlacedPolygon& inner, const PlacedPolygon& outer) {
-    const geometry::Polygon& polygon = inner.polygon();
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const Vector vertex = inner.vertex(polygon.ring_begin(ring));
-        if (contains(outer, vertex)) {
-            return vertex;
-        }
-    }
-    return std::nullopt;
-}
-
-/// A vertex of either shape in the other; `otherwise` where there is none.
-Vector vertex_of_both(const PlacedPolygon& a, const PlacedPolygon& b, const Vector& otherwise) {
-    for (const auto& vertex : {vertex_inside(a, b), vertex_inside(b, a)}) {
-        if (vertex) {
-            return *vertex;
-        }
-    }
-    return otherwise;
-}
-
 /// Whose closest point a query asks for.
 exact::Side side_of(const PlannedQuery& query) {
     return std::holds_alternative<SeparationQuery>(*query.query) ? exact::Side::either
@@ -83,19 +60,6 @@ void write_pair(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPai
 
 }  // namespace
 
-void ClosestDecoder::find_common_point(const PlacedEdges& a, const PlacedEdges& b,
-                                       SeparationResult& result) {
-    exact::EdgePair met;
-    if (meeting_.boundaries_meet(a, b, met)) {
-        write_common_point(geometry::closest_of_segments(a.start(met.first), a.end(met.first),
-                                                         b.start(met.second), b.end(met.second))
-                               .first,
-                           result);
-    } else {
-        write_common_point(vertex_of_both(a.placed, b.placed, a.start(0)), result);
-    }
-}
-
 void ClosestDecoder::answer_apart(const PlannedQuery& query, const PlacedEdges& a,
                                   const PlacedEdges& b, double at_most, SeparationResult& result) {
     const double margin = result.tolerance * plan::uniqueness_margin;
@@ -117,7 +81,7 @@ void ClosestDecoder::answer(const PlannedQuery& query, exact::PlacedInstances& i
     result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     result.intersects = meeting_.intersect(a, b);
     if (result.intersects) {
-        find_common_point(a, b, result);
+        write_common_point(common_point_.find(a, b), result);
     } else {
         answer_apart(query, a, b, infinity, result);
         result.sampled_distance = result.distance;
@@ -137,7 +101,7 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
     const PlacedEdges& b = instances[pair.b];
     result.error_bound = a.rounding + b.rounding + query.deviations.a + query.deviations.b;
     if (result.intersects) {
-        find_common_point(a, b, result);
+        write_common_point(common_point_.find(a, b), result);
         return;
     }
     double sampled = sampled_distance(plan, query, words);

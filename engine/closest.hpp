@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/common_point.hpp>
 #include <engine/exact/closest_pair.hpp>
 #include <engine/exact/meeting.hpp>
 #include <engine/plan/gpu_layout.hpp>
@@ -30,12 +31,10 @@ private:
     /// Of complete shapes that are apart. `at_most`: as far as is known.
     void answer_apart(const plan::PlannedQuery& query, const exact::PlacedEdges& a,
                       const exact::PlacedEdges& b, double at_most, SeparationResult& result);
-    /// Of shapes that intersect.
-    void find_common_point(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
-                           SeparationResult& result);
 
     exact::ClosestPairFinder finder_;
     exact::MeetingFinder meeting_;
+    CommonPoint common_point_;
 };
 
 }  // namespace nearfield

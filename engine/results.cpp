@@ -165,6 +165,14 @@ void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
             if (test->status.ok()) {
                 intersection_test_.answer(planned, instances_, *test);
             }
+        } else if (auto* impact = std::get_if<TimeOfImpactResult>(&results[i])) {
+            if (impact->status.ok()) {
+                time_of_impact_.answer(planned, *impact);
+            }
+        } else if (auto* vector = std::get_if<SeparationVectorResult>(&results[i])) {
+            if (vector->status.ok()) {
+                separation_vector_.answer(planned, instances_, *vector);
+            }
         }
     }
 }

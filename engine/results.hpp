@@ -12,6 +12,8 @@
 #include <engine/plan/round.hpp>
 #include <engine/point_penetration.hpp>
 #include <engine/point_resolver.hpp>
+#include <engine/separation_vector.hpp>
+#include <engine/time_of_impact.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -74,6 +76,8 @@ private:
     plan::SimplifiedShapes simplified_;  // of what the CPU answers
     ExactOverlap overlaps_;
     IntersectionTest intersection_test_;
+    TimeOfImpact time_of_impact_;
+    SeparationVector separation_vector_;
     PointPenetration penetration_;
     ClosestDecoder closest_;
 };

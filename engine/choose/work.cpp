@@ -117,6 +117,11 @@ struct Estimate {
     Work operator()(const IntersectionTestQuery&) const {
         return {&TechniqueCost::closest, edges()};
     }
+    // Several separations; one technique alone answers it.
+    Work operator()(const TimeOfImpactQuery&) const { return {&TechniqueCost::closest, edges()}; }
+    Work operator()(const SeparationVectorQuery&) const {
+        return {&TechniqueCost::closest, edges()};
+    }
 
     Work operator()(const IntersectionQuery& query) const {
         const Box box =

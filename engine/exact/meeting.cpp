@@ -9,11 +9,6 @@ using geometry::Box;
 using geometry::Polygon;
 using geometry::Vector;
 
-bool contains(const PlacedEdges& edges, const Vector& point) {
-    return is_small(edges) ? kernels::contain(edges, point.x(), point.y())
-                           : kernels::contain(edges.tree(), point.x(), point.y());
-}
-
 /// True where a ring of `inner` lies in `outer`, told by one vertex of each: their boundaries do
 /// not meet.
 bool holds_a_ring(const PlacedEdges& outer, const PlacedEdges& inner) {

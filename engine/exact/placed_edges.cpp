@@ -43,6 +43,17 @@ void copy_ends(const Polygon& polygon, const double* start, double* end) {
 
 }  // namespace
 
+bool contains(const PlacedEdges& edges, const geometry::Vector& point) {
+    return is_small(edges) ? kernels::contain(edges, point.x(), point.y())
+                           : kernels::contain(edges.tree(), point.x(), point.y());
+}
+
+NearEdge find_nearest(const PlacedEdges& edges, const geometry::Vector& point) {
+    constexpr NearEdge nothing{0, std::numeric_limits<double>::infinity()};
+    return is_small(edges) ? kernels::find_nearest(edges, point.x(), point.y())
+                           : kernels::find_nearer(edges.tree(), point.x(), point.y(), nothing);
+}
+
 void PlacedInstances::clear() {
     entries_.clear();
     used_ = 0;

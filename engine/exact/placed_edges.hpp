@@ -41,6 +41,11 @@ inline constexpr std::uint32_t most_edges_one_by_one = 256;
 
 using geometry::extent_of;
 
+/// By the odd-even rule. Precondition: the edges are small or have boxes.
+[[nodiscard]] bool contains(const PlacedEdges& edges, const geometry::Vector& point);
+/// The edge nearest to a point; likewise.
+[[nodiscard]] NearEdge find_nearest(const PlacedEdges& edges, const geometry::Vector& point);
+
 /// The instances of a batch, each placed once, however many pairs it is in. Keeps its memory.
 class PlacedInstances {
 public:

@@ -55,19 +55,20 @@ bool is_usable(const Pose& pose) {
            is_usable(pose.translation.y);
 }
 
-Status unusable(const Pose& pose, std::string_view whose) {
+/// `which` pose it is: "A's pose".
+Status unusable(const Pose& pose, const std::string& which) {
     if (!std::isfinite(pose.angle)) {
-        return invalid("the angle of " + std::string(whose) + "'s pose is " + number(pose.angle));
+        return invalid("the angle of " + which + " is " + number(pose.angle));
     }
     const auto& [x, y] = pose.translation;
-    return unusable(is_usable(x) ? y : x, std::string("the ") + (is_usable(x) ? "y" : "x") +
-                                              " of " + std::string(whose) + "'s pose");
+    return unusable(is_usable(x) ? y : x,
+                    std::string("the ") + (is_usable(x) ? "y" : "x") + " of " + which);
 }
 
 }  // namespace
 
 Status check_pose(const Pose& pose, std::string_view whose) {
-    return is_usable(pose) ? Status() : unusable(pose, whose);
+    return is_usable(pose) ? Status() : unusable(pose, std::string(whose) + "'s pose");
 }
 
 namespace {
@@ -122,7 +123,7 @@ Status check_pair(const Query& query) {
         }
     }
     if (!is_usable(query.a.pose)) {
-        return unusable(query.a.pose, "A");
+        return unusable(query.a.pose, "A's pose");
     }
     return check_pose(query.b.pose, "B");
 }
@@ -175,6 +176,27 @@ Status check_query(const SeparationQuery& query) {
 }
 
 Status check_query(const IntersectionTestQuery& query) {
+    return check_pair(query);
+}
+
+Status check_query(const TimeOfImpactQuery& query) {
+    if (Status status = check_pair(query); !status.ok()) {
+        return status;
+    }
+    if (!(query.time_bound > 0.0 && query.time_bound <= 1.0)) {
+        return invalid("the time bound is " + number(query.time_bound) +
+                       "; it must be above 0 and at most 1");
+    }
+    if (query.most_steps == 0) {
+        return invalid("the most steps are 0; at least 1 has to be allowed");
+    }
+    if (!is_usable(query.end_a)) {
+        return unusable(query.end_a, "A's end pose");
+    }
+    return is_usable(query.end_b) ? Status() : unusable(query.end_b, "B's end pose");
+}
+
+Status check_query(const SeparationVectorQuery& query) {
     return check_pair(query);
 }
 

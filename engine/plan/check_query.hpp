@@ -19,6 +19,8 @@ namespace nearfield::plan {
 [[nodiscard]] Status check_query(const ClosestPointQuery& query);
 [[nodiscard]] Status check_query(const SeparationQuery& query);
 [[nodiscard]] Status check_query(const IntersectionTestQuery& query);
+[[nodiscard]] Status check_query(const TimeOfImpactQuery& query);
+[[nodiscard]] Status check_query(const SeparationVectorQuery& query);
 
 /// What is said of a query that takes a second submission where there is one command buffer.
 [[nodiscard]] Status not_recordable(Technique technique);

@@ -66,6 +66,10 @@ private:
     void add(const SeparationQuery& query, SeparationResult& result);
     /// There is nothing to plan: IntersectionTest answers it.
     void add(const IntersectionTestQuery& /*query*/, IntersectionTestResult& /*result*/) {}
+    /// Nor here: TimeOfImpact answers it.
+    void add(const TimeOfImpactQuery& /*query*/, TimeOfImpactResult& /*result*/) {}
+    /// Nor here: SeparationVector answers it.
+    void add(const SeparationVectorQuery& /*query*/, SeparationVectorResult& /*result*/) {}
 
     /// Whether the images of a field that stays on the device can be had; else the result says why.
     [[nodiscard]] bool check_resident(const Grid& grid, DistanceFieldResult& result);

@@ -28,6 +28,16 @@ template <class Query>
             return "intersection tests";
         }
     }
+    if constexpr (std::is_same_v<Query, TimeOfImpactQuery>) {
+        if (technique != Technique::cpu && technique != Technique::automatic) {
+            return "times of impact";
+        }
+    }
+    if constexpr (std::is_same_v<Query, SeparationVectorQuery>) {
+        if (technique != Technique::cpu && technique != Technique::automatic) {
+            return "separation vectors";
+        }
+    }
     return nullptr;
 }
 

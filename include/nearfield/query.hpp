@@ -43,7 +43,8 @@ enum class Technique {
     /// vertices or between shapes of at most 256 edges), and no grid is sampled in them; closest
     /// points have none, nor has such penetration without records. Intersections: bit masks of the
     /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
-    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests it alone.
+    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests, times
+    /// of impact and separation vectors it alone.
     cpu,
 };
 
@@ -220,6 +221,41 @@ struct IntersectionTestQuery {
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
+/// When two moving shapes first touch. From time 0 to time 1 each moves from its instance's pose to
+/// its end: translation and angle change at a constant rate, so a shape turns about the origin of
+/// its own coordinates (by whole turns too, where the angles say so), and a shape whose end is its
+/// instance's pose stands still. Goes beyond the paper. Always answered on the CPU, as
+/// IntersectionTestQuery.
+struct TimeOfImpactQuery {
+    Instance a;  ///< with A's pose at time 0
+    Instance b;  ///< with B's pose at time 0
+    Pose end_a;  ///< A's pose at time 1
+    Pose end_b;  ///< B's pose at time 1
+    /// d, world units, > 0: the first contact is known to within a stretch of time in which no two
+    /// points of the shapes move by more than this against each other.
+    double tolerance = 0.0;
+    /// And the stretch of time is no longer than this, in (0, 1].
+    double time_bound = 1.0;
+    /// How often the shapes may be looked at, at least 1. Mostly about ten times suffice; shapes
+    /// that graze each other, or turn many times close to each other, take more. Where as many are
+    /// not enough, the result says so (ImpactState::bound_not_reached).
+    std::uint32_t most_steps = 10000;
+    Technique technique = Technique::automatic;  ///< automatic or cpu
+};
+
+/// A translation of A after which the shapes share no point, as short as can be found. Goes beyond
+/// the paper, whose penetration depth is that of single points. Always answered on the CPU, as
+/// IntersectionTestQuery.
+struct SeparationVectorQuery {
+    Instance a;  ///< moves
+    Instance b;  ///< stands still
+    /// d, world units, > 0: the search ends where the translation is known to be no more than this
+    /// longer than the shortest one; or before, after a fixed number of trials, for shapes that
+    /// need more (SeparationVectorResult::lower_bound says what is known).
+    double tolerance = 0.0;
+    Technique technique = Technique::automatic;  ///< automatic or cpu
+};
+
 /// Names a query of a batch and, by its type, the kind of result it has.
 template <class Query>
 struct QueryHandle {
@@ -228,7 +264,8 @@ struct QueryHandle {
 
 /// One query of any kind.
 using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
-                              ClosestPointQuery, SeparationQuery, IntersectionTestQuery>;
+                              ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
+                              TimeOfImpactQuery, SeparationVectorQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so a batch that is filled anew each
 /// frame does not allocate. Not thread-safe; different batches are independent.

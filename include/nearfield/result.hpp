@@ -229,6 +229,60 @@ struct SeparationResult : ResultSummary {
 /// intersect or not; exact but for that. Tolerance and cell are 0.
 struct IntersectionTestResult : ResultSummary {};
 
+/// What a TimeOfImpactQuery found.
+enum class ImpactState : std::uint8_t {
+    separated,              ///< the shapes stay apart from time 0 to time 1
+    hit,                    ///< they are apart at first and touch later
+    intersecting_at_start,  ///< they share a point at time 0
+    /// They are apart before `time`, and most_steps did not suffice to say what comes after it.
+    bound_not_reached,
+};
+
+/// The name of a state as it stands in the enumeration ("bound_not_reached").
+[[nodiscard]] NEARFIELD_EXPORT const char* to_string(ImpactState state) noexcept;
+
+/// Answer to a TimeOfImpactQuery. Never late: whatever the state, the shapes share no point before
+/// `time`. Said of the rings as given, as `intersects` is.
+///
+/// `error_bound`: shapes no farther apart than this may be said to touch; the rounding of placed
+/// vertices and the shapes' deviations. `intersects`: the shapes were seen to share a point, at
+/// time + time_error_bound or before.
+struct TimeOfImpactResult : ResultSummary {
+    ImpactState state = ImpactState::separated;  ///< what there is to say of the motion
+    /// The shapes are apart from 0 up to it: 0 where they intersect at the start, 1 where they stay
+    /// apart.
+    double time = 0.0;
+    /// Hit: they touch no later than `time` and this, which keeps to the tolerance and the time
+    /// bound asked for. Bound not reached: if they touch no later than `time` and this, it was not
+    /// found where; they share a point at its end where `intersects` is true, else it is the rest
+    /// of the motion. 0 otherwise.
+    double time_error_bound = 0.0;
+    Pose pose_a;            ///< at `time`
+    Pose pose_b;            ///< at `time`
+    double distance = 0.0;  ///< between the shapes at `time`
+    /// The shapes were certified to be no closer than this from 0 to `time`; at least an eighth of
+    /// the least distance there was.
+    double least_distance = 0.0;
+    Vector2 point_a;          ///< of A at `time`, closest to B; a common point at distance 0
+    Vector2 point_b;          ///< of B at `time`, closest to A
+    Vector2 direction;        ///< unit vector from point_a to point_b; (0, 0) at distance 0
+    Feature feature_a;        ///< where point_a lies on A's boundary; meaningful at a distance > 0
+    Feature feature_b;        ///< where point_b lies on B's
+    std::uint32_t steps = 0;  ///< how often the shapes were looked at
+};
+
+/// Answer to a SeparationVectorQuery. The vector is verified: by the intersection test, A moved by
+/// it shares no point with B. Where `intersects` is false it is zero, and so are the lengths.
+///
+/// `error_bound`: the rounding of placed vertices and the shapes' deviations. The rings as given
+/// are separated; shapes with a deviation may still be as deep in each other as these together.
+struct SeparationVectorResult : ResultSummary {
+    Vector2 vector;       ///< to be added to the translation of A's pose
+    double length = 0.0;  ///< of the vector
+    /// No translation of A that is shorter than this separates the shapes.
+    double lower_bound = 0.0;
+};
+
 /// Time one pass took on the device.
 struct PassTime {
     std::string name;           ///< as the render graph and debuggers have it
@@ -251,9 +305,9 @@ struct Timings {
 };
 
 /// One result of any kind, in the order of AnyQuery.
-using AnyResult =
-    std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult, ContactResult,
-                 ClosestPointResult, SeparationResult, IntersectionTestResult>;
+using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
+                               ContactResult, ClosestPointResult, SeparationResult,
+                               IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
 
 /// The kind of result that a kind of query has: ResultOf<Query>::type.
 template <class Query>
@@ -289,6 +343,15 @@ struct ResultOf<SeparationQuery> {
 template <>
 struct ResultOf<IntersectionTestQuery> {
     using type = IntersectionTestResult;
+};
+template <>
+struct ResultOf<TimeOfImpactQuery> {
+    using type = TimeOfImpactResult;
+};
+
+template <>
+struct ResultOf<SeparationVectorQuery> {
+    using type = SeparationVectorResult;
 };
 /// \endcond
 

@@ -19,6 +19,7 @@ public:
     void add(const Vector2& v) { add_all(v.x, v.y); }
     void add(const Rectangle& r) { add_all(r.min, r.max); }
     void add(const Feature& f) { add_all(f.kind, f.index); }
+    void add(const Pose& p) { add_all(p.translation, p.angle); }
     void add(const Region& r) { add_all(r.min, r.max, r.width, r.height); }
     void add(const PenetrationRecord& r) {
         add_all(r.point, r.depth, r.direction, r.nearest, r.feature, r.unique);
@@ -67,6 +68,13 @@ public:
         add_all(r.distance, r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b, r.unique,
                 r.sampled_distance);
     }
+
+    void add_rest(const TimeOfImpactResult& r) {
+        add_all(r.state, r.time, r.time_error_bound, r.pose_a, r.pose_b, r.distance,
+                r.least_distance, r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b,
+                r.steps);
+    }
+    void add_rest(const SeparationVectorResult& r) { add_all(r.vector, r.length, r.lower_bound); }
 
 private:
     template <class... Parts>

@@ -1,9 +1,9 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
 #include <tests/query/corpus.hpp>
+#include <tests/query/nasty_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
-#include <tests/support/nasty_polygons.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <algorithm>
@@ -42,17 +42,6 @@ void match(std::vector<Record> one, std::vector<Record> other, const Both& both,
             both(one[i++], other[j++]);
         }
     }
-}
-
-Rings plain(const support::Rings& rings) {
-    Rings result;
-    for (const auto& ring : rings) {
-        Ring& plain_ring = result.emplace_back();
-        for (const auto& vertex : ring) {
-            plain_ring.push_back({vertex.x(), vertex.y()});
-        }
-    }
-    return result;
 }
 
 /// All techniques held against the oracle by the CPU's answers, and against each other.
@@ -214,16 +203,7 @@ TEST_F(Techniques, AgreeOnEveryFamily) {
 
 TEST_F(Techniques, AgreeOnNastyPolygons) {
     constexpr std::uint32_t cells = 40;
-    std::vector<NamedRings> shapes;
-    for (const support::NastyPolygon& nasty : support::nasty_polygons(cells, cells, seed)) {
-        Rings rings = plain(nasty.rings);
-        // Some are no shapes at all; refusing those is another test's matter.
-        if (const auto shape = context().add_shape(rings); shape.ok()) {
-            EXPECT_TRUE(context().remove_shape(*shape).ok());
-            shapes.push_back({nasty.name, std::move(rings)});
-        }
-    }
-    ASSERT_GE(shapes.size(), 6U);
+    const std::vector<NamedRings> shapes = nasty_shapes(context(), cells, seed);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
         check(pair);
@@ -323,6 +303,10 @@ TEST_F(Techniques, AutomaticIsWhatCostsLeast) {
         field.gradient = GradientMethod::blended;
         expect(field, Technique::raster);
         expect(IntersectionTestQuery{pair.instance_a(), pair.instance_b()}, Technique::cpu);
+        const Instance a = pair.instance_a();
+        const Instance b = pair.instance_b();
+        expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
+        expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
     }
 }
 
@@ -416,6 +400,8 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
             batch.add(field);
             batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
             batch.add(IntersectionTestQuery{a, b});
+            batch.add(TimeOfImpactQuery{{a.shape, {{-4, 1}, 0.0}}, b, a.pose, b.pose, 0.01});
+            batch.add(SeparationVectorQuery{a, b, 0.01});
             batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});
             batch.add(
                 ContactQuery{a, b, 0.01, 0.02, ContactNormals::analytic, true, Technique::cpu});

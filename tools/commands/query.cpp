@@ -74,6 +74,22 @@ void parse_field_request(const QueryArguments& arguments, QueryRequest& request)
                      (!request.features && !request.gradients && request.at.empty());
 }
 
+/// What only a time of impact has.
+void parse_motion_request(const QueryArguments& arguments, QueryRequest& request) {
+    if (arguments.end_pose_a) {
+        request.end_a = parse_end_pose(*arguments.end_pose_a, arguments.pose_a, "--end-pose-a");
+    }
+    if (arguments.end_pose_b) {
+        request.end_b = parse_end_pose(*arguments.end_pose_b, arguments.pose_b, "--end-pose-b");
+    }
+    if (arguments.time_bound) {
+        request.time_bound = parse_positive(*arguments.time_bound, "--time-bound");
+    }
+    if (arguments.most_steps) {
+        request.most_steps = parse_count(*arguments.most_steps, "--most-steps");
+    }
+}
+
 QueryRequest parse_request(const QueryArguments& arguments) {
     QueryRequest request;
     request.type = parse_query_type(arguments.type, "query");
@@ -88,6 +104,10 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     refuse_option(arguments.gradient_field, "--gradient-field", request, QueryType::distance_field);
     refuse_option(arguments.features, "--features", request, QueryType::distance_field);
     refuse_option(arguments.show, "--show", request, QueryType::distance_field);
+    refuse_option(arguments.end_pose_a, "--end-pose-a", request, QueryType::time_of_impact);
+    refuse_option(arguments.end_pose_b, "--end-pose-b", request, QueryType::time_of_impact);
+    refuse_option(arguments.time_bound, "--time-bound", request, QueryType::time_of_impact);
+    refuse_option(arguments.most_steps, "--most-steps", request, QueryType::time_of_impact);
     if (!arguments.at.empty()) {
         refuse_option(arguments.at.front(), "--at", request, QueryType::distance_field);
     }
@@ -125,6 +145,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
         request.rectangle = parse_rectangle(*arguments.rectangle, "--rect");
     }
     parse_field_request(arguments, request);
+    parse_motion_request(arguments, request);
     return request;
 }
 
@@ -182,17 +203,63 @@ void require_different_files(const QueryArguments& arguments) {
     }
 }
 
-FigureShape figure_shape(const PlacedOutline& outline) {
-    FigureShape shape{std::filesystem::path(outline.file).stem().string(), outline.rings};
-    const double cosine = std::cos(outline.pose.angle);
-    const double sine = std::sin(outline.pose.angle);
-    for (Ring& ring : shape.rings) {
+std::vector<Ring> rings_at(const PlacedOutline& outline, const Pose& pose) {
+    std::vector<Ring> rings = outline.rings;
+    const double cosine = std::cos(pose.angle);
+    const double sine = std::sin(pose.angle);
+    for (Ring& ring : rings) {
         for (Vector2& vertex : ring) {
-            vertex = {cosine * vertex.x - sine * vertex.y + outline.pose.translation.x,
-                      sine * vertex.x + cosine * vertex.y + outline.pose.translation.y};
+            vertex = {cosine * vertex.x - sine * vertex.y + pose.translation.x,
+                      sine * vertex.x + cosine * vertex.y + pose.translation.y};
         }
     }
-    return shape;
+    return rings;
+}
+
+FigureShape figure_shape(const PlacedOutline& outline, const Pose& pose) {
+    return {std::filesystem::path(outline.file).stem().string(), rings_at(outline, pose)};
+}
+
+/// Where a shape that moves from one pose to another is besides the time that the picture shows.
+void add_motion_traces(const PlacedOutline& outline, const Pose& end, double time, Side of,
+                       Figure& figure) {
+    constexpr int between = 4;
+    const Pose& start = outline.pose;
+    if (start.translation == end.translation && start.angle == end.angle) {
+        return;
+    }
+    const auto at = [&](double part) {
+        const auto mix = [part](double from, double to) { return (1.0 - part) * from + part * to; };
+        return Pose{{mix(start.translation.x, end.translation.x),
+                     mix(start.translation.y, end.translation.y)},
+                    mix(start.angle, end.angle)};
+    };
+    figure.traces.push_back({rings_at(outline, start), of, FigureTrace::Kind::start});
+    for (int i = 1; i < between; ++i) {
+        figure.traces.push_back(
+            {rings_at(outline, at(time * i / between)), of, FigureTrace::Kind::on_the_way});
+    }
+    figure.traces.push_back({rings_at(outline, end), of, FigureTrace::Kind::end});
+}
+
+/// The shapes where the answer is about, and where they are besides.
+Figure make_figure(const Answer& answer, const PlacedOutline& a, const PlacedOutline& b) {
+    if (const auto* impact = std::get_if<TimeOfImpactResult>(&answer.result)) {
+        Figure figure{answer, figure_shape(a, impact->pose_a), figure_shape(b, impact->pose_b)};
+        const QueryRequest& request = answer.request;
+        add_motion_traces(a, request.end_a.value_or(a.pose), impact->time, Side::a, figure);
+        add_motion_traces(b, request.end_b.value_or(b.pose), impact->time, Side::b, figure);
+        return figure;
+    }
+    Figure figure{answer, figure_shape(a, a.pose), figure_shape(b, b.pose)};
+    const auto* way = std::get_if<SeparationVectorResult>(&answer.result);
+    if (way != nullptr && way->length > 0.0) {
+        Pose apart = a.pose;
+        apart.translation.x += way->vector.x;
+        apart.translation.y += way->vector.y;
+        figure.traces.push_back({rings_at(a, apart), Side::a, FigureTrace::Kind::end});
+    }
+    return figure;
 }
 
 /// The field of B that stands behind the marks of a penetration query: over all of the picture's
@@ -209,7 +276,7 @@ DistanceFieldQuery background_query(const Rectangle& detail, const Instance& b) 
 
 std::string draw_answer(Context& context, const Answer& answer, const PlacedOutline& a,
                         const PlacedOutline& b) {
-    Figure figure{answer, figure_shape(a), figure_shape(b)};
+    Figure figure = make_figure(answer, a, b);
     Results background;
     if (const auto* field = std::get_if<DistanceFieldResult>(&answer.result)) {
         figure.field = field;

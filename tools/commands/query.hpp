@@ -18,6 +18,10 @@ struct QueryArguments {
     std::optional<std::string> deviation;
     std::optional<std::string> pose_a;
     std::optional<std::string> pose_b;
+    std::optional<std::string> end_pose_a;
+    std::optional<std::string> end_pose_b;
+    std::optional<std::string> time_bound;
+    std::optional<std::string> most_steps;
     std::optional<std::string> technique;
     std::optional<std::string> strategy;
     std::optional<std::string> kind;

@@ -44,6 +44,30 @@ void add_field_options(CLI::App& command, QueryArguments& arguments) {
         ->type_name("NAME");
 }
 
+void add_motion_options(CLI::App& command, QueryArguments& arguments) {
+    command
+        .add_option("--end-pose-a", arguments.end_pose_a,
+                    "Of time-of-impact: where A is at time 1; between times 0 and 1 place and "
+                    "degrees (more than 360 for more than a turn) change evenly; default as "
+                    "--pose-a: A stands still")
+        ->type_name("X,Y,DEGREES");
+    command
+        .add_option("--end-pose-b", arguments.end_pose_b,
+                    "Of time-of-impact: where B is at time 1; default as --pose-b")
+        ->type_name("X,Y,DEGREES");
+    command
+        .add_option("--time-bound", arguments.time_bound,
+                    "Of time-of-impact: how closely the time is to be known at the least, above 0 "
+                    "and at most 1; the tolerance may ask for more: in the time left open nothing "
+                    "moves farther than it; default 1")
+        ->type_name("T");
+    command
+        .add_option("--most-steps", arguments.most_steps,
+                    "Of time-of-impact: how often the shapes are looked at, at the most; an answer "
+                    "that needs more says so; default 10000")
+        ->type_name("N");
+}
+
 }  // namespace
 
 CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
@@ -57,7 +81,10 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "the normals of B there;\n"
                      "closest-point: the point of A that is closest to B;\n"
                      "separation: the least distance between A and B, and where it is;\n"
-                     "intersection-test: whether A and B share a point")
+                     "intersection-test: whether A and B share a point;\n"
+                     "time-of-impact: when A and B first touch on their way from their poses to "
+                     "their end poses;\n"
+                     "separation-vector: a short translation of A that separates it from B")
         ->required()
         ->each([](const std::string& name) { static_cast<void>(parse_query_type(name, "query")); });
     command->add_option("A", arguments.file_a, "Outline A: GeoJSON, WKT, SVG or SVG path data file")
@@ -135,6 +162,7 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "float32 (height, width), row 0 at the lowest y; default none")
         ->type_name("FILE.npy");
     add_field_options(*command, arguments);
+    add_motion_options(*command, arguments);
     return command;
 }
 

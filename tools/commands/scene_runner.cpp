@@ -24,7 +24,8 @@ namespace {
 
 /// True where A and B may change places: once is enough then.
 bool is_symmetric(QueryType type) {
-    return type == QueryType::separation || type == QueryType::intersection_test;
+    return type == QueryType::separation || type == QueryType::intersection_test ||
+           type == QueryType::separation_vector;
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void add_result(FrameWork& work, const ContactResult& result) {
 void add_result(FrameWork& work, const IntersectionTestResult& result) {
     work.found += result.intersects ? 1 : 0;
 }
-/// Closest points, separations and fields.
+/// Closest points, separations, fields, times of impact and separation vectors.
 void add_result(FrameWork& work, const ResultSummary& /*result*/) {
     ++work.found;
 }

@@ -12,7 +12,7 @@ namespace {
 template <class Value>
 using Named = std::pair<std::string_view, Value>;
 
-constexpr std::array<Named<QueryType>, 7> query_types{{
+constexpr std::array<Named<QueryType>, 9> query_types{{
     {"penetration", QueryType::penetration},
     {"intersection", QueryType::intersection},
     {"distance-field", QueryType::distance_field},
@@ -20,6 +20,8 @@ constexpr std::array<Named<QueryType>, 7> query_types{{
     {"closest-point", QueryType::closest_point},
     {"separation", QueryType::separation},
     {"intersection-test", QueryType::intersection_test},
+    {"time-of-impact", QueryType::time_of_impact},
+    {"separation-vector", QueryType::separation_vector},
 }};
 constexpr std::array<Named<Technique>, 4> techniques{{
     {"automatic", Technique::automatic},
@@ -62,6 +64,13 @@ constexpr std::array<Named<FieldPicture>, 3> pictures{{
     {"field", FieldPicture::field},
     {"voronoi", FieldPicture::voronoi},
     {"gradient", FieldPicture::gradient},
+}};
+
+constexpr std::array<Named<ImpactState>, 4> states{{
+    {"separated", ImpactState::separated},
+    {"hit", ImpactState::hit},
+    {"intersecting-at-start", ImpactState::intersecting_at_start},
+    {"bound-not-reached", ImpactState::bound_not_reached},
 }};
 
 template <class Value>
@@ -138,6 +147,10 @@ std::string_view name_of(IntersectionStrategy strategy) noexcept {
     return find_name<IntersectionStrategy>(strategies, strategy);
 }
 
+std::string_view name_of(ImpactState state) noexcept {
+    return find_name<ImpactState>(states, state);
+}
+
 Technique parse_technique(const std::string& name, const std::string& what) {
     return parse_name<Technique>(techniques, name, what);
 }
@@ -170,6 +183,14 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             break;
         case QueryType::intersection_test:
             batch.add(IntersectionTestQuery{a, b, request.technique});
+            break;
+        case QueryType::separation_vector:
+            batch.add(SeparationVectorQuery{a, b, request.tolerance, request.technique});
+            break;
+        case QueryType::time_of_impact:
+            batch.add(TimeOfImpactQuery{a, b, request.end_a.value_or(a.pose),
+                                        request.end_b.value_or(b.pose), request.tolerance,
+                                        request.time_bound, request.most_steps, request.technique});
             break;
     }
 }

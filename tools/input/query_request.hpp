@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 
 #include <optional>
@@ -17,7 +18,9 @@ enum class QueryType {
     contacts,
     closest_point,
     separation,
-    intersection_test
+    intersection_test,
+    time_of_impact,
+    separation_vector
 };
 
 /// What the picture of a distance field shows.
@@ -43,7 +46,18 @@ struct QueryRequest {
     bool gradients = false;
     std::vector<Vector2> at;
     FieldPicture picture = FieldPicture::field;
+    // All of time-of-impact.
+    std::optional<Pose> end_a;  ///< default: A stands still
+    std::optional<Pose> end_b;
+    double time_bound = 1.0;
+    std::uint32_t most_steps = TimeOfImpactQuery().most_steps;
 };
+
+/// True of a query that the device may answer, by sampling on a grid.
+[[nodiscard]] constexpr bool is_sampled(QueryType type) {
+    return type != QueryType::intersection_test && type != QueryType::time_of_impact &&
+           type != QueryType::separation_vector;
+}
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
 /// what there is to choose from; `what` says where the name stands ("--kind").
@@ -60,6 +74,7 @@ struct QueryRequest {
 [[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
+[[nodiscard]] std::string_view name_of(ImpactState state) noexcept;
 
 [[nodiscard]] Technique parse_technique(const std::string& name, const std::string& what);
 

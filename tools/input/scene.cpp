@@ -101,14 +101,19 @@ std::size_t find_entry(const std::vector<Entry>& entries, const JsonPlace& place
 }
 
 SceneInstance read_instance(const std::string& name, const JsonPlace& place, const Scene& scene) {
-    require_known_members(place, {"shape", "pose"});
+    require_known_members(place, {"shape", "pose", "end_pose"});
     SceneInstance instance;
     instance.name = name;
     instance.shape = find_entry(scene.shapes, place.member("shape"), "shape");
+    const std::string form = "[x, y, degrees] (three numbers)";
+    std::vector<double> pose{0.0, 0.0, 0.0};
     if (place.has("pose")) {
-        const std::vector<double> pose =
-            numbers(place.member("pose"), 3, "[x, y, degrees] (three numbers)");
+        pose = numbers(place.member("pose"), 3, form);
         instance.pose = pose_from_degrees(pose[0], pose[1], pose[2]);
+    }
+    if (place.has("end_pose")) {
+        const std::vector<double> end = numbers(place.member("end_pose"), 3, form);
+        instance.end_pose = end_pose_from_degrees(end[0], end[1], end[2], pose[2]);
     }
     return instance;
 }
@@ -154,6 +159,20 @@ void read_field_request(const JsonPlace& place, QueryRequest& request) {
         if (!request.gradients && request.at.empty()) {
             place.member("gradient").fail("there is no gradient asked for, by gradients or at");
         }
+    }
+}
+
+void read_motion_request(const JsonPlace& place, QueryRequest& request) {
+    if (place.has("time_bound")) {
+        request.time_bound = read_above_zero(place.member("time_bound"));
+    }
+    if (place.has("most_steps")) {
+        const JsonPlace steps = place.member("most_steps");
+        const double number = steps.number();
+        if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
+            steps.fail("expected a whole number from 1 to 1000000000");
+        }
+        request.most_steps = static_cast<std::uint32_t>(number);
     }
 }
 
@@ -216,7 +235,13 @@ QueryRequest read_request(const JsonPlace& place) {
                                           "technique", "strategy", "records"});
             break;
         case QueryType::intersection_test:
+        case QueryType::separation_vector:
             require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "technique"});
+            break;
+        case QueryType::time_of_impact:
+            require_known_members(
+                place, {"query", "a", "b", "tolerance", "technique", "time_bound", "most_steps"});
+            read_motion_request(place, request);
             break;
     }
     if (place.has("records")) {
@@ -251,6 +276,8 @@ SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
     }
     query.a = find_entry(scene.instances, place.member("a"), "instance");
     query.b = find_entry(scene.instances, place.member("b"), "instance");
+    query.request.end_a = scene.instances[query.a].end_pose;
+    query.request.end_b = scene.instances[query.b].end_pose;
     return query;
 }
 

@@ -5,6 +5,7 @@
 #include <tools/input/query_request.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SceneInstance {
     std::string name;
     std::size_t shape = 0;  ///< index into Scene::shapes
     Pose pose;
+    std::optional<Pose> end_pose = std::nullopt;  ///< of times of impact: where it moves to
 };
 
 /// A query of a scene between two of its instances, or between all that are near each other.
@@ -30,7 +32,8 @@ struct SceneQuery {
     std::size_t a = 0;  ///< index into Scene::instances
     std::size_t b = 0;  ///< index into Scene::instances
     /// In place of a and b: every ordered pair whose boxes meet (for contacts: come within the
-    /// contact distance; for separation: every unordered pair within `reach`).
+    /// contact distance; for separation: every unordered pair within `reach`; for intersection
+    /// tests and separation vectors: every unordered pair whose boxes meet).
     bool all_pairs = false;
     double reach = 0.0;  ///< of separation of all pairs, world units
 };

@@ -60,10 +60,37 @@ Pose pose_from_degrees(double x, double y, double degrees) {
     return {{x, y}, turn * (std::numbers::pi / 180.0)};
 }
 
+Pose end_pose_from_degrees(double x, double y, double degrees, double start_degrees) {
+    const double start = pose_from_degrees(0.0, 0.0, start_degrees).angle;
+    return {{x, y}, start + (degrees - start_degrees) * (std::numbers::pi / 180.0)};
+}
+
+std::uint32_t parse_count(std::string_view text, const std::string& option) {
+    constexpr double most = 1e9;
+    double number = 0.0;
+    if (!parse_finite(text, number) || number != std::floor(number) || number < 1.0 ||
+        number > most) {
+        fail(option, text, "expected a whole number from 1 to 1000000000");
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
 Pose parse_pose(std::string_view text, const std::string& option) {
     double numbers[3] = {};
     parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
     return pose_from_degrees(numbers[0], numbers[1], numbers[2]);
+}
+
+Pose parse_end_pose(std::string_view text, const std::optional<std::string>& start,
+                    const std::string& option) {
+    const std::string form = "X,Y,DEGREES (three numbers)";
+    double from[3] = {};
+    if (start) {
+        parse_list(*start, option, form, from);
+    }
+    double to[3] = {};
+    parse_list(text, option, form, to);
+    return end_pose_from_degrees(to[0], to[1], to[2], from[2]);
 }
 
 Vector2 parse_point(std::string_view text, const std::string& option) {

@@ -2,6 +2,8 @@
 
 #include <nearfield/shape.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,8 +15,16 @@ namespace nearfield::tools {
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
 
+/// A whole number from 1 to 1,000,000,000.
+[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option);
+
 /// "X,Y,DEGREES"
 [[nodiscard]] Pose parse_pose(std::string_view text, const std::string& option);
+
+/// "X,Y,DEGREES" of where a motion ends that starts at another one (0,0,0 where it is left out):
+/// whole turns in between are kept.
+[[nodiscard]] Pose parse_end_pose(std::string_view text, const std::optional<std::string>& start,
+                                  const std::string& option);
 
 /// "X0,Y0,X1,Y1": the low corner, then the high one.
 [[nodiscard]] Rectangle parse_rectangle(std::string_view text, const std::string& option);
@@ -24,5 +34,9 @@ namespace nearfield::tools {
 
 /// A pose of x, y and degrees. Whole turns are taken off in degrees, where that is exact.
 [[nodiscard]] Pose pose_from_degrees(double x, double y, double degrees);
+
+/// Where a motion ends that starts at an angle: so much further are its degrees than those of the
+/// start, whole turns included.
+[[nodiscard]] Pose end_pose_from_degrees(double x, double y, double degrees, double start_degrees);
 
 }  // namespace nearfield::tools

@@ -1,5 +1,7 @@
 #include <tools/output/query_json.hpp>
 
+#include <numbers>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -146,7 +148,7 @@ void write_direction(JsonWriter& json, double distance, Vector2 direction) {
 }
 
 template <class Result>
-void write_features(JsonWriter& json, const Result& result) {
+void write_feature_pair(JsonWriter& json, const Result& result) {
     for (const auto& [key, feature] :
          {std::pair{"feature_a", result.feature_a}, std::pair{"feature_b", result.feature_b}}) {
         json.key(key);
@@ -156,6 +158,11 @@ void write_features(JsonWriter& json, const Result& result) {
             json.null();
         }
     }
+}
+
+template <class Result>
+void write_features(JsonWriter& json, const Result& result) {
+    write_feature_pair(json, result);
     json.key("unique").value(result.unique);
     json.key("sampled_distance").value(result.sampled_distance);
 }
@@ -177,6 +184,32 @@ void write_result(JsonWriter& json, const SeparationResult& result) {
 
 /// There is nothing but what every answer says.
 void write_result(JsonWriter& /*json*/, const IntersectionTestResult& /*result*/) {}
+
+void write_pose(JsonWriter& json, std::string_view key, const Pose& pose) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    json.key(key).begin_object().key("translation").value(pose.translation);
+    json.key("degrees").value(pose.angle * degrees).end_object();
+}
+
+void write_result(JsonWriter& json, const TimeOfImpactResult& result) {
+    json.key("state").value(name_of(result.state));
+    json.key("time").value(result.time);
+    json.key("time_error_bound").value(result.time_error_bound);
+    write_pose(json, "pose_a", result.pose_a);
+    write_pose(json, "pose_b", result.pose_b);
+    json.key("distance").value(result.distance);
+    json.key("least_distance").value(result.least_distance);
+    json.key("point_a").value(result.point_a).key("point_b").value(result.point_b);
+    write_direction(json, result.distance, result.direction);
+    write_feature_pair(json, result);
+    json.key("steps").value(std::uint64_t{result.steps});
+}
+
+void write_result(JsonWriter& json, const SeparationVectorResult& result) {
+    json.key("vector").value(result.vector);
+    json.key("length").value(result.length);
+    json.key("lower_bound").value(result.lower_bound);
+}
 
 }  // namespace
 
@@ -205,12 +238,11 @@ void write_localization(JsonWriter& json, const LocalizationStatistics& statisti
 void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
     const ResultSummary& summary = summary_of(result);
     json.key("query").value(name_of(request.type));
-    const bool has_tolerance = request.type != QueryType::intersection_test;
-    if (has_tolerance) {
+    if (request.type != QueryType::intersection_test) {
         json.key("tolerance").value(summary.tolerance);
     }
     json.key("error_bound").value(summary.error_bound);
-    if (has_tolerance) {
+    if (is_sampled(request.type)) {
         json.key("cell").value(summary.cell);
     }
     json.key("intersects").value(summary.intersects);

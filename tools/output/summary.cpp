@@ -126,6 +126,47 @@ void write_result(std::ostream& stream, const IntersectionTestResult& result) {
     write_item(stream, "share a point", result.intersects ? "yes" : "no");
 }
 
+std::string pose_text(const Pose& pose) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    return point_text(pose.translation) + ", " + short_number(pose.angle * degrees) + " degrees";
+}
+
+/// Nine digits and what is left open.
+std::string time_text(const TimeOfImpactResult& result) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.9g", result.time);
+    return text + (result.time_error_bound > 0.0
+                       ? ", or up to " + short_number(result.time_error_bound) + " later"
+                       : std::string());
+}
+
+void write_result(std::ostream& stream, const TimeOfImpactResult& result) {
+    write_item(stream, "state", std::string(name_of(result.state)));
+    write_item(stream, "time", time_text(result));
+    write_item(stream, "pose of A then", pose_text(result.pose_a));
+    write_item(stream, "pose of B then", pose_text(result.pose_b));
+    if (result.state == ImpactState::intersecting_at_start) {
+        write_item(stream, "common point", point_text(result.point_a));
+    } else {
+        write_item(stream, "distance then",
+                   short_number(result.distance) + ", before it never less than " +
+                       short_number(result.least_distance));
+        write_item(stream, "point of A",
+                   point_text(result.point_a) + " on " + feature_text(result.feature_a));
+        write_item(stream, "point of B",
+                   point_text(result.point_b) + " on " + feature_text(result.feature_b));
+        write_item(stream, "direction", point_text(result.direction));
+    }
+    write_item(stream, "steps", std::to_string(result.steps));
+}
+
+void write_result(std::ostream& stream, const SeparationVectorResult& result) {
+    write_item(stream, "vector", point_text(result.vector));
+    write_item(
+        stream, "length",
+        short_number(result.length) + "; none is shorter than " + short_number(result.lower_bound));
+}
+
 void write_regions(std::ostream& stream, const ResultSummary& summary) {
     write_item(stream, "regions", std::to_string(summary.regions.size()));
     constexpr std::size_t most_shown = 8;
@@ -179,7 +220,9 @@ void write_summary(std::ostream& stream, const Answer& answer) {
         write_item(stream, "tolerance", short_number(summary.tolerance) + ", error bound " + bound);
     }
     write_item(stream, "intersects", summary.intersects ? "yes" : "no");
-    write_regions(stream, summary);
+    if (is_sampled(answer.request.type)) {
+        write_regions(stream, summary);
+    }
     std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
     write_timings_summary(stream, answer.timings);
 }

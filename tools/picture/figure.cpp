@@ -41,6 +41,8 @@ const Rectangle& detail_panel(const Answer& answer) {
         case QueryType::closest_point:
         case QueryType::separation:
         case QueryType::intersection_test:
+        case QueryType::time_of_impact:
+        case QueryType::separation_vector:
             break;
     }
     return panel_alone;
@@ -73,6 +75,10 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
             return "Separation of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::intersection_test:
             return "Intersection test of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::time_of_impact:
+            return "First contact of " + name(figure.a) + " and " + name(figure.b);
+        case QueryType::separation_vector:
+            return "Separation of " + name(figure.a) + " from " + name(figure.b);
         case QueryType::distance_field:
             break;
     }
@@ -122,6 +128,28 @@ std::string facts_of(const IntersectionTestResult& result) {
     return result.intersects ? "the shapes intersect" : "the shapes are apart";
 }
 
+std::string facts_of(const TimeOfImpactResult& result) {
+    switch (result.state) {
+        case ImpactState::separated:
+            return "they stay apart, by " + short_number(result.least_distance) + " at least";
+        case ImpactState::intersecting_at_start:
+            return "they intersect at the start";
+        case ImpactState::hit:
+        case ImpactState::bound_not_reached:
+            break;
+    }
+    return (result.state == ImpactState::hit ? "hit at time " : "apart until time ") +
+           short_number(result.time) + ", known to " + short_number(result.time_error_bound) +
+           " \u00B7 " + std::to_string(result.steps) + " steps";
+}
+
+std::string facts_of(const SeparationVectorResult& result) {
+    return result.intersects
+               ? "length " + short_number(result.length) + " \u00B7 none is shorter than " +
+                     short_number(result.lower_bound)
+               : "the shapes are apart";
+}
+
 void draw_header(Canvas& canvas, const Figure& figure) {
     const double width = page_width - 2.0 * margin;
     canvas.text({margin, 86.0}, title_of(figure, canvas), title_size, palette::text, Align::left,
@@ -144,8 +172,41 @@ void draw_regions(Canvas& canvas, const std::vector<Region>& regions, const View
     }
 }
 
+Pen trace_pen(const FigureTrace& trace, double width) {
+    const Color color = trace.of == Side::a ? palette::shape_a : palette::shape_b;
+    switch (trace.kind) {
+        case FigureTrace::Kind::start:
+            return {color, width, {9.0, 6.0}};
+        case FigureTrace::Kind::on_the_way:
+            return {color.with_alpha(0.35), 0.6 * width};
+        case FigureTrace::Kind::end:
+            break;
+    }
+    return {color, width, {2.5, 4.5}};
+}
+
+void draw_traces(Canvas& canvas, const Figure& figure, const View& view, double width) {
+    for (const FigureTrace& trace : figure.traces) {
+        canvas.stroke(rings_on_page({"", trace.rings}, view), trace_pen(trace, width));
+    }
+}
+
+/// An arrow from the middle of A to where the vector takes it.
+void draw_separation_vector(Canvas& canvas, const Figure& figure,
+                            const SeparationVectorResult& result, const View& view) {
+    if (result.length > 0.0) {
+        const Rectangle box = bounding_box(figure.a.rings);
+        const Vector2 from{(box.min.x + box.max.x) / 2.0, (box.min.y + box.max.y) / 2.0};
+        draw_deepest_mark(canvas, view.to_page(from),
+                          view.to_page({from.x + result.vector.x, from.y + result.vector.y}));
+    }
+}
+
 void draw_overview(Canvas& canvas, const Figure& figure) {
     Rectangle all = united(bounding_box(figure.a.rings), bounding_box(figure.b.rings));
+    for (const FigureTrace& trace : figure.traces) {
+        all = united(all, bounding_box(trace.rings));
+    }
     for (const Region& region : summary_of(figure.answer.result).regions) {
         all = united(all, {region.min, region.max});
     }
@@ -158,6 +219,7 @@ void draw_overview(Canvas& canvas, const Figure& figure) {
     canvas.fill(a, palette::shape_a.with_alpha(0.30));
     canvas.stroke(b, {palette::shape_b, 1.4});
     canvas.stroke(a, {palette::shape_a, 1.4});
+    draw_traces(canvas, figure, view, 1.2);
     draw_regions(canvas, summary_of(figure.answer.result).regions, view,
                  {palette::region, 2.0, {7.0, 5.0}});
     canvas.unclip();
@@ -188,6 +250,7 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
     }
     draw_regions(canvas, summary_of(figure.answer.result).regions, view,
                  {palette::region.with_alpha(0.75), 1.8, {9.0, 8.0}});
+    draw_traces(canvas, figure, view, 2.2);
     canvas.stroke(b, {palette::shape_b, 3.0});
     canvas.stroke(a, {palette::page.with_alpha(0.8), 5.0});
     canvas.stroke(a, {palette::shape_a, 3.0});
@@ -200,6 +263,11 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
     } else if (const auto* separation = std::get_if<SeparationResult>(&figure.answer.result)) {
         draw_closest_pair(canvas, view.to_page(separation->point_a),
                           view.to_page(separation->point_b));
+    }
+    if (const auto* impact = std::get_if<TimeOfImpactResult>(&figure.answer.result)) {
+        draw_closest_pair(canvas, view.to_page(impact->point_a), view.to_page(impact->point_b));
+    } else if (const auto* way = std::get_if<SeparationVectorResult>(&figure.answer.result)) {
+        draw_separation_vector(canvas, figure, *way, view);
     }
     draw_scale_bar(canvas, view);
     canvas.unclip();
@@ -218,6 +286,21 @@ Rectangle around(const Rectangle& shapes, Vector2 a, Vector2 b) {
     return {{low.x - distance, low.y - distance}, {high.x + distance, high.y + distance}};
 }
 
+/// What is worth seeing of a contact: as much around it as the smaller shape is large.
+Rectangle around_contact(const FigureShape& a, const FigureShape& b,
+                         const TimeOfImpactResult& result) {
+    const auto side = [](const FigureShape& shape) {
+        const Rectangle box = bounding_box(shape.rings);
+        return std::max(box.max.x - box.min.x, box.max.y - box.min.y);
+    };
+    const double half = 0.6 * std::min(side(a), side(b));
+    const Vector2 low{std::min(result.point_a.x, result.point_b.x),
+                      std::min(result.point_a.y, result.point_b.y)};
+    const Vector2 high{std::max(result.point_a.x, result.point_b.x),
+                       std::max(result.point_a.y, result.point_b.y)};
+    return {{low.x - half, low.y - half}, {high.x + half, high.y + half}};
+}
+
 }  // namespace
 
 Rectangle detail_rectangle(const Answer& answer, const FigureShape& a, const FigureShape& b) {
@@ -234,6 +317,12 @@ Rectangle detail_rectangle(const Answer& answer, const FigureShape& a, const Fig
         box = around(shapes, closest->point, closest->nearest);
     } else if (const auto* separation = std::get_if<SeparationResult>(&answer.result)) {
         box = around(shapes, separation->point_a, separation->point_b);
+    } else if (const auto* impact = std::get_if<TimeOfImpactResult>(&answer.result)) {
+        box = around_contact(a, b, *impact);
+    } else if (const auto* way = std::get_if<SeparationVectorResult>(&answer.result)) {
+        const Rectangle rest = bounding_box(a.rings);
+        box = united(shapes, {{rest.min.x + way->vector.x, rest.min.y + way->vector.y},
+                              {rest.max.x + way->vector.x, rest.max.y + way->vector.y}});
     }
     return View(with_margin(box, 0.06), detail_panel(answer)).world();
 }

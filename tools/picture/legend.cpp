@@ -84,6 +84,19 @@ void add_entries(std::vector<LegendEntry>& entries, const SeparationResult&) {
 
 void add_entries(std::vector<LegendEntry>& /*entries*/, const IntersectionTestResult& /*result*/) {}
 
+void add_entries(std::vector<LegendEntry>& entries, const TimeOfImpactResult&) {
+    entries.push_back({pair_mark(draw_closest_pair, false), "closest points of A and B then"});
+    entries.push_back({line({palette::quiet_text, 2.2, {9.0, 6.0}}), "where it starts"});
+    entries.push_back({line({palette::quiet_text, 2.2, {2.5, 4.5}}), "where it would end"});
+}
+
+void add_entries(std::vector<LegendEntry>& entries, const SeparationVectorResult& result) {
+    if (result.intersects) {
+        entries.push_back({pair_mark(draw_deepest_mark, false), "the way of A"});
+        entries.push_back({line({palette::shape_a, 2.2, {2.5, 4.5}}), "A moved by it"});
+    }
+}
+
 /// Three features of one kind, side by side.
 auto feature_colors(Feature::Kind kind) {
     return [kind](Canvas& canvas, const Rectangle& area) {
@@ -133,6 +146,8 @@ const char* meaning_of_regions(QueryType type) {
         case QueryType::penetration:
         case QueryType::intersection:
         case QueryType::intersection_test:
+        case QueryType::time_of_impact:
+        case QueryType::separation_vector:
             break;
     }
     return "region of potential intersection";

@@ -1,0 +1,104 @@
+#include <engine/exact/shifts.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace nearfield::exact {
+
+using geometry::Vector;
+
+void ShiftFinder::project(const PlacedEdges& edges, const Vector& direction,
+                          std::vector<Level>& levels) {
+    levels.clear();
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        const Vector start = edges.start(i);
+        const Vector end = edges.end(i);
+        Level level{geometry::cross(direction, start), geometry::cross(direction, end),
+                    direction.dot(start), direction.dot(end), i};
+        if (level.low > level.high) {
+            std::swap(level.low, level.high);
+            std::swap(level.along_low, level.along_high);
+        }
+        levels.push_back(level);
+    }
+}
+
+void ShiftFinder::add_intervals(double most, double rounding) {
+    std::sort(of_b_.begin(), of_b_.end(),
+              [](const Level& i, const Level& j) { return i.low < j.low; });
+    double highest = 0.0;
+    for (const Level& b : of_b_) {
+        highest = std::max(highest, b.high - b.low);
+    }
+    // How far along the direction an edge is at a level; its two ends where it runs along it.
+    const auto range_at = [rounding](const Level& edge, double low, double high) {
+        const double height = edge.high - edge.low;
+        if (height <= rounding) {
+            return std::pair(edge.along_low, edge.along_high);
+        }
+        const auto at = [&](double level) {
+            const double part = std::clamp((level - edge.low) / height, 0.0, 1.0);
+            return (1.0 - part) * edge.along_low + part * edge.along_high;
+        };
+        return std::pair(at(low), at(high));
+    };
+    intervals_.clear();
+    pairs_looked_at_ = of_a_.size() + of_b_.size();
+    for (const Level& a : of_a_) {
+        const double least_a = std::min(a.along_low, a.along_high);
+        const double most_a = std::max(a.along_low, a.along_high);
+        auto b = std::lower_bound(of_b_.begin(), of_b_.end(), a.low - highest - rounding,
+                                  [](const Level& level, double low) { return level.low < low; });
+        for (; b != of_b_.end() && b->low <= a.high + rounding; ++b) {
+            ++pairs_looked_at_;
+            if (b->high < a.low - rounding || std::max(b->along_low, b->along_high) < least_a ||
+                std::min(b->along_low, b->along_high) - most_a > most) {
+                continue;
+            }
+            const double low = std::max(a.low, b->low);
+            const double high = std::max(low, std::min(a.high, b->high));
+            const auto on_a = range_at(a, low, high);
+            const auto on_b = range_at(*b, low, high);
+            Interval interval{0.0, 0.0, a.edge, b->edge};
+            if (a.high - a.low <= rounding || b->high - b->low <= rounding) {
+                interval.from =
+                    std::min(on_b.first, on_b.second) - std::max(on_a.first, on_a.second);
+                interval.to = std::max(on_b.first, on_b.second) - std::min(on_a.first, on_a.second);
+            } else {
+                // Both straight: what is between them changes evenly from level to level.
+                const double at_low = on_b.first - on_a.first;
+                const double at_high = on_b.second - on_a.second;
+                interval.from = std::min(at_low, at_high);
+                interval.to = std::max(at_low, at_high);
+            }
+            if (interval.to >= 0.0 && interval.from <= most) {
+                intervals_.push_back(interval);
+            }
+        }
+    }
+}
+
+const std::vector<ShiftGap>& ShiftFinder::find(const PlacedEdges& a, const PlacedEdges& b,
+                                               const Vector& direction, double most) {
+    project(a, direction, of_a_);
+    project(b, direction, of_b_);
+    add_intervals(most, a.rounding + b.rounding);
+    std::sort(intervals_.begin(), intervals_.end(),
+              [](const Interval& i, const Interval& j) { return i.from < j.from; });
+    gaps_.clear();
+    ShiftGap gap{0.0, 0.0, 0, 0};
+    for (const Interval& interval : intervals_) {
+        if (interval.from > gap.from) {
+            gap.to = interval.from;
+            gaps_.push_back(gap);
+        }
+        if (interval.to > gap.from) {
+            gap = {interval.to, 0.0, interval.edge_a, interval.edge_b};
+        }
+    }
+    gap.to = std::numeric_limits<double>::infinity();
+    gaps_.push_back(gap);
+    return gaps_;
+}
+
+}  // namespace nearfield::exact

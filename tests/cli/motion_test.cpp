@@ -1,0 +1,90 @@
+#include "cli_test.hpp"
+#include "contract.hpp"
+
+namespace nearfield::test {
+namespace {
+
+class TimeOfImpactCommand : public CliTest {
+protected:
+    [[nodiscard]] Arguments moving(const std::string& end) const {
+        return squares("time-of-impact", "automatic") +
+               Arguments{"-d", "1e-6", "--pose-a", "-3,0.5,0", "--end-pose-a", end};
+    }
+};
+
+TEST_F(TimeOfImpactCommand, SaysWhenTheShapesFirstTouch) {
+    // The unit square's right side, at x = -2 at first, is at x = 0 after 2 of 4 units.
+    const Json json = answer(moving("1,0.5,0"));
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("query"), "time-of-impact");
+    EXPECT_EQ(json.at("state"), "hit");
+    EXPECT_EQ(json.at("technique"), "cpu");
+    EXPECT_EQ(json.at("intersects"), true);
+    EXPECT_NEAR(json.at("time").get<double>(), 0.5, 1e-6);
+    EXPECT_LE(json.at("time").get<double>(), 0.5);
+    EXPECT_LE(json.at("time_error_bound").get<double>(), 1e-6);
+    EXPECT_NEAR(json.at("pose_a").at("translation").at(0).get<double>(), -1.0, 1e-5);
+    EXPECT_NEAR(json.at("direction").at(0).get<double>(), 1.0, 1e-9);
+    for (const char* key : {"distance", "least_distance", "steps", "tolerance", "error_bound"}) {
+        expect_number(json, key);
+    }
+    EXPECT_FALSE(json.contains("cell"));
+}
+
+TEST_F(TimeOfImpactCommand, SaysWhyThereIsNoTime) {
+    EXPECT_EQ(answer(moving("-2.5,0.5,0")).at("state"), "separated");
+    EXPECT_EQ(answer(moving("1,0.5,0") + Arguments{"--most-steps", "1"}).at("state"),
+              "bound-not-reached");
+    EXPECT_EQ(answer(squares("time-of-impact", "cpu") + Arguments{"-d", "0.1"}).at("state"),
+              "intersecting-at-start");
+}
+
+TEST_F(TimeOfImpactCommand, KeepsWholeTurns) {
+    const Json json = answer(moving("-3,0.5,720"));
+    EXPECT_NEAR(json.at("pose_a").at("degrees").get<double>(), 720.0, 1e-9);
+}
+
+TEST_F(TimeOfImpactCommand, RefusesWhatItCannotUse) {
+    expect_refused(moving("1,0.5"), {"--end-pose-a", "X,Y,DEGREES"});
+    expect_refused(moving("1,0.5,0") + Arguments{"--time-bound", "2"}, {"time bound", "2"});
+    expect_refused(moving("1,0.5,0") + Arguments{"--most-steps", "0"}, {"--most-steps", "whole"});
+    expect_refused(squares("time-of-impact", "raster") + Arguments{"-d", "0.1"},
+                   {"raster", "times of impact"});
+    expect_refused(squares("separation", "cpu") + Arguments{"-d", "1", "--end-pose-b", "0,0,0"},
+                   {"--end-pose-b", "time-of-impact"});
+}
+
+TEST_F(TimeOfImpactCommand, MovesTheInstancesOfAScene) {
+    const std::string scene = folder_.write("scene.json", R"({
+        "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1], [0, 1]]]}},
+        "instances": {"A": {"shape": "square", "end_pose": [8, 0, 0]},
+                      "B": {"shape": "square", "pose": [3, 0.5, 0]}},
+        "queries": [{"query": "time-of-impact", "a": "A", "b": "B", "tolerance": 1e-6},
+                    {"query": "separation-vector", "pairs": "all", "tolerance": 0.1}]})");
+    const Json json = answer({"scene", scene});
+    ASSERT_TRUE(json.is_object());
+    ASSERT_EQ(json.at("results").size(), 1U);
+    EXPECT_NEAR(json.at("results").at(0).at("time").get<double>(), 0.25, 1e-6);
+}
+
+class SeparationVectorCommand : public CliTest {};
+
+TEST_F(SeparationVectorCommand, SaysHowFarToGo) {
+    const Arguments query =
+        squares("separation-vector", "automatic") + Arguments{"-d", "0.01", "--pose-b"};
+    Json json = answer(query + Arguments{"0.75,0.1,0"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_NEAR(json.at("vector").at(0).get<double>(), -0.25, 1e-9);
+    EXPECT_NEAR(json.at("vector").at(1).get<double>(), 0.0, 1e-9);
+    EXPECT_NEAR(json.at("length").get<double>(), 0.25, 1e-9);
+    EXPECT_GE(json.at("lower_bound").get<double>(), 0.24);
+    EXPECT_EQ(json.at("intersects"), true);
+    json = answer(query + Arguments{"1.75,0.1,0"});
+    EXPECT_EQ(json.at("length"), 0.0);
+    EXPECT_EQ(json.at("intersects"), false);
+    expect_refused(squares("separation-vector", "compute") + Arguments{"-d", "0.1"},
+                   {"compute", "separation vectors"});
+}
+
+}  // namespace
+}  // namespace nearfield::test
