@@ -115,7 +115,7 @@ std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& 
 exact::NearestPoint PointPenetration::find_nearest(const PlacedEdges& b, std::size_t i,
                                                    const Vector& point) {
     if (!exact::is_small(b)) {
-        const exact::NearestPoint nearest = boundary_.nearest(point, near_last_);
+        exact::NearestPoint nearest = boundary_.nearest(point, near_last_);
         near_last_ = nearest.edge;
         return nearest;
     }

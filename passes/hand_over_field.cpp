@@ -10,13 +10,13 @@ namespace {
 constexpr graph::Outside handed_over{graph::Access::handed_over_image,
                                      graph::Access::handed_over_image};
 
-struct Push {
+struct FieldPush {
     std::uint32_t value, feature, stride, width, height;
     std::int32_t column, row;
     std::uint32_t rings, ring_count;
     float cell;
 };
-static_assert(sizeof(Push) <= ComputeLayout::push_bytes);
+static_assert(sizeof(FieldPush) <= ComputeLayout::push_bytes);
 
 }  // namespace
 
@@ -57,16 +57,16 @@ void HandOverField::dispatch(VkCommandBuffer commands) const {
         const plan::FieldPartHandOver& part = item_.parts[i];
         functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                           &item_.sets[i], 0, nullptr);
-        const Push push{part.value,
-                        part.feature,
-                        part.stride,
-                        part.width,
-                        part.height,
-                        static_cast<std::int32_t>(part.column),
-                        static_cast<std::int32_t>(part.row),
-                        item_.field->rings.first_word,
-                        item_.field->rings.count,
-                        static_cast<float>(item_.field->cell)};
+        const FieldPush push{part.value,
+                             part.feature,
+                             part.stride,
+                             part.width,
+                             part.height,
+                             static_cast<std::int32_t>(part.column),
+                             static_cast<std::int32_t>(part.row),
+                             item_.field->rings.first_word,
+                             item_.field->rings.count,
+                             static_cast<float>(item_.field->cell)};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
         dispatch_cells(functions, commands, part.width, part.height);

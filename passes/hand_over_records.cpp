@@ -9,13 +9,13 @@ namespace {
 
 using graph::Access;
 
-struct Push {
+struct RecordsPush {
     std::uint32_t step, first_block, block_count, point_count, word, details, points, rings,
         ring_count, flags;
     float cell, near;
     std::uint32_t capacity;
 };
-static_assert(sizeof(Push) == ComputeLayout::push_bytes);
+static_assert(sizeof(RecordsPush) == ComputeLayout::push_bytes);
 
 }  // namespace
 
@@ -74,19 +74,19 @@ void HandOverRecords::dispatch_runs(VkCommandBuffer commands, Step step) const {
         const plan::PointRunHandOver& run = item_.runs[i];
         functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                           &item_.sets[i], 0, nullptr);
-        const Push push{static_cast<std::uint32_t>(step),
-                        run.first_block,
-                        run.blocks(),
-                        run.count,
-                        run.first,
-                        item_.details[i],
-                        run.table,
-                        run.rings.first_word,
-                        run.rings.count,
-                        run.flags,
-                        static_cast<float>(item_.records->cell),
-                        item_.records->near,
-                        item_.records->capacity};
+        const RecordsPush push{static_cast<std::uint32_t>(step),
+                               run.first_block,
+                               run.blocks(),
+                               run.count,
+                               run.first,
+                               item_.details[i],
+                               run.table,
+                               run.rings.first_word,
+                               run.rings.count,
+                               run.flags,
+                               static_cast<float>(item_.records->cell),
+                               item_.records->near,
+                               item_.records->capacity};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
         dispatch_threads(functions, commands, run.blocks());
@@ -98,7 +98,7 @@ void HandOverRecords::dispatch_place(VkCommandBuffer commands) const {
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                       &item_.sets.back(), 0, nullptr);
-    Push push{};
+    RecordsPush push{};
     push.step = static_cast<std::uint32_t>(Step::place);
     push.block_count = item_.records->block_count;
     push.capacity = item_.records->capacity;
