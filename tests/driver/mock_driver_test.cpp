@@ -48,5 +48,44 @@ TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
     }
 }
 
+TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
+    const MockDriver driver;
+    HostDevice host = driver.host();
+    host.allocator = nullptr;
+    EXPECT_TRUE(Context::create(host).ok());
+    const auto makes_or_destroys = [](std::string_view call) {
+        return call.starts_with("vkCreate") || call.starts_with("vkDestroy") ||
+               call == "vkAllocateMemory" || call == "vkFreeMemory";
+    };
+    const auto calls =
+        std::count_if(driver.calls().begin(), driver.calls().end(), makes_or_destroys);
+    EXPECT_GT(calls, 0);
+    EXPECT_EQ(driver.breaches().size(), static_cast<std::size_t>(calls));
+}
+
+/// Images are shared by the batches of a context, and both are made anew for larger batches.
+TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
+    for (const Technique technique : techniques) {
+        World world(technique);
+        world.take_all_before(World::Step::submit_first);
+        Context& context = world.context();
+        const VkCommandBuffer commands = world.driver().begin_commands();
+        const Expected<Ticket> recorded =
+            context.record(world.recordable(8), {.commands = commands, .frame = 1});
+        ASSERT_TRUE(recorded.ok()) << recorded.status().text();
+        Results results;
+        for (const double cells : {100.0, 200.0}) {
+            const Status status = context.run(world.batch(cells), results);
+            EXPECT_TRUE(status.ok()) << status.text();
+        }
+        world.driver().submit(commands);
+        world.driver().finish_submissions();
+        context.frame_completed(1);
+        const Status status = context.collect(*recorded, results);
+        EXPECT_TRUE(status.ok()) << status.text();
+        EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
+    }
+}
+
 }  // namespace
 }  // namespace nearfield::test

@@ -57,9 +57,9 @@ check_tidy() {
 # undefined operation watched. What runs graphs on a device is left out: drivers leak on their own
 # account.
 check_sanitized() {
-    local test tests=(test_geometry test_localize test_exact test_graph test_driver)
+    local test tests=(test_geometry test_localize test_exact test_graph driver/test_driver)
     configure sanitize >/dev/null
-    build sanitize --target "${tests[@]}"
+    build sanitize --target "${tests[@]##*/}"
     for test in "${tests[@]}"; do
         "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
     done
