@@ -17,8 +17,10 @@ constexpr int even_directions = 32;
 // How often the best direction is turned, by half as much each time that does not help.
 constexpr int turns = 10;
 
-// What the search for the lower bound may cost: edges that points are held against.
+// What the search for the lower bound may cost: edges that points are held against, and as many
+// more for each edge there is, since the search along directions takes longer too.
 constexpr double most_work = 1U << 21U;
+constexpr double work_of_edge = 1U << 13U;
 
 // A pair of edges that a direction is held against, and an edge of a shape that is tested, take
 // about as long as so many of those.
@@ -199,7 +201,7 @@ WayApartFinder::Cell WayApartFinder::pop() {
 }
 
 double WayApartFinder::find_lower_bound(double tolerance) {
-    work_left_ = most_work;
+    work_left_ = most_work + work_of_edge * (a_->count + b_->count);
     of_a_.choose(*a_);
     of_b_.choose(*b_);
     cells_.clear();
@@ -211,7 +213,9 @@ double WayApartFinder::find_lower_bound(double tolerance) {
             return std::min(cell.nearest, length_);
         }
         const double radius = std::numbers::sqrt2 * cell.half;
-        const Word word = ask_witnesses(cell, radius);
+        // None can say it of a square that reaches as far as the best way.
+        const bool may_be_done = radius < (best_ - cell.centre).norm();
+        const Word word = may_be_done ? ask_witnesses(cell, radius) : Word{0.0, cell.witness};
         if (word.reach >= radius) {
             continue;
         }

@@ -222,7 +222,7 @@ TEST_F(SeparationVectorTest, OfThinBarsThatCrossTheBoundIsCloseToo) {
         const Pair pair{
             {"A", bar},
             {"B", bar},
-            {{random.between(-2.0, 2.0), random.between(-2.0, 2.0)}, random.between(0.5, 2.5)},
+            {{random.between(-1.5, 1.5), random.between(-1.5, 1.5)}, random.between(0.5, 2.5)},
             {},
             0.01};
         const SeparationVectorResult result = check(pair, random, 20);
