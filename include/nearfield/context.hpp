@@ -240,8 +240,10 @@ public:
     /// device is lost.
     [[nodiscard]] Expected<ResidentField> resident(Ticket ticket,
                                                    QueryHandle<DistanceFieldQuery> query);
+    /// The same of the records of a penetration.
     [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
                                                      QueryHandle<PenetrationQuery> query);
+    /// The same of contacts.
     [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
                                                      QueryHandle<ContactQuery> query);
 

@@ -27,6 +27,7 @@ enum class LogLevel {
 /// call; it must not throw and must not call the context.
 struct Log {
     void* user = nullptr;  ///< handed back with each message
+    /// Takes a message.
     void (*write)(void* user, LogLevel level, const char* message) = nullptr;
 };
 
@@ -38,9 +39,10 @@ struct Log {
 /// vkQueueSubmit and of both, with the same arguments but for the queue; what it returns counts as
 /// what vkQueueSubmit returned, so it has to have called that before it returns.
 struct QueueAccess {
-    void* user = nullptr;  ///< handed back with each call
-    void (*lock)(void* user) = nullptr;
-    void (*unlock)(void* user) = nullptr;
+    void* user = nullptr;                  ///< handed back with each call
+    void (*lock)(void* user) = nullptr;    ///< before vkQueueSubmit
+    void (*unlock)(void* user) = nullptr;  ///< after it
+    /// In place of it.
     VkResult (*submit)(void* user, std::uint32_t count, const VkSubmitInfo* infos,
                        VkFence fence) = nullptr;
 };
@@ -86,17 +88,17 @@ struct HostDevice {
     /// Pipelines are made with it, all of them when the context is made. Borrowed and never
     /// destroyed. The host must not have created it as externally synchronised.
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-    QueueAccess queue_access = {};
-    Log log = {};
+    QueueAccess queue_access = {};  ///< how to get at the queue; empty: nobody else uses it
+    Log log = {};                   ///< where messages go
 };
 
 /// Which device a headless context takes.
 struct HeadlessOptions {
-    std::uint32_t structure_size = sizeof(HeadlessOptions);
+    std::uint32_t structure_size = sizeof(HeadlessOptions);  ///< leave it as it is
     /// A part of the device's name, case-sensitive; null or empty: the best kind there is
     /// (discrete, integrated, virtual, then a CPU implementation such as lavapipe).
     const char* device_name = nullptr;
-    Log log = {};
+    Log log = {};  ///< where messages go
 };
 
 }  // namespace nearfield

@@ -32,9 +32,9 @@ struct HandedOver {
 
 /// One image of a field, with a view of all of it.
 struct ResidentImage {
-    VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;
-    VkFormat format = VK_FORMAT_UNDEFINED;
+    VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed
+    VkImageView view = VK_NULL_HANDLE;      ///< of all of it; borrowed
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< of both
 };
 
 /// A distance field (DistanceFieldQuery::resident). Texel (column, row) stands for the cell with
@@ -48,8 +48,8 @@ struct ResidentField {
     ResidentImage signed_distance;
     /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (ResidentFeature).
     ResidentImage feature;
-    std::uint32_t width = 0;  ///< cells along x
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;   ///< cells along x
+    std::uint32_t height = 0;  ///< cells along y
     /// Of both images, at least width x height; what lies beyond is undefined. Images only grow, so
     /// that a field whose size changes a little every frame need not have them made anew.
     VkExtent2D image_extent{};
@@ -59,7 +59,7 @@ struct ResidentField {
     /// field is there, so it counts on the farthest that a cell can be: a little more than
     /// DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    HandedOver state;
+    HandedOver state;  ///< when the device has done the batch
 };
 
 /// A range of a buffer with a SummaryData, then `capacity` records (RecordData) of which the
@@ -79,16 +79,16 @@ struct ResidentField {
 /// record on one side alone. Points farther than 1024 cells from the other boundary may name
 /// another edge, one nearer by no more than `error_bound`.
 struct ResidentRecords {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;  ///< a multiple of minStorageBufferOffsetAlignment
-    VkDeviceSize size = 0;
-    std::uint32_t capacity = 0;
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< holds more than this range; borrowed
+    VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize size = 0;             ///< of the range, in bytes
+    std::uint32_t capacity = 0;        ///< records there is room for
     /// What positions are relative to, world coordinates: the middle of the points looked at.
     Vector2 origin;
     /// Of every coordinate of a record or the summary, and of distances and depths, world units.
     /// A normal is off by at most twice this over the distance, or 2^-14 where that is more.
     double error_bound = 0.0;
-    HandedOver state;
+    HandedOver state;  ///< when the device has done the batch
 };
 
 /// A feature id: a word that says which part of a boundary is nearest, and two flags.
@@ -117,7 +117,7 @@ struct SummaryData {
     std::uint32_t deepest = no_record;  ///< the record of the greatest depth; of several the first
     float depth = 0.0F;  ///< its depth: the distance inside the other shape, less than 0 outside
     float low[2]{};      ///< the smallest box that holds all records' points, where there are some
-    float high[2]{};
+    float high[2]{};     ///< its other corner
 };
 static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &&
               offsetof(SummaryData, low) == 16 && offsetof(SummaryData, high) == 24);
