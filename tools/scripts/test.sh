@@ -57,12 +57,15 @@ check_tidy() {
 # undefined operation watched. What runs graphs on a device is left out: drivers leak on their own
 # account.
 check_sanitized() {
-    local test tests=(test_geometry test_localize test_exact test_graph driver/test_driver)
+    # A program and the tests it runs, a line each, side by side; the longest first.
+    local runs=(
+        'driver/test_driver HostMemory.*' 'driver/test_driver -HostMemory.*'
+        'test_geometry *' 'test_localize *' 'test_exact *' 'test_graph -GraphExecute.*'
+    )
     configure sanitize >/dev/null
-    build sanitize --target "${tests[@]##*/}"
-    for test in "${tests[@]}"; do
-        "$root/build/sanitize/tests/$test" --gtest_brief=1 --gtest_filter='-GraphExecute.*'
-    done
+    build sanitize --target test_driver test_geometry test_localize test_exact test_graph
+    printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
+        bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
 }
 
 # Contexts on several threads, with every access to memory that two of them share watched.
