@@ -33,7 +33,8 @@ constexpr double least_gain = 1e-6;
 // Until the shapes are seen to be apart a way is made longer, by four times as much each time and
 // by so much at the most: rounding along edges that hardly part is more than that of a vertex.
 constexpr double longer_each_time = 4.0;
-constexpr double most_clearances = 262144.0;
+constexpr int trials_of_clearance = 10;
+constexpr double most_clearances = 262144.0;  // of the last of them
 
 bool is_farther(double nearest, double other_nearest) {
     return nearest > other_nearest;
@@ -59,7 +60,8 @@ bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, doubl
     if (within < longest && !separates(within * direction)) {
         return false;
     }
-    for (double clearance = clearance_; clearance <= most; clearance *= longer_each_time) {
+    double clearance = clearance_;
+    for (int trial = 0; trial < trials_of_clearance; ++trial) {
         const double way = gap.from + clearance;
         if (way >= std::min(longest, gap.to)) {
             return false;
@@ -70,6 +72,7 @@ bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, doubl
             length_ = shift.norm();
             return true;
         }
+        clearance *= longer_each_time;
     }
     return false;
 }
@@ -195,7 +198,7 @@ void WayApartFinder::push(const Vector& centre, double half, std::uint32_t witne
 WayApartFinder::Cell WayApartFinder::pop() {
     std::pop_heap(cells_.begin(), cells_.end(),
                   [](const Cell& i, const Cell& j) { return is_farther(i.nearest, j.nearest); });
-    const Cell cell = cells_.back();
+    Cell cell = cells_.back();
     cells_.pop_back();
     return cell;
 }

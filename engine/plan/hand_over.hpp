@@ -65,8 +65,8 @@ struct PointRunHandOver {
     /// (two floats), B's normal where it is B's point (packSnorm2x16), the place among the points
     /// of the query.
     std::uint32_t table = 0;
-    RingTable rings;                ///< of the shape whose features they name
-    std::uint32_t flags = 0;        ///< resident_flags of their records
+    RingTable rings;          ///< of the shape whose features they name
+    std::uint32_t flags = 0;  ///< resident_flags of their records
 
     [[nodiscard]] std::uint32_t blocks() const {
         return (count + points_per_block - 1) / points_per_block;
