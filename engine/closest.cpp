@@ -62,7 +62,11 @@ void write_pair(const PlacedPolygon& a, const PlacedPolygon& b, const ClosestPai
 
 void ClosestDecoder::answer_apart(const PlannedQuery& query, const PlacedEdges& a,
                                   const PlacedEdges& b, double at_most, SeparationResult& result) {
-    const double margin = result.tolerance * plan::uniqueness_margin;
+    // Another closest point counts where it is farther away than the tolerance. Neither shape
+    // reaching so far, there is none to look for, and very many pairs may lie within such a margin.
+    const double extent = std::max(a.box.diagonal().norm(), b.box.diagonal().norm());
+    const double margin =
+        result.tolerance < extent ? result.tolerance * plan::uniqueness_margin : 0.0;
     const ClosestPair closest = finder_.find(a, b, at_most, margin);
     write_pair(a.placed, b.placed, closest, result);
     result.unique = finder_.is_unique(closest, side_of(query), margin, result.tolerance);

@@ -116,6 +116,15 @@ TEST_F(Closest, FarApartAtASmallTolerance) {
     check(scaled_and_moved(a, 1.0, {1e6, 0}), scaled_and_moved(b, 1.0, {1e6 + 7, 1}), 0.01);
 }
 
+TEST_F(Closest, ATolerancePastTheShapesLeavesNothingToBeAmbiguous) {
+    Random random(seed);
+    const Rings a = star(random, 600, 0.9);
+    const Rings b = scaled_and_moved(star(random, 700, 0.9), 1.0, {3.0, 0.2});
+    for (const double tolerance : {1.0, 100.0, 1e6}) {
+        check(a, b, tolerance);
+    }
+}
+
 TEST_F(Closest, OutlinesAreExact) {
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
     for (std::size_t i = 0; i < outlines.size(); ++i) {

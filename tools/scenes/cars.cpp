@@ -58,8 +58,9 @@ Scene cars_scene() {
     scene.name = "cars";
     std::vector<RigidBody*> bodies;
     for (std::size_t i = 0; i < cars; ++i) {
+        const std::size_t row = i / 6;
         const Vector2 place{-5.0 + 2.0 * static_cast<double>(i % 6),
-                            -2.4 + 2.4 * static_cast<double>(i / 6)};
+                            -2.4 + 2.4 * static_cast<double>(row)};
         const Vector2 way = goal_of(i, 0.0) - place;
         auto body = std::make_unique<RigidBody>(std::vector<Ring>{car_outline(i < 14 ? 15 : 14)},
                                                 Pose{place, std::atan2(way.y, way.x)});

@@ -45,10 +45,11 @@ Scene pour_scene(std::size_t bodies) {
     scene.looks.push_back({0.6});
     benchmark::Random random(6);
     for (std::size_t i = 0; i < bodies; ++i) {
+        const std::size_t row = i / columns;
         const Vector2 place{
             0.7 * (static_cast<double>(i % columns) - 0.5 * static_cast<double>(columns - 1)) +
                 random.between(-0.05, 0.05),
-            floor + 1.0 + 0.7 * static_cast<double>(i / columns)};
+            floor + 1.0 + 0.7 * static_cast<double>(row)};
         scene.bodies.push_back(
             std::make_unique<RigidBody>(std::vector<Ring>{star(random.between(0.24, 0.32), 5)},
                                         Pose{place, random.between(0.0, std::numbers::pi)}));
