@@ -139,7 +139,7 @@ vk::raii::Pipeline make_pipeline(const Gpu& gpu, vk::PipelineLayout layout,
                 .setRenderPass(render_pass)};
 }
 
-vk::raii::DescriptorPool make_pool(const Gpu& gpu) {
+vk::raii::DescriptorPool make_descriptor_pool(const Gpu& gpu) {
     const vk::DescriptorPoolSize size(vk::DescriptorType::eCombinedImageSampler, 1);
     return {gpu.device(), vk::DescriptorPoolCreateInfo()
                               .setFlags(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet)
@@ -202,7 +202,7 @@ VulkanPainter::VulkanPainter(const Gpu& gpu, const Letters& letters, std::uint32
       letters_(gpu, {letters.width, letters.height}, vk::Format::eR8Unorm,
                vk::SampleCountFlagBits::e1,
                vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst),
-      sets_(make_pool(gpu)),
+      sets_(make_descriptor_pool(gpu)),
       set_(make_set(gpu, *sets_, *set_layout_)),
       slots_(frames_in_flight) {
     upload(letters);
