@@ -19,6 +19,7 @@ vk::raii::Context open_loader() {
 vk::raii::Instance make_instance(const vk::raii::Context& loader,
                                  const std::vector<std::string>& extensions) {
     std::vector<const char*> names;
+    names.reserve(extensions.size());
     for (const std::string& extension : extensions) {
         names.push_back(extension.c_str());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -101,12 +102,19 @@ void draw_ground(Drawing& drawing, const View& view) {
                  rgb(0xB9BEC4));
     const Color tile = rgb(0xA9AFB7);
     const Rectangle& world = view.world();
-    for (double x = std::ceil(world.min.x); x < world.max.x; x += 1.0) {
-        drawing.line({view.to_page(Vector2{x, world.min.y}), view.to_page(Vector2{x, world.max.y})},
+    const auto first_and_end = [](double low, double high) {
+        return std::pair(static_cast<int>(std::ceil(low)), static_cast<int>(std::ceil(high)));
+    };
+    const auto [first_x, end_x] = first_and_end(world.min.x, world.max.x);
+    for (int x = first_x; x < end_x; ++x) {
+        drawing.line({view.to_page(Vector2{1.0 * x, world.min.y}),
+                      view.to_page(Vector2{1.0 * x, world.max.y})},
                      tile, 1.0);
     }
-    for (double y = std::ceil(world.min.y); y < world.max.y; y += 1.0) {
-        drawing.line({view.to_page(Vector2{world.min.x, y}), view.to_page(Vector2{world.max.x, y})},
+    const auto [first_y, end_y] = first_and_end(world.min.y, world.max.y);
+    for (int y = first_y; y < end_y; ++y) {
+        drawing.line({view.to_page(Vector2{world.min.x, 1.0 * y}),
+                      view.to_page(Vector2{world.max.x, 1.0 * y})},
                      tile, 1.0);
     }
 }

@@ -99,9 +99,9 @@ void Triangles::sector(Vector2 center, double radius, double from, double over,
                        const Color& color) {
     // A whole disc of a small radius looks round with so many corners.
     const double whole = 6.0 + 3.0 * radius;
-    const double pieces = std::ceil(whole * over / (2.0 * std::numbers::pi));
+    const int pieces = static_cast<int>(std::ceil(whole * over / (2.0 * std::numbers::pi)));
     std::vector<Vector2> corners;
-    for (double i = 0.0; i <= pieces; i += 1.0) {
+    for (int i = 0; i <= pieces; ++i) {
         corners.push_back(center + dynamics::polar(radius, from + over * i / pieces));
     }
     polygon(corners, color);
