@@ -189,6 +189,11 @@ ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) cons
     return slot_->hand_over().field(place_of(hand_over_.fields, handle.index));
 }
 
+ResidentSamples BatchRunner::resident(QueryHandle<IntersectionQuery> handle) const {
+    require_resident(handle);
+    return slot_->hand_over().samples(place_of(hand_over_.samples, handle.index));
+}
+
 ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
     return slot_->hand_over().records(place_of(hand_over_.records, query));
 }

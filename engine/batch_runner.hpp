@@ -62,6 +62,7 @@ public:
     /// What stays on the device of a query, after submit(). Throws Failure where there is nothing,
     /// for each reason by name.
     [[nodiscard]] ResidentField resident(QueryHandle<DistanceFieldQuery> handle) const;
+    [[nodiscard]] ResidentSamples resident(QueryHandle<IntersectionQuery> handle) const;
     template <class Query>
     [[nodiscard]] ResidentRecords resident(QueryHandle<Query> handle) const {
         require_resident(handle);

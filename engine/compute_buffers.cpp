@@ -58,7 +58,7 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Fra
         layout.write_buffer(set, binding, part.buffer, part.offset,
                             std::max(part.bytes, smallest_part));
     };
-    const BufferPart scratch{scratch_.handle(), 0, scratch_bytes_};
+    const BufferPart scratch = scratch_part();
     write(frame.points_by_lists, Layout::tiles, tiles_);
     write(frame.points_by_lists, Layout::geometry, geometry_);
     write(frame.points_by_lists, Layout::points, points_);

@@ -29,6 +29,8 @@ public:
 
     [[nodiscard]] VkBuffer input() const { return input_.handle(); }
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
+    /// As much of it as the round handed over last uses.
+    [[nodiscard]] BufferPart scratch_part() const { return {scratch_.handle(), 0, scratch_bytes_}; }
 
     /// Parts of the read-back: by point, of all fields, by tile, the samples.
     struct Output {

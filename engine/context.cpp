@@ -33,6 +33,7 @@ plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings
     limits.subpixel = subpixel_grid(device);
     limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
     limits.largest_image = device.limits().maxImageDimension2D;
+    limits.largest_range = device.limits().maxStorageBufferRange;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
@@ -294,6 +295,10 @@ Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<Penetrati
 
 Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQuery> query) {
     return implementation_->resident<ResidentRecords>(ticket, query);
+}
+
+Expected<ResidentSamples> Context::resident(Ticket ticket, QueryHandle<IntersectionQuery> query) {
+    return implementation_->resident<ResidentSamples>(ticket, query);
 }
 
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {

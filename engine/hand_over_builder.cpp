@@ -1,10 +1,10 @@
 #include <engine/boundary_normal.hpp>
 #include <engine/hand_over_builder.hpp>
+#include <engine/hand_over_tables.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <nearfield/resident.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace nearfield {
@@ -16,16 +16,6 @@ using geometry::Vector;
 using plan::HandOver;
 using plan::PlannedQuery;
 using plan::RecordsHandOver;
-
-plan::RingTable add_rings(const geometry::Polygon& polygon, HandOver& hand_over) {
-    const plan::RingTable rings{static_cast<std::uint32_t>(hand_over.tables.size()),
-                                polygon.ring_count()};
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        hand_over.tables.push_back(polygon.ring_begin(ring));
-    }
-    hand_over.tables.push_back(polygon.size());
-    return rings;
-}
 
 std::uint32_t as_snorm(double number) {
     const auto steps =
@@ -59,6 +49,7 @@ void HandOverBuilder::build(const plan::Plan& plan, std::span<const plan::Round>
                             std::span<const AnyResult> results, HandOver& hand_over) {
     hand_over.clear();
     find_field_parts(plan, rounds);
+    samples_.begin();
     for (std::uint32_t query = 0; query < results.size(); ++query) {
         const PlannedQuery& planned = plan.queries[query];
         const bool usable =
@@ -68,6 +59,8 @@ void HandOverBuilder::build(const plan::Plan& plan, std::span<const plan::Round>
         }
         if (const auto* const field = std::get_if<DistanceFieldResult>(&results[query])) {
             add_field(planned, query, *field, hand_over);
+        } else if (const auto* const overlap = std::get_if<IntersectionResult>(&results[query])) {
+            samples_.add(plan, rounds, query, *overlap, hand_over);
         } else {
             add_records(plan, rounds, query, hand_over);
         }
@@ -178,8 +171,7 @@ void HandOverBuilder::add_runs(const plan::Plan& plan, std::span<const plan::Rou
         for (auto i = begin; i != end; ++i) {
             const plan::BoundaryPoint& point = plan.points[*i].point;
             const Vector place = position(a, point) - records.origin;
-            hand_over.tables.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(place.x())));
-            hand_over.tables.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(place.y())));
+            add_position(place, hand_over);
             hand_over.tables.push_back(flags == 0 ? 0U : normal_at(planned, point));
             hand_over.tables.push_back(first_place + *i - planned.first_point);
         }

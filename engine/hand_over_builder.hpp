@@ -4,6 +4,7 @@
 #include <engine/plan/hand_over.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
+#include <engine/sample_hand_over_builder.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -34,6 +35,7 @@ private:
     [[nodiscard]] std::uint32_t normal_at(const plan::PlannedQuery& planned,
                                           const plan::BoundaryPoint& point);
 
+    SampleHandOverBuilder samples_;
     std::vector<std::pair<std::uint32_t, plan::FieldPartHandOver>> parts_;  // with their query
     std::optional<geometry::PlacedPolygon> b_;                              // of contacts
     exact::Boundary boundary_;  // of that, where it is set

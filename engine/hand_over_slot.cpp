@@ -17,6 +17,23 @@ std::uint64_t bytes_of_records(const plan::RecordsHandOver& records) {
     return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(RecordData);
 }
 
+std::uint64_t bytes_of_samples(const plan::SamplesHandOver& samples) {
+    return sizeof(IntersectionSummaryData) +
+           std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
+}
+
+std::uint64_t bytes_of_blocks(const plan::SamplesHandOver& samples) {
+    return std::uint64_t{samples.tile_count} * sizeof(plan::SampleBoxData) +
+           std::uint64_t{samples.block_count} * sizeof(std::uint32_t);
+}
+
+/// The first sets of those that are left, which are fewer then.
+std::span<const VkDescriptorSet> take(std::span<const VkDescriptorSet>& sets, std::size_t count) {
+    const std::span<const VkDescriptorSet> taken = sets.first(count);
+    sets = sets.subspan(count);
+    return taken;
+}
+
 }  // namespace
 
 HandOverSlot::HandOverSlot(const gpu::Device& device, const passes::ComputeLayout& layout)
@@ -41,29 +58,44 @@ void HandOverSlot::upload(const plan::HandOver& hand_over) {
         images_[i].signed_distance.reserve(extent);
         images_[i].feature.reserve(extent);
     }
-    lay_out_records();
+    lay_out_buffer();
     upload_tables();
     make_sets();
 }
 
-void HandOverSlot::lay_out_records() {
-    const std::uint64_t step =
-        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
-    const auto align = [step](std::uint64_t offset) { return (offset + step - 1) / step * step; };
+void HandOverSlot::lay_out_buffer() {
     places_.clear();
+    sample_places_.clear();
     std::uint64_t end = 0;
     for (const plan::RecordsHandOver& records : hand_over_->records) {
         require_range(*device_, bytes_of_records(records), "the records");
-        Place& place = places_.emplace_back();
-        place.records = align(end);
-        place.blocks = align(place.records + bytes_of_records(records));
-        place.end = place.blocks +
-                    std::max<std::uint64_t>(records.block_count, 1) * sizeof(plan::RecordBlockData);
-        end = place.end;
+        places_.push_back(
+            place_at(end, bytes_of_records(records),
+                     std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData)));
+        end = places_.back().end;
+    }
+    for (const plan::SamplesHandOver& samples : hand_over_->samples) {
+        require_range(*device_, bytes_of_samples(samples), "the samples that stay");
+        sample_places_.push_back(
+            place_at(end, bytes_of_samples(samples), bytes_of_blocks(samples)));
+        end = sample_places_.back().end;
     }
     if (end > 0) {
         records_.reserve(end);
     }
+}
+
+/// For so many bytes of each, behind what ends there.
+HandOverSlot::Place HandOverSlot::place_at(std::uint64_t end, std::uint64_t records,
+                                           std::uint64_t blocks) const {
+    const std::uint64_t step =
+        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
+    const auto align = [step](std::uint64_t offset) { return (offset + step - 1) / step * step; };
+    Place place;
+    place.records = align(end);
+    place.blocks = align(place.records + records);
+    place.end = place.blocks + std::max(blocks, smallest_part);
+    return place;
 }
 
 void HandOverSlot::upload_tables() {
@@ -77,8 +109,9 @@ void HandOverSlot::upload_tables() {
 }
 
 void HandOverSlot::make_sets() {
-    const std::size_t wanted =
-        hand_over_->field_parts.size() + hand_over_->point_runs.size() + hand_over_->records.size();
+    const std::size_t wanted = hand_over_->field_parts.size() + hand_over_->point_runs.size() +
+                               hand_over_->records.size() + 2 * hand_over_->sample_runs.size() +
+                               hand_over_->samples.size();
     while (own_sets_.size() < wanted) {
         own_sets_.emplace_back(*device_, *layout_, set_names);
     }
@@ -102,32 +135,64 @@ void HandOverSlot::bind_records(VkDescriptorSet set, const Place& place) const {
                           place.end - place.blocks);
 }
 
-void HandOverSlot::bind(std::span<const Words> words, const BufferPart& none) {
+void HandOverSlot::bind(std::span<const Words> words, const BufferPart& none, VkBuffer summaries) {
     words_ = none.buffer;
-    auto set = sets_.begin();
+    summaries_ = summaries;
+    std::span<const VkDescriptorSet> sets(sets_);
+    bind_fields(words, sets);
+    bind_points(words, none, sets);
+    bind_samples(words, none, sets);
+}
+
+void HandOverSlot::bind_fields(std::span<const Words> words,
+                               std::span<const VkDescriptorSet>& sets) const {
     for (std::size_t i = 0; i < hand_over_->fields.size(); ++i) {
         const plan::FieldHandOver& field = hand_over_->fields[i];
-        for (std::uint32_t part = 0; part < field.part_count; ++part, ++set) {
-            const std::uint32_t round = hand_over_->field_parts[field.first_part + part].round;
-            bind_words(*set, words[round].field);
-            layout_->write_storage_image(*set, Layout::signed_distance_image,
+        std::uint32_t part = field.first_part;
+        for (const VkDescriptorSet set : take(sets, field.part_count)) {
+            bind_words(set, words[hand_over_->field_parts[part++].round].field);
+            layout_->write_storage_image(set, Layout::signed_distance_image,
                                          images_[i].signed_distance.view());
-            layout_->write_storage_image(*set, Layout::feature_id_image, images_[i].feature.view());
+            layout_->write_storage_image(set, Layout::feature_id_image, images_[i].feature.view());
         }
     }
+}
+
+void HandOverSlot::bind_points(std::span<const Words> words, const BufferPart& none,
+                               std::span<const VkDescriptorSet>& sets) {
     details_.clear();
     for (std::size_t i = 0; i < hand_over_->records.size(); ++i) {
         const plan::RecordsHandOver& records = hand_over_->records[i];
-        for (std::uint32_t number = 0; number < records.run_count; ++number, ++set) {
-            const plan::PointRunHandOver& run = hand_over_->point_runs[records.first_run + number];
-            bind_words(*set, words[run.round].points);
-            bind_records(*set, places_[i]);
+        std::uint32_t number = records.first_run;
+        for (const VkDescriptorSet set : take(sets, records.run_count)) {
+            const plan::PointRunHandOver& run = hand_over_->point_runs[number++];
+            bind_words(set, words[run.round].points);
+            bind_records(set, places_[i]);
             constexpr std::uint32_t words_of_details =
                 sizeof(plan::PointDetails) / sizeof(std::uint32_t);
             details_.push_back(words[run.round].point_count + words_of_details * run.first);
         }
-        bind_words(*set, none);
-        bind_records(*set++, places_[i]);
+        const VkDescriptorSet last = take(sets, 1).front();
+        bind_words(last, none);
+        bind_records(last, places_[i]);
+    }
+}
+
+void HandOverSlot::bind_samples(std::span<const Words> words, const BufferPart& none,
+                                std::span<const VkDescriptorSet>& sets) const {
+    for (std::size_t i = 0; i < hand_over_->samples.size(); ++i) {
+        const plan::SamplesHandOver& samples = hand_over_->samples[i];
+        const auto bind = [&](const BufferPart& part) {
+            const VkDescriptorSet set = take(sets, 1).front();
+            bind_words(set, part);
+            bind_records(set, sample_places_[i]);
+        };
+        for (std::uint32_t number = 0; number < samples.run_count; ++number) {
+            const Words& round = words[hand_over_->sample_runs[samples.first_run + number].round];
+            bind(round.summaries);
+            bind(samples.block_count > 0 ? round.hits : none);
+        }
+        bind(none);
     }
 }
 
@@ -149,6 +214,18 @@ passes::HandOverRecords::Item HandOverSlot::records_item(std::size_t i) const {
             std::span(details_).subspan(records.first_run, records.run_count),
             std::span(sets_).subspan(first_set, records.run_count + 1),
             words_,
+            records_.handle()};
+}
+
+passes::HandOverSamples::Item HandOverSlot::samples_item(std::size_t i) const {
+    const plan::SamplesHandOver& samples = hand_over_->samples[i];
+    const std::size_t first_set = hand_over_->field_parts.size() + hand_over_->point_runs.size() +
+                                  hand_over_->records.size() + 2 * samples.first_run + i;
+    return {&samples,
+            std::span(hand_over_->sample_runs).subspan(samples.first_run, samples.run_count),
+            hand_over_->sample_tiles,
+            std::span(sets_).subspan(first_set, 2 * samples.run_count + 1),
+            summaries_,
             records_.handle()};
 }
 
@@ -182,6 +259,18 @@ ResidentRecords HandOverSlot::records(std::size_t i) const {
             records.capacity,
             geometry::to_public(records.origin),
             records.error_bound,
+            state(graph::Access::handed_over_buffer)};
+}
+
+ResidentSamples HandOverSlot::samples(std::size_t i) const {
+    const plan::SamplesHandOver& samples = hand_over_->samples[i];
+    return {records_.handle(),
+            sample_places_[i].records,
+            bytes_of_samples(samples),
+            samples.capacity,
+            geometry::to_public(samples.origin),
+            samples.cell,
+            samples.error_bound,
             state(graph::Access::handed_over_buffer)};
 }
 

@@ -8,6 +8,13 @@
 namespace nearfield {
 using graph::Handle;
 
+namespace {
+
+/// By the pass that hands samples over.
+constexpr graph::Outside read_once_more{{}, graph::Access::storage_read_in_compute};
+
+}  // namespace
+
 Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
                const passes::Frame& frame)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
@@ -59,7 +66,8 @@ void Recipe::declare_compute(const Passes& passes) {
     if (!needs.fill && !needs.overlap) {
         return;
     }
-    scratch_ = graph_.import_buffer({"scratch", false, false});
+    scratch_ = graph_.import_buffer({"scratch", false, false},
+                                    needs_.keeps_hits ? read_once_more : graph::Outside{});
     Handle scratch = passes.masks.declare_clear(graph_, scratch_);
     if (needs.fill) {
         scratch = passes.masks.declare_fill(graph_, input_, scratch);
@@ -103,14 +111,18 @@ void Recipe::declare_drawn(const Passes& passes) {
     }
     if (needs_.overlap != Needs{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
-        Handle collected = samples_;
+        if (needs_.keeps_hits) {
+            kept_hits_ = graph_.import_buffer({"kept hits"}, read_once_more);
+        }
+        passes::Collect::Output collected{samples_, kept_hits_};
         for (std::size_t i = 0; i < intersection_strategies; ++i) {
             const auto strategy = static_cast<IntersectionStrategy>(i);
             if (needs_.overlap[i]) {
                 hits_[i] = passes.intersect.declare(graph_, mesh_, extent_, strategy);
                 if (strategy == IntersectionStrategy::stencil ||
                     strategy == IntersectionStrategy::depth) {
-                    collected = passes.early_out.declare(graph_, collected, strategy);
+                    collected.samples =
+                        passes.early_out.declare(graph_, collected.samples, strategy);
                 }
                 collected = passes.collect.declare(graph_, input_, hits_[i], collected, strategy);
             }
@@ -170,6 +182,7 @@ void Recipe::set_buffers(const Buffers& buffers) {
     set(results_, buffers.words);
     set(field_, buffers.words);
     set(samples_, buffers.read_back);
+    set(kept_hits_, buffers.hits);
 }
 
 void Recipe::bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const {

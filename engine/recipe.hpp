@@ -52,7 +52,8 @@ struct Needs {
     bool field_points = false;                            ///< something at points of a field
     bool blended = false;                                 ///< blended gradients
     std::array<bool, intersection_strategies> overlap{};  ///< by strategy
-    ComputeNeeds compute;  ///< all there is where any of it is needed
+    bool keeps_hits = false;  ///< what is found in the cells of some overlap is read once more
+    ComputeNeeds compute;     ///< all there is, but for these, where any of it is needed
 
     [[nodiscard]] bool any_field() const { return field_cells || field_points; }
     [[nodiscard]] bool field_by(SignEncoding encoding) const {
@@ -110,6 +111,7 @@ public:
         VkBuffer input = VK_NULL_HANDLE;      ///< of compute passes
         VkBuffer scratch = VK_NULL_HANDLE;    ///< of the compute technique
         VkBuffer words = VK_NULL_HANDLE;      ///< of points and fields
+        VkBuffer hits = VK_NULL_HANDLE;       ///< of intersections, where they are kept
         VkBuffer read_back = VK_NULL_HANDLE;  ///< of summaries and samples
     };
     void set_buffers(const Buffers& buffers);
@@ -137,6 +139,7 @@ private:
     graph::Handle results_;
     graph::Handle field_;
     graph::Handle samples_;
+    graph::Handle kept_hits_;
     passes::FieldImages images_;
     graph::Handle gradients_;
     std::array<graph::Handle, intersection_strategies> hits_;

@@ -26,6 +26,7 @@ struct InputParts {
 };
 struct OutputParts {
     std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
+    std::uint64_t hits = 0;  ///< kept, among the words that stay on the device
 };
 
 /// How the commands of a slot get to the device.
@@ -122,6 +123,8 @@ private:
     void copy_input(const RoundOnDevice& on_device) const;
     void empty_output(const RoundOnDevice& on_device) const;
     void find_copies(const RoundOnDevice& on_device);
+    void lay_out_words(std::uint64_t end);
+    [[nodiscard]] BufferPart hits_of(std::uint32_t number) const;
     void bind_hand_over();
     /// Where a round writes the words of its points and fields.
     [[nodiscard]] VkBuffer words_of(const RoundOnDevice& on_device) const;
@@ -137,7 +140,8 @@ private:
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
-    /// Laid out as the read-back, for rounds whose results stay on the device.
+    /// Laid out as the read-back, for rounds whose results stay on the device; behind that what
+    /// they found in the cells of intersections.
     gpu::MappedBuffer words_;
     HandOverSlot hand_over_;
     bool is_to_hand_over_ = false;

@@ -24,6 +24,7 @@ ComputeNeeds compute_needs_of(const plan::Round& round) {
 
 Needs needs_of(const plan::Round& round) {
     Needs needs;
+    needs.keeps_hits = round.keeps_hits;
     if (round.by_compute) {
         needs.compute = compute_needs_of(round);
         return needs;
@@ -51,7 +52,8 @@ Renderer::Renderer(const gpu::Device& device)
       passes_(device, layout_, frame_),
       copy_back_(device),
       hand_over_field_(device, layout_),
-      hand_over_records_(device, layout_) {}
+      hand_over_records_(device, layout_),
+      hand_over_samples_(device, layout_) {}
 
 std::unique_ptr<RenderSlot> Renderer::make_slot() const {
     return std::make_unique<RenderSlot>(*device_, layout_);
@@ -106,6 +108,7 @@ void Renderer::prepare(std::span<const plan::Round> rounds, const plan::HandOver
     slot.upload(rounds, hand_over);
     last_had_fields_ = !hand_over.fields.empty();
     last_had_records_ = !hand_over.records.empty();
+    last_had_samples_ = !hand_over.samples.empty();
     slot.run(static_cast<std::uint32_t>(rounds.size()));
     for (const std::uint32_t number : slot.running()) {
         RoundOnDevice& round = slot.round(number);
@@ -170,6 +173,9 @@ void Renderer::record_hand_over(RenderSlot& slot, VkCommandBuffer commands) {
         for (std::size_t i = 0; i < hand_over.hand_over().records.size(); ++i) {
             hand_over_records_.record(commands, slot.timestamps(), hand_over.records_item(i));
         }
+        for (std::size_t i = 0; i < hand_over.hand_over().samples.size(); ++i) {
+            hand_over_samples_.record(commands, slot.timestamps(), hand_over.samples_item(i));
+        }
     }
 }
 
@@ -188,6 +194,9 @@ std::string Renderer::print(GraphFormat format) const {
     }
     if (last_had_records_) {
         text += hand_over_records_.print(format);
+    }
+    if (last_had_samples_) {
+        text += hand_over_samples_.print(format);
     }
     return text;
 }

@@ -8,6 +8,7 @@
 #include <passes/copy_back.hpp>
 #include <passes/hand_over_field.hpp>
 #include <passes/hand_over_records.hpp>
+#include <passes/hand_over_samples.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -68,10 +69,12 @@ private:
     passes::CopyBack copy_back_;
     passes::HandOverField hand_over_field_;
     passes::HandOverRecords hand_over_records_;
+    passes::HandOverSamples hand_over_samples_;
     std::vector<std::shared_ptr<Recipe>> recipes_;
     std::shared_ptr<const Recipe> last_recipe_;
     bool last_had_fields_ = false;  // among what was handed over of the last batch
     bool last_had_records_ = false;
+    bool last_had_samples_ = false;
     std::uint32_t most_samples_ = 0;  // that any round found, so that the next one has room
 };
 

@@ -22,17 +22,21 @@ Collect::Collect(const gpu::Device& device, const ComputeLayout& layout, const F
       colors_(gpu::make_compute_pipeline(device, layout_, shaders::collect_colors_comp,
                                          "nearfield collect colours")) {}
 
-graph::Handle Collect::declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
-                               graph::Handle samples, IntersectionStrategy strategy) const {
+Collect::Output Collect::declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
+                                 Output output, IntersectionStrategy strategy) const {
     graph.add_pass(
         "collect", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(input, graph::Access::storage_read_in_compute);
             pass.read(hits, graph::Access::sampled_in_compute);
-            samples = pass.write(samples, graph::Access::storage_write_in_compute);
+            output.samples = pass.write(output.samples, graph::Access::storage_write_in_compute);
+            if (output.kept_hits != graph::Handle{}) {
+                output.kept_hits =
+                    pass.write(output.kept_hits, graph::Access::storage_write_in_compute);
+            }
         },
         [this, strategy](VkCommandBuffer commands) { record(commands, strategy); });
-    return samples;
+    return output;
 }
 
 void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
@@ -44,7 +48,8 @@ void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) co
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                       &frame_->samples[index], 0, nullptr);
     for (const plan::TileDraw& tile : frame_->round->overlap_draws[index]) {
-        const std::uint32_t push[2] = {tile.tile, tile.list ? frame_->sample_capacity : 0};
+        const std::uint32_t push[3] = {tile.tile, tile.list ? frame_->sample_capacity : 0,
+                                       tile.first_hit};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
         functions.vkCmdDispatch(commands, (tile.width + group_width - 1) / group_width,

@@ -21,6 +21,7 @@ public:
         image,
         sign_image,
         summaries = points,           ///< of the collect passes
+        kept_hits = geometry,         ///< of those of images
         work = tiles,                 ///< of the masks (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
         scratch_of_blocks = points,

@@ -12,8 +12,14 @@ const uint run_shift = 8u;
 
 layout(push_constant) uniform Push {
     uint tile;
-    uint capacity;  // samples there is room for; 0: none are to be listed
+    uint capacity;   // samples there is room for; 0: none are to be listed
+    uint first_hit;  // where the numbers of all cells found are kept; not_kept: nowhere
 } push;
+
+const uint not_kept = 0xffffffffu;
+layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
+    uint kept_hits[];  // a word a cell, 0 where nothing was found
+};
 
 // Cells that a thread looks at, one above the other; as in passes/collect.cpp.
 const uint strip = 8u;
@@ -22,15 +28,20 @@ void main() {
     Tile tile = tiles[push.tile];
     uint column = gl_GlobalInvocationID.x;
     uint first_row = gl_GlobalInvocationID.y * strip;
-    if (summaries[push.tile].passed == 0u || column >= tile.width || first_row >= tile.height) {
+    bool keeps = push.first_hit != not_kept;
+    if ((summaries[push.tile].passed == 0u && !keeps) || column >= tile.width ||
+        first_row >= tile.height) {
         return;
     }
     uint rows = min(strip, tile.height - first_row);
     ivec2 corner = ivec2(tile.atlas_x + column, tile.atlas_y + first_row);
     uint found = 0u;
     for (uint i = 0u; i < rows; ++i) {
-        if ((hit_at(corner + ivec2(0, i)) & 255u) == white) {
-            found |= 1u << i;
+        uint hit = hit_at(corner + ivec2(0, i));
+        bool is_found = (hit & 255u) == white;
+        found |= is_found ? 1u << i : 0u;
+        if (keeps) {
+            kept_hits[push.first_hit + (first_row + i) * tile.width + column] = is_found ? hit : 0u;
         }
     }
     if (found == 0u) {

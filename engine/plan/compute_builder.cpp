@@ -215,7 +215,7 @@ void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& til
     OverlapData data;
     data.tile = draw.tile;
     data.list = draw.list ? 1 : 0;
-    const bool with_runs = draw.list && draw.part_a == Part::boundary;
+    const bool with_runs = (draw.list || draw.keeps_hits()) && draw.part_a == Part::boundary;
     data.first_run = with_runs ? static_cast<std::uint32_t>(work.run_words) : no_runs;
     if (with_runs) {
         work.run_words += std::uint64_t{tile.width} * tile.height;

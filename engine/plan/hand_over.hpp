@@ -8,7 +8,7 @@
 namespace nearfield::plan {
 
 /// What of a batch stays on the device, in the form that the passes take which hand it over
-/// (shaders/hand_over_field.comp, hand_over_records.comp).
+/// (shaders/hand_over_field.comp, hand_over_records.comp, hand_over_samples.comp).
 
 /// Points that one thread makes records of, one after the other.
 inline constexpr std::uint32_t points_per_block = 32;
@@ -86,11 +86,70 @@ struct RecordsHandOver {
     std::uint32_t block_count = 0;
 };
 
+/// In place of a word of what is not there.
+inline constexpr std::uint32_t no_word = UINT32_MAX;
+
+/// A tile of an intersection, as it stands in the tables. What was found in its cells lies in the
+/// words of its round: drawn, as a word a cell; by the compute technique, as two masks.
+struct SampleTileData {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    /// Each row of cells is a block of the query's, from the lowest; so many blocks from row to
+    /// row, for those of the tiles beside it.
+    std::uint32_t first_block = 0;
+    std::uint32_t block_step = 0;
+    std::uint32_t hits = 0;             ///< word of the first cell's hit, or of the mask of B
+    std::uint32_t mask_a = no_word;     ///< word of the mask of A; no_word where it was drawn
+    std::uint32_t words_per_row = 0;    ///< of the masks
+    std::uint32_t runs = no_word;       ///< by masks: word of the first cell's run of A's edges
+    std::uint32_t run_table = no_word;  ///< word of the tables where the round's runs start, two
+                                        ///< words each; no_word where A takes part by its volume
+    std::uint32_t summary = 0;          ///< which of the round's
+    std::uint32_t region = 0;
+    float corner_x = 0.0F;  ///< low corner of the tile, relative to the query's origin
+    float corner_y = 0.0F;
+};
+static_assert(sizeof(SampleTileData) == 52);
+
+/// What is known of a tile's samples, before the counts of all rows.
+struct SampleBoxData {
+    std::uint32_t count = 0;
+    float low[2]{};
+    float high[2]{};
+};
+static_assert(sizeof(SampleBoxData) == 20);
+
+/// Tiles of one intersection in one round.
+struct SampleRunHandOver {
+    std::uint32_t round = 0;
+    std::uint32_t first_tile = 0;  ///< in HandOver::sample_tiles
+    std::uint32_t tile_count = 0;
+    std::uint32_t table = 0;  ///< where they stand in the tables
+};
+
+/// An intersection of which summary and samples are made.
+struct SamplesHandOver {
+    std::uint32_t query = 0;
+    std::uint32_t capacity = 0;  ///< cells; 0 where the samples are left out
+    geometry::Vector origin = geometry::Vector::Zero();
+    double cell = 0.0;
+    double error_bound = 0.0;
+    RingTable rings;              ///< of A, where it takes part by its boundary,
+    std::uint32_t vertices = 0;   ///< and where its vertices stand in the tables, two floats each
+    std::uint32_t first_run = 0;  ///< in HandOver::sample_runs
+    std::uint32_t run_count = 0;
+    std::uint32_t tile_count = 0;
+    std::uint32_t block_count = 0;  ///< 0 where the samples are left out
+};
+
 struct HandOver {
     std::vector<FieldHandOver> fields;
     std::vector<FieldPartHandOver> field_parts;
     std::vector<RecordsHandOver> records;
     std::vector<PointRunHandOver> point_runs;
+    std::vector<SamplesHandOver> samples;
+    std::vector<SampleRunHandOver> sample_runs;
+    std::vector<SampleTileData> sample_tiles;
     std::vector<std::uint32_t> tables;
 
     void clear() {
@@ -98,9 +157,14 @@ struct HandOver {
         field_parts.clear();
         records.clear();
         point_runs.clear();
+        samples.clear();
+        sample_runs.clear();
+        sample_tiles.clear();
         tables.clear();
     }
-    [[nodiscard]] bool empty() const { return fields.empty() && records.empty(); }
+    [[nodiscard]] bool empty() const {
+        return fields.empty() && records.empty() && samples.empty();
+    }
 };
 
 }  // namespace nearfield::plan

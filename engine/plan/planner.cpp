@@ -16,9 +16,6 @@ namespace {
 using geometry::Box;
 using geometry::PlacedPolygon;
 
-// What a sample and a cell of a field may take on the host: planned and resolved, in the result and
-// in the buffers on the way there.
-constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
 constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 
 // Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth);
@@ -277,12 +274,10 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     localize_milliseconds_ += start.milliseconds();
 
     add_regions(planned.budget.cell, result);
-    double cells = 0.0;
-    for (const Grid& grid : grids_) {
-        cells += grid.cells();
+    if (planned.resident && !check_resident(query, result)) {
+        return;
     }
-    require_memory((query.records ? bytes_per_sample * cells : bytes_of_tiles()) +
-                       (planned.by_compute ? bytes_of_masks(2) : 0.0),
+    require_memory(bytes_of_samples(query) + (planned.by_compute ? bytes_of_masks(2) : 0.0),
                    query.tolerance, 2.0);
     require_sides(query.tolerance);
     planned.first_cpu_tile = static_cast<std::uint32_t>(plan_->cpu_tiles.size());

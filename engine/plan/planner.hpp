@@ -27,7 +27,8 @@ struct PlanLimits {
     std::uint32_t features_tile = 64;
     std::uint32_t largest_atlas = 2048;
     std::uint32_t largest_image = 4096;  ///< pixels along a side of an image that stays there
-    std::uint64_t memory = 0;            ///< bytes a batch may need
+    std::uint64_t largest_range = std::uint64_t{1} << 27U;  ///< bytes that a shader can address
+    std::uint64_t memory = 0;                               ///< bytes a batch may need
     std::uint32_t hierarchy_height = 12;
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
     /// By strategy: what it needs and the device lacks.
@@ -73,6 +74,9 @@ private:
 
     /// Whether the images of a field that stays on the device can be had; else the result says why.
     [[nodiscard]] bool check_resident(const Grid& grid, DistanceFieldResult& result);
+    /// The same of the samples of an intersection.
+    [[nodiscard]] bool check_resident(const IntersectionQuery& query, IntersectionResult& result);
+    [[nodiscard]] double bytes_of_samples(const IntersectionQuery& query) const;
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
     /// The chains that can hold the closest point, and how many samples they take at the most.

@@ -58,6 +58,12 @@ void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw
     draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
     draw.list = query.records;
     round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
+    if (query.resident && query.resident_samples) {
+        round.keeps_hits = true;
+        draw.first_hit = round.hit_words;
+        // The compute technique has them in its masks.
+        round.hit_words += round.by_compute ? 0 : tile.width * tile.height;
+    }
 }
 
 DrawRange since(std::size_t first, const Mesh& mesh) {
@@ -88,6 +94,8 @@ void Round::clear() {
     compute.clear();
     watched = 0;
     listed_cells = 0;
+    hit_words = 0;
+    keeps_hits = false;
 }
 
 void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
@@ -106,7 +114,8 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
         tile_of_plan_[i] = draw.tile;
         first_part_[i] = static_cast<std::uint32_t>(round.compute.parts.size());
         round.tile_index.push_back(i);
-        round.resident = round.resident || plan.queries[tile.query].resident;
+        round.resident =
+            round.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
         TileData& data = round.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;

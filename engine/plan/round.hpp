@@ -53,6 +53,12 @@ struct TileDraw {
     Part part_b = Part::volume;
     bool list = false;               ///< overlap tiles: the samples are listed, not counted only
     std::uint32_t watch = no_watch;  ///< overlap tiles: the occlusion query around A, if any
+    /// Overlap tiles: where what was found in each cell is kept, a word a cell; of the compute
+    /// technique, which has it in masks, any number.
+    std::uint32_t first_hit = not_asked;
+
+    /// Overlap tiles: what is found in each cell stays on the device.
+    [[nodiscard]] bool keeps_hits() const { return first_hit != not_asked; }
     // Field tiles only: where, in 32-bit words of the field's read-back, what is asked for at every
     // cell starts.
     bool field = false;
@@ -92,12 +98,14 @@ struct Round {
     std::vector<EdgeRun> runs;              ///< of A's edges: what ids of offset polygons stand for
     std::uint32_t watched = 0;              ///< overlap tiles with an occlusion query
     std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
+    std::uint32_t hit_words = 0;            ///< of all overlap tiles whose hits are kept
+    bool keeps_hits = false;                ///< there are such tiles
     std::vector<PointData> field_points;
     std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
     std::vector<FieldPointRun> field_point_runs;
     std::uint64_t field_words = 0;           ///< of all fields together
     std::vector<WordRange> field_read_back;  ///< those of them that the host wants
-    /// What some of its queries come to stays on the device: points say in detail what is nearest.
+    /// What points or fields come to stays on the device: points say in detail what is nearest.
     bool resident = false;
     /// A round is either drawn or, by the compute technique, worked off from this; then it has no
     /// mesh.

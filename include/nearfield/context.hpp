@@ -246,6 +246,9 @@ public:
     /// The same of contacts.
     [[nodiscard]] Expected<ResidentRecords> resident(Ticket ticket,
                                                      QueryHandle<ContactQuery> query);
+    /// The same of the samples of an intersection.
+    [[nodiscard]] Expected<ResidentSamples> resident(Ticket ticket,
+                                                     QueryHandle<IntersectionQuery> query);
 
     /// Runs every technique on small made-up workloads and measures what each takes, for
     /// Settings::costs of later contexts on the same machine; nothing changes in this one. Takes

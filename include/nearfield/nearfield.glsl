@@ -38,6 +38,24 @@ struct NearfieldRecord {
     uint place;      // among the points looked at, in order along A's rings, then B's
 };
 
+const uint nearfield_no_edge = 0xffffffffu;
+
+// What an intersection leaves: the summary, behind it its samples.
+struct NearfieldIntersectionSummary {
+    uint count;     // samples found
+    uint capacity;  // there is room for so many: 0 where they were left out, else never fewer
+    float area;     // of the cells found
+    float cell;     // side of a cell
+    vec2 low;       // the smallest box that holds all samples, where there are some; relative to
+    vec2 high;      // the origin
+};
+
+struct NearfieldIntersectionSample {
+    vec2 point;   // the centre of a cell, relative to the origin
+    uint edge;    // of A, nearby; nearfield_no_edge where A takes part by its volume
+    uint region;  // which one the cell belongs to
+};
+
 uint nearfield_index(uint feature) {
     return feature & nearfield_index_mask;
 }

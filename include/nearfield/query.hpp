@@ -119,6 +119,12 @@ struct IntersectionQuery {
     bool records = true;
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of Technique::raster
     Technique technique = Technique::automatic;                     ///< what answers
+    /// True: summary and samples stay on the device as well, whatever `records` says of those that
+    /// come back, for shaders to read (resident.hpp); of techniques as PenetrationQuery::resident.
+    bool resident = false;
+    /// False: of what stays on the device the summary alone, whose memory does not grow with the
+    /// grid. Nothing where `resident` is false.
+    bool resident_samples = true;
 };
 
 /// Which buffer of the raster says which cells lie inside (section 2.2.2 lists all three). They

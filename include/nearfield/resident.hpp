@@ -91,6 +91,32 @@ struct ResidentRecords {
     HandedOver state;  ///< when the device has done the batch
 };
 
+/// A range of a buffer with an IntersectionSummaryData, then `capacity` samples
+/// (IntersectionSampleData) of which the summary says how many there are:
+/// IntersectionQuery::resident. The buffer may be bound as a storage buffer, at this offset, and
+/// copied from.
+///
+/// Samples are those of IntersectionResult::samples, the same cells in the same order: by region,
+/// then row by row from the low corner, however many rounds the batch takes. Their number is not
+/// known on the CPU before the batch is collected; there is room for every cell of every region, so
+/// none is ever left out, nor has the device to be asked again for them. Where
+/// IntersectionQuery::resident_samples is false there is room for none, and the summary counts them
+/// all the same.
+struct ResidentSamples {
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< holds more than this range; borrowed
+    VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize size = 0;             ///< of the range, in bytes
+    std::uint32_t capacity = 0;        ///< samples there is room for: all cells, or 0
+    /// What positions are relative to, world coordinates: the middle of all regions.
+    Vector2 origin;
+    double cell = 0.0;  ///< side of a cell, world units
+    /// Of every coordinate of a sample or the summary, world units. The edge that a sample names is
+    /// the nearest one of its chain of A's edges, but for edges that are as near to within twice
+    /// this, of which the CPU may name another.
+    double error_bound = 0.0;
+    HandedOver state;  ///< when the device has done the batch
+};
+
 /// A feature id: a word that says which part of a boundary is nearest, and two flags.
 namespace resident_feature {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
@@ -138,5 +164,32 @@ static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
               offsetof(RecordData, normal) == 16 && offsetof(RecordData, distance) == 24 &&
               offsetof(RecordData, feature) == 28 && offsetof(RecordData, flags) == 32 &&
               offsetof(RecordData, place) == 36);
+
+/// In place of an edge of a sample, where A takes part by its volume.
+inline constexpr std::uint32_t no_edge = UINT32_MAX;
+
+/// NearfieldIntersectionSummary of the GLSL header (std430).
+struct IntersectionSummaryData {
+    std::uint32_t count = 0;     ///< samples found
+    std::uint32_t capacity = 0;  ///< as ResidentSamples::capacity
+    float area = 0.0F;           ///< count times the area of a cell, to 2^-21 of itself
+    float cell = 0.0F;           ///< side of a cell, world units
+    float low[2]{};              ///< the smallest box that holds all samples, where there are some
+    float high[2]{};             ///< its other corner
+};
+static_assert(sizeof(IntersectionSummaryData) == 32 &&
+              offsetof(IntersectionSummaryData, area) == 8 &&
+              offsetof(IntersectionSummaryData, low) == 16 &&
+              offsetof(IntersectionSummaryData, high) == 24);
+
+/// NearfieldIntersectionSample of the GLSL header (std430). Positions are relative to
+/// ResidentSamples::origin.
+struct IntersectionSampleData {
+    float point[2]{};              ///< the centre of a cell
+    std::uint32_t edge = no_edge;  ///< where A takes part by its boundary: an edge of A nearby
+    std::uint32_t region = 0;      ///< which of ResultSummary::regions the cell belongs to
+};
+static_assert(sizeof(IntersectionSampleData) == 16 && offsetof(IntersectionSampleData, edge) == 8 &&
+              offsetof(IntersectionSampleData, region) == 12);
 
 }  // namespace nearfield

@@ -17,6 +17,7 @@ const std::vector<Vector2> field_points{{1.1, 1.2}, {1.6, 1.4}};
 constexpr QueryHandle<PenetrationQuery> resident_penetration{0};
 constexpr QueryHandle<ContactQuery> resident_contacts{1};
 constexpr QueryHandle<DistanceFieldQuery> resident_field{2};
+constexpr QueryHandle<IntersectionQuery> resident_samples{3};
 
 /// What the host does on its own account.
 template <class Make>
@@ -141,6 +142,9 @@ Status World::look_at_residents() {
     if (Status status = context_->resident(ticket_, resident_contacts).status(); !status.ok()) {
         return status;
     }
+    if (Status status = context_->resident(ticket_, resident_samples).status(); !status.ok()) {
+        return status;
+    }
     return context_->resident(ticket_, resident_field).status();
 }
 
@@ -220,6 +224,8 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
         field.resident = true;
         batch.add(field);
         field.resident = false;
+        batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,
+                                    true, IntersectionStrategy::stencil, technique, true});
     }
     for (const PenetrationPoints points :
          {PenetrationPoints::boundary, PenetrationPoints::vertices}) {

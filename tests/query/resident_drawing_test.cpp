@@ -22,9 +22,17 @@ struct Scene {
         return {shot.low.x + shot.step * (column + 0.5),
                 shot.low.y + shot.step * (pixels.height - (row + 0.5))};
     }
+    [[nodiscard]] const std::array<std::uint8_t, 4>& pixel_at(const Picture& picture,
+                                                              const Vector2& place) const {
+        const double column = (place.x - shot.low.x) / shot.step;
+        const double row = picture.height - (place.y - shot.low.y) / shot.step;
+        EXPECT_TRUE(column >= 0.0 && row >= 0.0 && column < picture.width && row < picture.height);
+        return picture.at(std::min(static_cast<std::uint32_t>(column), picture.width - 1),
+                          std::min(static_cast<std::uint32_t>(row), picture.height - 1));
+    }
 };
 
-enum class Shown { inside, outside, arrow_inside, arrow_outside, dark };
+enum class Shown { inside, outside, arrow_inside, arrow_outside, sample, dark };
 
 Shown shown(const std::array<std::uint8_t, 4>& pixel) {
     const auto [red, green, blue, alpha] = pixel;
@@ -33,6 +41,9 @@ Shown shown(const std::array<std::uint8_t, 4>& pixel) {
     }
     if (red == 102 && green == 0 && blue == 102) {
         return Shown::arrow_outside;
+    }
+    if (red == 255 && green == 204 && blue == 0) {
+        return Shown::sample;
     }
     if (red < 60) {
         return Shown::dark;
@@ -44,7 +55,7 @@ bool is_arrow(Shown what) {
     return what == Shown::arrow_inside || what == Shown::arrow_outside;
 }
 
-/// Where no arrow is, the picture has to show the side that the oracle says.
+/// Where neither arrow nor dot is, the picture has to show the side that the oracle says.
 void check_sides(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
     std::size_t checked = 0;
     for (std::uint32_t row = 3; row < picture.height; row += 7) {
@@ -58,7 +69,8 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
                            1.1 * scene.shot.arrow_length;
                 });
             ASSERT_TRUE(near_a_contact || !is_arrow(what)) << column << ", " << row;
-            if (!is_arrow(what) && std::abs(distance) > scene.pair.tolerance()) {
+            if (!is_arrow(what) && what != Shown::sample &&
+                std::abs(distance) > scene.pair.tolerance()) {
                 ASSERT_EQ(what, distance < 0.0 ? Shown::inside : Shown::outside)
                     << column << ", " << row << ": distance " << distance;
                 ++checked;
@@ -73,19 +85,31 @@ void check_arrows(const Scene& scene, const Picture& picture, const ContactResul
     ASSERT_GT(contacts.records.size(), 20U);
     for (const ContactRecord& record : contacts.records) {
         const double along = 0.4 * scene.shot.arrow_length;
-        const double column =
-            (record.point.x + along * record.normal.x - scene.shot.low.x) / scene.shot.step;
-        const double row =
-            picture.height -
-            (record.point.y + along * record.normal.y - scene.shot.low.y) / scene.shot.step;
-        ASSERT_TRUE(column >= 0.0 && row >= 0.0 && column < picture.width && row < picture.height);
-        EXPECT_TRUE(is_arrow(
-            shown(picture.at(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)))))
-            << "no arrow at " << column << ", " << row;
+        const Vector2 place{record.point.x + along * record.normal.x,
+                            record.point.y + along * record.normal.y};
+        EXPECT_TRUE(is_arrow(shown(scene.pixel_at(picture, place))))
+            << "no arrow at " << place.x << ", " << place.y;
     }
 }
 
-TEST_F(ResidentDrawing, AHostDrawsFieldAndContactsWithoutAnyReadBack) {
+/// In the middle of every sample's dot there is a dot, or an arrow over it; and dots take no more
+/// room than as many of them do.
+void check_samples_drawn(const Scene& scene, const Picture& picture,
+                         const IntersectionResult& overlap) {
+    ASSERT_GT(overlap.samples.size(), 200U);
+    for (const IntersectionSample& sample : overlap.samples) {
+        const Shown what = shown(scene.pixel_at(picture, sample.point));
+        EXPECT_TRUE(what == Shown::sample || is_arrow(what))
+            << "no dot at " << sample.point.x << ", " << sample.point.y;
+    }
+    const auto dots =
+        std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                      [](const auto& pixel) { return shown(pixel) == Shown::sample; });
+    const double side = 0.4 * overlap.cell / scene.shot.step + 1.0;
+    EXPECT_LE(static_cast<double>(dots), static_cast<double>(overlap.count) * side * side);
+}
+
+TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
     Random random(seed);
     const Rings rings = with_holes(random, 2);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.006};
@@ -102,23 +126,29 @@ TEST_F(ResidentDrawing, AHostDrawsFieldAndContactsWithoutAnyReadBack) {
         ContactQuery contacts = scene.pair.contacts(0.04);
         contacts.tolerance = 0.04;
         contacts.resident = true;
+        IntersectionQuery overlap = scene.pair.intersection(IntersectionKind::volume_volume);
+        overlap.tolerance = 0.03;
+        overlap.resident = true;
 
         Batch batch;
         const auto field_handle = batch.add(field);
         const auto contacts_handle = batch.add(contacts);
+        const auto overlap_handle = batch.add(overlap);
         const Expected<Ticket> ticket = context().submit(batch);
         ASSERT_TRUE(ticket.ok()) << ticket.status().text();
         const Expected<ResidentField> images = context().resident(*ticket, field_handle);
         const Expected<ResidentRecords> records = context().resident(*ticket, contacts_handle);
-        ASSERT_TRUE(images.ok() && records.ok());
+        const Expected<ResidentSamples> samples = context().resident(*ticket, overlap_handle);
+        ASSERT_TRUE(images.ok() && records.ok() && samples.ok());
         // Drawn before anything is collected: nothing has come back to the CPU.
-        const Picture picture = view.draw(*images, *records, scene.shot);
+        const Picture picture = view.draw({*images, *records, *samples}, scene.shot);
         Results results;
         ASSERT_TRUE(context().collect(*ticket, results).ok());
         EXPECT_TRUE(results[field_handle].values.empty());
 
         check_sides(scene, picture, results[contacts_handle]);
         check_arrows(scene, picture, results[contacts_handle]);
+        check_samples_drawn(scene, picture, results[overlap_handle]);
         if (const char* const folder = std::getenv("NEARFIELD_TEST_PICTURES")) {
             picture.write(std::string(folder) + "/resident_" + to_string(technique) + ".ppm");
         }

@@ -16,16 +16,25 @@ FeatureContents taken_apart(std::uint32_t id) {
     return contents;
 }
 
+Vector2 in_world(const float (&place)[2], const Vector2& origin) {
+    return {origin.x + static_cast<double>(place[0]), origin.y + static_cast<double>(place[1])};
+}
+
+/// The structure at a byte of what was read.
+template <class Structure>
+Structure structure_at(const std::vector<std::uint32_t>& words, std::size_t byte) {
+    Structure structure;
+    std::memcpy(static_cast<void*>(&structure), words.data() + byte / sizeof(words[0]),
+                sizeof(structure));
+    return structure;
+}
+
 RecordContents taken_apart(const RecordData& record, const Vector2& origin) {
     RecordContents contents;
     static_cast<FeatureContents&>(contents) = taken_apart(record.feature);
-    const auto in_world = [&](const float(&place)[2]) {
-        return Vector2{origin.x + static_cast<double>(place[0]),
-                       origin.y + static_cast<double>(place[1])};
-    };
     contents.own_point = {record.point[0], record.point[1]};
-    contents.point = in_world(record.point);
-    contents.nearest = in_world(record.nearest);
+    contents.point = in_world(record.point, origin);
+    contents.nearest = in_world(record.nearest, origin);
     contents.normal = {record.normal[0], record.normal[1]};
     contents.distance = record.distance;
     contents.on = (record.flags & resident_flags::on_b) != 0 ? Side::b : Side::a;
@@ -52,14 +61,27 @@ RecordsContents ResidentReader::read(const ResidentRecords& records) {
     const std::vector<std::uint32_t> words =
         gpu_.read(records.buffer, records.offset, records.size, records.state);
     RecordsContents contents;
-    std::memcpy(static_cast<void*>(&contents.summary), words.data(), sizeof(SummaryData));
+    contents.summary = structure_at<SummaryData>(words, 0);
     for (std::uint32_t i = 0; i < contents.summary.count && i < records.capacity; ++i) {
-        RecordData record;
-        std::memcpy(
-            static_cast<void*>(&record),
-            words.data() + (sizeof(SummaryData) + i * sizeof(RecordData)) / sizeof(words[0]),
-            sizeof(RecordData));
-        contents.records.push_back(taken_apart(record, records.origin));
+        contents.records.push_back(taken_apart(
+            structure_at<RecordData>(words, sizeof(SummaryData) + i * sizeof(RecordData)),
+            records.origin));
+    }
+    return contents;
+}
+
+SamplesContents ResidentReader::read(const ResidentSamples& samples) {
+    const std::vector<std::uint32_t> words =
+        gpu_.read(samples.buffer, samples.offset, samples.size, samples.state);
+    SamplesContents contents;
+    contents.summary = structure_at<IntersectionSummaryData>(words, 0);
+    for (std::uint32_t i = 0; i < contents.summary.count && i < samples.capacity; ++i) {
+        const auto sample = structure_at<IntersectionSampleData>(
+            words, sizeof(IntersectionSummaryData) + i * sizeof(IntersectionSampleData));
+        contents.samples.push_back({{sample.point[0], sample.point[1]},
+                                    in_world(sample.point, samples.origin),
+                                    sample.edge,
+                                    sample.region});
     }
     return contents;
 }

@@ -39,6 +39,18 @@ struct RecordsContents {
     std::vector<RecordContents> records;
 };
 
+struct SampleContents {
+    Vector2 own_point;  ///< relative to the samples' origin
+    Vector2 point;      ///< in the world
+    std::uint32_t edge = 0;
+    std::uint32_t region = 0;
+};
+
+struct SamplesContents {
+    IntersectionSummaryData summary;
+    std::vector<SampleContents> samples;
+};
+
 /// Reads back what stays on the device, as a host would that wants to look at it.
 class ResidentReader {
 public:
@@ -46,6 +58,7 @@ public:
 
     [[nodiscard]] FieldContents read(const ResidentField& field);
     [[nodiscard]] RecordsContents read(const ResidentRecords& records);
+    [[nodiscard]] SamplesContents read(const ResidentSamples& samples);
 
 private:
     test_support::HostGpu gpu_;

@@ -3,6 +3,8 @@
 #include <tests/query/shaders/resident_arrows_vert.hpp>
 #include <tests/query/shaders/resident_field_frag.hpp>
 #include <tests/query/shaders/resident_field_vert.hpp>
+#include <tests/query/shaders/resident_samples_frag.hpp>
+#include <tests/query/shaders/resident_samples_vert.hpp>
 
 #include <cstring>
 #include <fstream>
@@ -18,6 +20,7 @@ constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
 struct Push {
     float field_low[2];
     float records_low[2];
+    float samples_low[2];
     float pixels[2];
     float step;
     float cell;
@@ -47,6 +50,8 @@ ResidentView::ResidentView(const HostDevice& host, VkExtent2D pixels)
     make_layout();
     make_set();
     field_pipeline_ = make_pipeline(shaders::resident_field_vert, shaders::resident_field_frag);
+    samples_pipeline_ =
+        make_pipeline(shaders::resident_samples_vert, shaders::resident_samples_frag);
     arrows_pipeline_ = make_pipeline(shaders::resident_arrows_vert, shaders::resident_arrows_frag);
 }
 
@@ -101,7 +106,7 @@ void ResidentView::make_target() {
 }
 
 void ResidentView::make_layout() {
-    std::array<VkDescriptorSetLayoutBinding, 3> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i].binding = i;
         bindings[i].descriptorType =
@@ -134,7 +139,7 @@ void ResidentView::make_set() {
     require(gpu_.vkCreateSampler(gpu_.device(), &sampler, nullptr, &sampler_), "vkCreateSampler");
     gpu_.at_end([this] { gpu_.vkDestroySampler(gpu_.device(), sampler_, nullptr); });
     const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}}};
+        {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = 1;
@@ -226,11 +231,14 @@ VkPipeline ResidentView::make_pipeline(std::span<const std::uint32_t> vertex,
     return pipeline;
 }
 
-void ResidentView::bind(const ResidentField& field, const ResidentRecords& contacts) const {
+void ResidentView::bind(const Subject& subject) const {
+    const auto& [field, contacts, overlap] = subject;
     const std::array<VkDescriptorImageInfo, 2> images{
         {{sampler_, field.signed_distance.view, field.state.layout},
          {sampler_, field.feature.view, field.state.layout}}};
-    const VkDescriptorBufferInfo buffer{contacts.buffer, contacts.offset, contacts.size};
+    const std::array<VkDescriptorBufferInfo, 2> buffers{
+        {{contacts.buffer, contacts.offset, contacts.size},
+         {overlap.buffer, overlap.offset, overlap.size}}};
     std::array<VkWriteDescriptorSet, 2> writes{};
     for (VkWriteDescriptorSet& write : writes) {
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
@@ -240,53 +248,65 @@ void ResidentView::bind(const ResidentField& field, const ResidentRecords& conta
     writes[0].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     writes[0].pImageInfo = images.data();
     writes[1].dstBinding = 2;
-    writes[1].descriptorCount = 1;
+    writes[1].descriptorCount = static_cast<std::uint32_t>(buffers.size());
     writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    writes[1].pBufferInfo = &buffer;
+    writes[1].pBufferInfo = buffers.data();
     gpu_.vkUpdateDescriptorSets(gpu_.device(), static_cast<std::uint32_t>(writes.size()),
                                 writes.data(), 0, nullptr);
 }
 
-Picture ResidentView::draw(const ResidentField& field, const ResidentRecords& contacts,
-                           const Shot& shot) {
-    bind(field, contacts);
+void ResidentView::record(VkCommandBuffer commands, const Subject& subject,
+                          const Shot& shot) const {
+    const auto& [field, contacts, overlap] = subject;
     const auto narrow = [](double number) { return static_cast<float>(number); };
     const Push push{
         {narrow(shot.low.x - field.origin.x), narrow(shot.low.y - field.origin.y)},
         {narrow(shot.low.x - contacts.origin.x), narrow(shot.low.y - contacts.origin.y)},
+        {narrow(shot.low.x - overlap.origin.x), narrow(shot.low.y - overlap.origin.y)},
         {static_cast<float>(extent_.width), static_cast<float>(extent_.height)},
         narrow(shot.step),
         narrow(field.cell),
         {static_cast<std::int32_t>(field.width), static_cast<std::int32_t>(field.height)},
         narrow(shot.arrow_length),
         narrow(shot.line_spacing)};
+    VkRenderPassBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+    begin.renderPass = render_pass_;
+    begin.framebuffer = framebuffer_;
+    begin.renderArea = {{0, 0}, extent_};
+    gpu_.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    gpu_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set_, 0,
+                                 nullptr);
+    gpu_.vkCmdPushConstants(commands, layout_, both_stages, 0, sizeof(push), &push);
+    const auto draw = [&](VkPipeline pipeline, std::uint32_t vertices, std::uint32_t instances) {
+        gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+        gpu_.vkCmdDraw(commands, vertices, instances, 0, 0);
+    };
+    draw(field_pipeline_, 3, 1);
+    draw(samples_pipeline_, 6, overlap.capacity);
+    draw(arrows_pipeline_, 9, contacts.capacity);
+    gpu_.vkCmdEndRenderPass(commands);
+}
+
+void ResidentView::record_copy(VkCommandBuffer commands) const {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {extent_.width, extent_.height, 1};
+    gpu_.vkCmdCopyImageToBuffer(commands, target_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                pixels_.buffer, 1, &region);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    gpu_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                              0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+Picture ResidentView::draw(const Subject& subject, const Shot& shot) {
+    bind(subject);
     gpu_.submit([&](VkCommandBuffer commands) {
-        VkRenderPassBeginInfo begin{};
-        begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-        begin.renderPass = render_pass_;
-        begin.framebuffer = framebuffer_;
-        begin.renderArea = {{0, 0}, extent_};
-        gpu_.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
-        gpu_.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1,
-                                     &set_, 0, nullptr);
-        gpu_.vkCmdPushConstants(commands, layout_, both_stages, 0, sizeof(push), &push);
-        gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, field_pipeline_);
-        gpu_.vkCmdDraw(commands, 3, 1, 0, 0);
-        gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, arrows_pipeline_);
-        gpu_.vkCmdDraw(commands, 9, contacts.capacity, 0, 0);
-        gpu_.vkCmdEndRenderPass(commands);
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {extent_.width, extent_.height, 1};
-        gpu_.vkCmdCopyImageToBuffer(commands, target_.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                    pixels_.buffer, 1, &region);
-        VkMemoryBarrier barrier{};
-        barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-        barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-        barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-        gpu_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                  VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                                  nullptr);
+        record(commands, subject, shot);
+        record_copy(commands);
     });
     gpu_.finish();
     Picture picture{extent_.width, extent_.height, {}};

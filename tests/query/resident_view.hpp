@@ -25,8 +25,8 @@ struct Picture {
     void write(const std::string& path) const;
 };
 
-/// A host's own renderer: a render pass and two pipelines whose shaders read what nearfield left on
-/// the device. It sees nothing of what comes back to the CPU.
+/// A host's own renderer: a render pass and three pipelines whose shaders read what nearfield left
+/// on the device. It sees nothing of what comes back to the CPU.
 class ResidentView {
 public:
     ResidentView(const HostDevice& host, VkExtent2D pixels);
@@ -37,8 +37,13 @@ public:
         double arrow_length = 0.0;  ///< world units
         double line_spacing = 0.0;
     };
-    [[nodiscard]] Picture draw(const ResidentField& field, const ResidentRecords& contacts,
-                               const Shot& shot);
+    /// What there is to draw.
+    struct Subject {
+        ResidentField field;
+        ResidentRecords contacts;
+        ResidentSamples overlap;
+    };
+    [[nodiscard]] Picture draw(const Subject& subject, const Shot& shot);
 
 private:
     void make_render_pass();
@@ -47,7 +52,9 @@ private:
     void make_set();
     [[nodiscard]] VkPipeline make_pipeline(std::span<const std::uint32_t> vertex,
                                            std::span<const std::uint32_t> fragment);
-    void bind(const ResidentField& field, const ResidentRecords& contacts) const;
+    void bind(const Subject& subject) const;
+    void record(VkCommandBuffer commands, const Subject& subject, const Shot& shot) const;
+    void record_copy(VkCommandBuffer commands) const;
 
     test_support::HostGpu gpu_;
     VkExtent2D extent_;
@@ -59,6 +66,7 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     VkPipeline field_pipeline_ = VK_NULL_HANDLE;
+    VkPipeline samples_pipeline_ = VK_NULL_HANDLE;
     VkPipeline arrows_pipeline_ = VK_NULL_HANDLE;
     test_support::HostGpu::Buffer pixels_;
 };

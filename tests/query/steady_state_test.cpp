@@ -53,7 +53,8 @@ protected:
     [[nodiscard]] Context& watched() { return *watched_; }
     [[nodiscard]] const Batch& batch() const { return batch_; }
 
-    /// Queries whose results stay on the device: fields first, then penetration.
+    /// Queries whose results stay on the device: fields first, then penetration, contacts and
+    /// intersections.
     [[nodiscard]] Batch resident_batch() const {
         Batch batch;
         DistanceFieldQuery field;
@@ -69,6 +70,11 @@ protected:
             const Instance here{a_, {{5.0, 5.0}, 0.0}};
             batch.add(PenetrationQuery{here, field.b, 0.08, {}, true, technique, true});
             batch.add(ContactQuery{here, field.b, 0.08, 0.05, {}, true, technique, true});
+            for (const IntersectionKind kind :
+                 {IntersectionKind::volume_volume, IntersectionKind::boundary_boundary}) {
+                batch.add(IntersectionQuery{here, field.b, 0.08, kind, true,
+                                            IntersectionStrategy::stencil, technique, true});
+            }
         }
         return batch;
     }
@@ -240,7 +246,8 @@ TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
         const Expected<Ticket> ticket = watched().submit(batch);
         const bool handed_over =
             ticket.ok() && watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).ok() &&
-            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).ok();
+            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).ok() &&
+            watched().resident(*ticket, QueryHandle<IntersectionQuery>{4}).ok();
         const bool ok =
             handed_over && (former == Ticket{} || watched().collect(former, results).ok());
         former = ticket.ok() ? *ticket : Ticket{};

@@ -31,7 +31,5 @@ void main() {
     vec2 corner = view.arrow_length * corners[gl_VertexIndex];
     vec2 across = vec2(-record.normal.y, record.normal.x);
     vec2 place = record.point + corner.x * record.normal + corner.y * across;
-    vec2 pixel = (place - view.records_low) / view.step;
-    gl_Position = vec4(2.0 * pixel.x / view.pixels.x - 1.0,
-                       1.0 - 2.0 * pixel.y / view.pixels.y, 0.0, 1.0);
+    gl_Position = in_picture(place - view.records_low);
 }

@@ -1,8 +1,9 @@
-// What both of a host's shaders know of the picture: y up in the world, down in the picture.
+// What all of a host's shaders know of the picture: y up in the world, down in the picture.
 
 layout(push_constant) uniform View {
     vec2 field_low;      // low corner of the picture from the field's origin, world units
     vec2 records_low;    // the same from the records' origin
+    vec2 samples_low;    // and from the samples'
     vec2 pixels;         // of the picture
     float step;          // world units a pixel
     float cell;          // side of the field's cells
@@ -10,3 +11,9 @@ layout(push_constant) uniform View {
     float arrow_length;  // world units
     float line_spacing;  // world units from one line of equal distance to the next
 } view;
+
+// Of a place from the low corner of the picture, for a vertex.
+vec4 in_picture(vec2 place) {
+    vec2 pixel = place / view.step;
+    return vec4(2.0 * pixel.x / view.pixels.x - 1.0, 1.0 - 2.0 * pixel.y / view.pixels.y, 0.0, 1.0);
+}

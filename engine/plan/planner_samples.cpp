@@ -1,0 +1,61 @@
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/planner.hpp>
+#include <nearfield/resident.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace nearfield::plan {
+namespace {
+
+// What a sample may take on the host: in the result and in the buffers on the way there.
+constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
+
+// What a cell takes whose sample is to stay on the device: its hit, or its run of edges, and room
+// for the sample.
+constexpr double bytes_per_resident_cell = sizeof(std::uint32_t) + sizeof(IntersectionSampleData);
+
+double cells_of(const std::vector<Grid>& grids) {
+    double cells = 0.0;
+    for (const Grid& grid : grids) {
+        cells += grid.cells();
+    }
+    return cells;
+}
+
+}  // namespace
+
+/// Of an intersection with the query's grids, but for bit masks.
+double Planner::bytes_of_samples(const IntersectionQuery& query) const {
+    const double cells = cells_of(grids_);
+    const bool stay = query.resident && query.resident_samples;
+    return (query.records ? bytes_per_sample * cells : bytes_of_tiles()) +
+           (stay ? bytes_per_resident_cell * cells : 0.0);
+}
+
+/// There is room for every cell or none at all: what does not fit is refused before any work.
+bool Planner::check_resident(const IntersectionQuery& query, IntersectionResult& result) {
+    const double cells = cells_of(grids_);
+    const double most_counted = UINT32_MAX;
+    const double room =
+        static_cast<double>(limits_.largest_range - sizeof(IntersectionSummaryData)) /
+        sizeof(IntersectionSampleData);
+    const double most = query.resident_samples ? std::min(room, most_counted) : most_counted;
+    if (cells <= most) {
+        return true;
+    }
+    result.status = {
+        StatusCode::too_large,
+        std::string("an intersection whose ") + (query.resident_samples ? "samples" : "summary") +
+            (query.resident_samples ? " are" : " is") + " to stay on the device has " +
+            number(cells) + " cells, more than the " + number(std::floor(most)) +
+            (query.resident_samples
+                 ? " that a storage buffer of this device has room for; use a larger tolerance, or "
+                   "leave the samples out (resident_samples)"
+                 : " that it can count; use a larger tolerance")};
+    return false;
+}
+
+}  // namespace nearfield::plan

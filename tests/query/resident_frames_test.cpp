@@ -1,0 +1,201 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/resident_test.hpp>
+
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t frame_seed = 8100;
+
+TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
+    Random random(frame_seed);
+    const Pair shapes{
+        {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
+    Settings settings;
+    settings.frames_in_flight = 2;
+    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    ASSERT_TRUE(made.ok()) << made.status().text();
+    const PlacedPair pair(*made, shapes, Technique::raster);
+    struct Frame {
+        Ticket ticket;
+        QueryHandle<DistanceFieldQuery> field;
+        QueryHandle<PenetrationQuery> depths;
+    };
+    const auto submit = [&](int number) {
+        Batch batch;
+        DistanceFieldQuery field = field_of(pair, on_device[static_cast<std::size_t>(number % 2)]);
+        field.b.pose.translation.x = 0.01 * number;
+        PenetrationQuery depths = pair.penetration();
+        depths.b.pose.translation.x = 0.01 * number;
+        depths.resident = true;
+        Frame frame;
+        frame.field = batch.add(field);
+        frame.depths = batch.add(depths);
+        const Expected<Ticket> ticket = made->submit(batch);
+        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
+        frame.ticket = ticket.ok() ? *ticket : Ticket{};
+        return frame;
+    };
+    Frame former = submit(0);
+    for (int number = 1; number < 8; ++number) {
+        const Frame next = submit(number);
+        const Expected<ResidentField> field = made->resident(former.ticket, former.field);
+        const Expected<ResidentRecords> records = made->resident(former.ticket, former.depths);
+        ASSERT_TRUE(field.ok() && records.ok());
+        const FieldContents contents = contents_of(*field);
+        const RecordsContents depths = contents_of(*records);
+        Results results;
+        ASSERT_TRUE(made->collect(former.ticket, results).ok());
+        check_field(pair, *field, contents, results[former.field]);
+        ASSERT_GT(depths.records.size(), 10U);
+        EXPECT_EQ(depths.records.size(), results[former.depths].records.size());
+        former = next;
+    }
+    Results results;
+    ASSERT_TRUE(made->collect(former.ticket, results).ok());
+}
+
+TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
+    Random random(frame_seed);
+    const Rings rings = with_holes(random, 3);
+    const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.01};
+    for (const Technique technique : on_device) {
+        // With a context of its own: the samples of the intersection, most cells of its regions,
+        // find no room in the first submission, and their rounds are submitted again.
+        Expected<Context> made = Context::create(host_device(), drawing());
+        ASSERT_TRUE(made.ok()) << made.status().text();
+        const PlacedPair pair(*made, shapes, technique);
+        const auto ask_all = [&](bool resident, std::size_t& records) {
+            DistanceFieldQuery field = field_of(pair, technique);
+            field.resident = resident;
+            const std::vector<Vector2> points{field.rectangle->min};
+            PenetrationQuery depths = pair.penetration();
+            depths.resident = resident;
+            ContactQuery contacts = pair.contacts(0.05);
+            contacts.resident = resident;
+            Batch batch;
+            IntersectionQuery overlap = pair.intersection(IntersectionKind::volume_volume);
+            overlap.resident = resident;
+            batch.add(overlap);
+            batch.add(field);
+            const auto of_depths = batch.add(depths);
+            batch.add(contacts);
+            field.resident = false;
+            field.points = points;
+            batch.add(field);
+            Results results;
+            const Expected<Ticket> ticket = made->submit(batch);
+            EXPECT_TRUE(ticket.ok()) << ticket.status().text();
+            EXPECT_TRUE(made->collect(*ticket, results).ok());
+            records = results[of_depths].records.size();
+            return all_numbers(results);
+        };
+        std::size_t with = 0;
+        std::size_t without = 0;
+        const std::vector<double> first = ask_all(true, with);
+        EXPECT_EQ(first, ask_all(false, without));
+        EXPECT_GT(with, 50U);
+    }
+}
+
+TEST_F(Resident, ImagesOnlyGrow) {
+    Random random(frame_seed);
+    const Pair shapes{
+        {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
+    Settings settings;
+    settings.frames_in_flight = 1;
+    Expected<Context> made = Context::create(host_device(), drawing(settings));
+    ASSERT_TRUE(made.ok()) << made.status().text();
+    const PlacedPair pair(*made, shapes, Technique::raster);
+    DistanceFieldQuery query = field_of(pair, Technique::raster);
+    VkImage former = VK_NULL_HANDLE;
+    for (const double width : {1.0, 0.5, 1.0, 1.5}) {
+        query.rectangle = Rectangle{{-0.5, -0.5}, {-0.5 + width, 0.5}};
+        ResidentField field;
+        FieldContents contents;
+        const DistanceFieldResult result = ask(*made, query, [&](const ResidentField& resident) {
+            field = resident;
+            contents = contents_of(resident);
+        });
+        check_field(pair, field, contents, result);
+        EXPECT_GE(field.image_extent.width, field.width);
+        if (former != VK_NULL_HANDLE && width <= 1.0) {
+            EXPECT_EQ(field.signed_distance.image, former);
+        }
+        former = field.signed_distance.image;
+    }
+}
+
+TEST_F(Resident, RefusesByName) {
+    const ShapeHandle shape = context().add_shape(regular(5)).value();
+    const Instance here{shape, {}};
+    PenetrationQuery depths{here, here, 0.1};
+    PenetrationQuery by_cpu = depths;
+    by_cpu.technique = Technique::cpu;
+    by_cpu.resident = true;
+    ContactQuery gradients{here, here, 0.1, 0.1, ContactNormals::gradient};
+    gradients.resident = true;
+    DistanceFieldQuery field;
+    field.b = here;
+    field.tolerance = 0.1;
+    field.rectangle = Rectangle{{0.0, 0.0}, {1.0, 1.0}};
+    field.resident = true;
+    DistanceFieldQuery huge = field;
+    huge.rectangle = Rectangle{{0.0, 0.0}, {40000.0, 1.0}};
+    huge.tolerance = 0.5;
+    DistanceFieldQuery far = field;
+    far.rectangle = Rectangle{{300000.0, 0.0}, {300001.0, 1.0}};
+
+    Batch batch;
+    const auto not_resident = batch.add(depths);
+    const auto of_cpu = batch.add(by_cpu);
+    const auto of_gradients = batch.add(gradients);
+    const auto of_huge = batch.add(huge);
+    const auto of_far = batch.add(far);
+    const auto good = batch.add(field);
+    const Expected<Ticket> ticket = context().submit(batch);
+    ASSERT_TRUE(ticket.ok()) << ticket.status().text();
+    const auto expect = [](const auto& answer, StatusCode code, const char* words) {
+        EXPECT_FALSE(answer.ok());
+        EXPECT_EQ(answer.status().code(), code) << answer.status().text();
+        EXPECT_NE(answer.status().message().find(words), std::string::npos)
+            << answer.status().text();
+    };
+    EXPECT_TRUE(context().resident(*ticket, good).ok());
+    expect(context().resident(*ticket, not_resident), StatusCode::invalid_query, "did not ask");
+    expect(context().resident(*ticket, of_cpu), StatusCode::invalid_query, "technique cpu");
+    expect(context().resident(*ticket, of_gradients), StatusCode::invalid_query, "analytic");
+    expect(context().resident(*ticket, of_huge), StatusCode::too_large, "an image of this device");
+    expect(context().resident(*ticket, of_far), StatusCode::invalid_query, "single precision");
+    expect(context().resident(*ticket, QueryHandle<PenetrationQuery>{99}),
+           StatusCode::invalid_query, "none of the batch");
+    expect(context().resident(*ticket, QueryHandle<PenetrationQuery>{good.index}),
+           StatusCode::invalid_query, "another kind");
+    expect(context().resident(Ticket{}, good), StatusCode::unknown_ticket, "ticket");
+    Results results;
+    ASSERT_TRUE(context().collect(*ticket, results).ok());
+    EXPECT_EQ(results[of_cpu].status.code(), StatusCode::invalid_query);
+    expect(context().resident(*ticket, good), StatusCode::unknown_ticket, "ticket");
+    EXPECT_TRUE(context().remove_shape(shape).ok());
+}
+
+TEST_F(Resident, AutomaticAnswersOnTheDevice) {
+    // With costs by which the CPU is always the fastest.
+    Settings settings;
+    constexpr WorkCost dear{1.0, 1.0, 1.0};
+    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
+    settings.costs = CostModel{too_dear, too_dear, {}};
+    Expected<Context> made = Context::create(host_device(), settings);
+    ASSERT_TRUE(made.ok()) << made.status().text();
+    const ShapeHandle shape = made->add_shape(regular(5)).value();
+    PenetrationQuery query{{shape, {}}, {shape, {{0.3, 0.0}, 0.1}}, 0.1};
+    EXPECT_EQ(run_alone(*made, query).technique, Technique::cpu);
+    query.resident = true;
+    const PenetrationResult result = run_alone(*made, query);
+    EXPECT_TRUE(result.status.ok()) << result.status.text();
+    EXPECT_NE(result.technique, Technique::cpu);
+}
+
+}  // namespace
+}  // namespace nearfield::test

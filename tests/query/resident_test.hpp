@@ -1,0 +1,69 @@
+#pragma once
+
+#include <tests/query/pair.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/query/resident_reader.hpp>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace nearfield::test {
+
+inline constexpr std::array<Technique, 2> on_device{Technique::raster, Technique::compute};
+
+/// Looks at what stays on the device.
+class Resident : public QueryTest {
+protected:
+    void SetUp() override {
+        QueryTest::SetUp();
+        reader_ = std::make_unique<ResidentReader>(host_device());
+    }
+    void TearDown() override {
+        reader_.reset();
+        QueryTest::TearDown();
+    }
+
+    [[nodiscard]] ResidentReader& reader() { return *reader_; }
+
+    /// Submits a batch of one query and reads what it leaves on the device before it is collected.
+    template <class Query, class Read>
+    typename ResultOf<Query>::type ask(Context& context, const Query& query, Read&& read) {
+        Batch batch;
+        const auto handle = batch.add(query);
+        Results results;
+        const Expected<Ticket> ticket = context.submit(batch);
+        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
+        if (ticket.ok()) {
+            const auto resident = context.resident(*ticket, handle);
+            EXPECT_TRUE(resident.ok()) << resident.status().text();
+            if (resident.ok()) {
+                read(*resident);
+            }
+            const Status status = context.collect(*ticket, results);
+            EXPECT_TRUE(status.ok()) << status.text();
+        }
+        return results.results.empty() ? typename ResultOf<Query>::type() : results[handle];
+    }
+
+    FieldContents contents_of(const ResidentField& field) { return reader().read(field); }
+    RecordsContents contents_of(const ResidentRecords& records) { return reader().read(records); }
+    SamplesContents contents_of(const ResidentSamples& samples) { return reader().read(samples); }
+
+private:
+    std::unique_ptr<ResidentReader> reader_;
+};
+
+[[nodiscard]] double distance_between(const Vector2& a, const Vector2& b);
+
+/// A feature may be named another way only where both are as near: at a vertex.
+[[nodiscard]] bool same_place(const oracle::ShapeOracle& shape, const Feature& a, const Feature& b,
+                              const Vector2& point, double allowed);
+
+/// Of the pair's B, some of it that has both sides; it stays on the device.
+[[nodiscard]] DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique);
+/// What stays has to be what came back.
+void check_field(const PlacedPair& pair, const ResidentField& field, const FieldContents& contents,
+                 const DistanceFieldResult& result);
+
+}  // namespace nearfield::test
