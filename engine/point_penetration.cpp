@@ -32,7 +32,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         return;
     }
     complete_if_near(pair, instances);
-    const bool reversed = pair.is_reverse_of(last_.index);
+    const bool reversed = last_.query + 1 == &query && pair.is_reverse_of(last_.index);
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
         if (a.box.intersects(b.box)) {
@@ -50,7 +50,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         result.intersects =
             result.intersects || reversed || meeting_.intersect_without_vertex_inside(a, b);
     }
-    last_ = {pair, result.intersects};
+    last_ = {&query, pair, result.intersects};
 }
 
 EdgeArrays PointPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {

@@ -31,9 +31,10 @@ public:
                 PenetrationResult& result);
 
 private:
-    /// The pair last asked about. Who asks both ways asks so in turn, and whether shapes meet is
-    /// the same both ways.
+    /// The pair asked about by the query before. Who asks both ways asks so in turn, and whether
+    /// shapes meet is the same both ways.
     struct Pair {
+        const plan::PlannedQuery* query = nullptr;
         InstancePairIndex index;
         bool intersects = false;
     };
