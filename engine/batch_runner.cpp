@@ -28,7 +28,7 @@ BatchRunner::BatchRunner(Planning& planning, const char* gradient_format, Render
     : planning_(&planning),
       renderer_(&renderer),
       slot_(renderer.make_slot()),
-      decoder_(gradient_format) {}
+      decoder_(gradient_format, planning.answers) {}
 
 void BatchRunner::copy(std::span<const AnyQuery> queries) {
     queries_.assign(queries.begin(), queries.end());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/answer_jobs.hpp>
 #include <engine/choose/chooser.hpp>
 #include <engine/hand_over_builder.hpp>
 #include <engine/plan/hand_over.hpp>
@@ -19,15 +20,16 @@
 
 namespace nearfield {
 
-/// What makes rounds of queries. Its scratch memory serves one batch after the other: nothing of it
-/// is needed once a batch is submitted.
+/// What makes rounds of queries, and answers. Its scratch memory serves one batch after the other:
+/// nothing of it is needed once a batch is submitted, or once its answers are made.
 struct Planning {
     choose::Chooser chooser;
     plan::Planner planner;
     plan::RoundBuilder builder;
+    AnswerJobs answers;
 
-    Planning(const plan::PlanLimits& limits, const CostModel& costs)
-        : chooser(costs), planner(limits), builder(limits.subpixel) {}
+    Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
+        : chooser(costs), planner(limits), builder(limits.subpixel), answers(jobs) {}
 };
 
 /// One batch from queries to results, in two steps: what is done up to its submission, and what is

@@ -57,6 +57,7 @@ Settings checked(const Settings& given) {
                                                          "; it must be at least 1 and at most " +
                                                          std::to_string(most_frames_in_flight)});
     }
+    AnswerJobs::check(settings.jobs);
     return settings;
 }
 
@@ -79,7 +80,7 @@ public:
           device_(host),
           costs_(costs_of(device_, settings)),
           renderer_(device_),
-          ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_,
+          ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_, settings.jobs,
                 gradient_format(device_), renderer_, shapes_) {
         device_.log(LogLevel::information, [&] {
             return "context on '" + device_.name() + "' made in " +

@@ -21,16 +21,14 @@ double reach_of(const plan::PlannedQuery& query) {
 
 }  // namespace
 
-void ExactPoints::answer(const plan::Plan& plan, exact::PlacedInstances& instances,
-                         std::span<std::uint32_t> words) {
-    for (const plan::PlannedQuery& query : plan.queries) {
-        if (query.on_cpu && query.point_count > 0) {
-            const std::uint32_t b = instances.place(*query.b, query.pose_b);
-            if (!exact::is_small(instances[b])) {
-                instances.complete(b);
-            }
-            answer(plan, query, instances[b], words);
+void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query,
+                         exact::PlacedInstances& instances, std::span<std::uint32_t> words) {
+    if (query.point_count > 0) {
+        const std::uint32_t b = instances.place(*query.b, query.pose_b);
+        if (!exact::is_small(instances[b])) {
+            instances.complete(b);
         }
+        answer(plan, query, instances[b], words);
     }
 }
 

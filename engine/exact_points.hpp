@@ -13,10 +13,10 @@ namespace nearfield {
 /// same words, so that what follows is the same for both. Keeps its memory from batch to batch.
 class ExactPoints {
 public:
-    /// Writes the words, by point of the plan, of all queries that the CPU answers. Points that
-    /// are too far to be contacts stay unresolved.
-    void answer(const plan::Plan& plan, exact::PlacedInstances& instances,
-                std::span<std::uint32_t> words);
+    /// Writes the words, by point of the plan, of a query, or a direction of it, that the CPU
+    /// answers. Points that are too far to be contacts stay unresolved.
+    void answer(const plan::Plan& plan, const plan::PlannedQuery& query,
+                exact::PlacedInstances& instances, std::span<std::uint32_t> words);
 
 private:
     void answer(const plan::Plan& plan, const plan::PlannedQuery& query,

@@ -18,7 +18,8 @@ namespace nearfield {
 class FrameRing {
 public:
     FrameRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
-              const char* gradient_format, Renderer& renderer, ShapeStore& shapes);
+              const JobSystem& jobs, const char* gradient_format, Renderer& renderer,
+              ShapeStore& shapes);
 
     /// Throws Failure (ring_full) where there is no room. After any Failure nothing of the batch is
     /// left. `memory`, if given, is swapped for results that the batch will not need.

@@ -21,6 +21,18 @@ struct InstancePairIndex {
     }
 };
 
+[[nodiscard]] inline bool same(const Pose& a, const Pose& b) {
+    return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
+           a.angle == b.angle;
+}
+
+/// True where the second query is about the same instances as the first, the other way round.
+[[nodiscard]] inline bool is_reverse(const plan::PlannedQuery& first,
+                                     const plan::PlannedQuery& second) {
+    return first.a == second.b && first.b == second.a && same(first.pose_a, second.pose_b) &&
+           same(first.pose_b, second.pose_a);
+}
+
 [[nodiscard]] inline InstancePairIndex place_pair(const plan::PlannedQuery& query,
                                                   exact::PlacedInstances& instances) {
     const std::uint32_t a = instances.place(*query.a, query.pose_a);

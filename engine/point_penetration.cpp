@@ -32,7 +32,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         return;
     }
     complete_if_near(pair, instances);
-    const bool reversed = pair.is_reverse_of(last_.index);
+    const bool reversed = last_.query + 1 == &query && pair.is_reverse_of(last_.index);
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
         if (a.box.intersects(b.box)) {
@@ -50,7 +50,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         result.intersects =
             result.intersects || reversed || meeting_.intersect_without_vertex_inside(a, b);
     }
-    last_ = {pair, result.intersects};
+    last_ = {&query, pair, result.intersects};
 }
 
 EdgeArrays PointPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {
@@ -63,7 +63,7 @@ EdgeArrays PointPenetration::edges_beside(const PlacedEdges& a, const PlacedEdge
 void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArrays& beside,
                                         double touching, const PlacedEdges& b,
                                         PenetrationResult& result, bool keep_records) {
-    std::uint32_t deepest = 0;
+    std::size_t deepest = 0;
     exact::NearestPoint way_out;
     way_out.on_edge.squared_distance = 0.0;
     const std::span<const std::uint32_t> inside = find_inside(points, beside, b);
@@ -77,15 +77,16 @@ void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArr
         }
         ++result.count;
         if (keep_records) {
-            result.records.push_back(penetration_record(resolve(b, point, nearest)));
+            result.records.push_back(penetration_record(resolve(b, i, point, nearest)));
         }
         if (squared > way_out.on_edge.squared_distance) {
-            deepest = inside[i];
+            deepest = i;
             way_out = nearest;
         }
     }
     if (result.count > 0) {
-        result.deepest = penetration_record(resolve(b, point_of(points, deepest), way_out));
+        result.deepest =
+            penetration_record(resolve(b, deepest, point_of(points, inside[deepest]), way_out));
     }
 }
 
@@ -123,7 +124,7 @@ exact::NearestPoint PointPenetration::find_nearest(const PlacedEdges& b, std::si
     return {edge, geometry::nearest_on_segment(point, b.start(edge), b.end(edge))};
 }
 
-ResolvedPoint PointPenetration::resolve(const PlacedEdges& b, const Vector& point,
+ResolvedPoint PointPenetration::resolve(const PlacedEdges& b, std::size_t i, const Vector& point,
                                         const exact::NearestPoint& nearest) {
     const double parameter = nearest.on_edge.parameter;
     return {point,
@@ -133,13 +134,26 @@ ResolvedPoint PointPenetration::resolve(const PlacedEdges& b, const Vector& poin
             parameter,
             feature_at(b.placed, nearest.edge, parameter),
             true,
-            is_unique(b, point, nearest)};
+            is_unique(b, i, point, nearest)};
 }
 
-bool PointPenetration::is_unique(const PlacedEdges& b, const Vector& point,
+bool PointPenetration::is_unique(const PlacedEdges& b, std::size_t i, const Vector& point,
                                  const exact::NearestPoint& nearest) {
-    return exact::is_small(b) ? exact::is_unique(near_b_.edges(), point, nearest, margin_)
-                              : boundary_.is_unique(point, nearest, margin_);
+    if (!exact::is_small(b)) {
+        return boundary_.is_unique(point, nearest, margin_);
+    }
+    const exact::NearestEdges& near = nearest_[i];
+    const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin_;
+    const double clearly_farther = exact::beyond_rounding(limit);
+    if (near.second_squared > clearly_farther) {
+        return true;
+    }
+    if (near.third_squared > clearly_farther) {
+        const std::uint32_t edge = near_b_.index(near.second);
+        return !exact::is_rival(geometry::nearest_on_segment(point, b.start(edge), b.end(edge)),
+                                nearest.on_edge, limit);
+    }
+    return exact::is_unique(near_b_.edges(), point, nearest, margin_);
 }
 
 }  // namespace nearfield

@@ -31,9 +31,10 @@ public:
                 PenetrationResult& result);
 
 private:
-    /// The pair last asked about. Who asks both ways asks so in turn, and whether shapes meet is
-    /// the same both ways.
+    /// The pair asked about by the query before. Who asks both ways asks so in turn, and whether
+    /// shapes meet is the same both ways.
     struct Pair {
+        const plan::PlannedQuery* query = nullptr;
         InstancePairIndex index;
         bool intersects = false;
     };
@@ -53,20 +54,22 @@ private:
     /// Of the point that was listed as number i; in order, so that each is near the one before.
     [[nodiscard]] exact::NearestPoint find_nearest(const exact::PlacedEdges& b, std::size_t i,
                                                    const geometry::Vector& point);
-    [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, const geometry::Vector& point,
+    /// Likewise.
+    [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, std::size_t i,
+                                        const geometry::Vector& point,
                                         const exact::NearestPoint& nearest);
-    [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, const geometry::Vector& point,
-                                 const exact::NearestPoint& nearest);
+    [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, std::size_t i,
+                                 const geometry::Vector& point, const exact::NearestPoint& nearest);
 
     exact::Boundary boundary_;  // of B, where it has many edges
     exact::MeetingFinder meeting_;
-    EdgeSamples samples_;                   // of A
-    exact::PickedEdges beside_;             // of a small B
-    EdgesNearPoints near_b_;                // of a small B, near the points inside
-    std::vector<std::uint32_t> inside_;     // points of A
-    std::vector<exact::NearEdge> nearest_;  // to them, of near_b_
-    std::uint32_t near_last_ = 0;           // an edge of B near the last point
-    double margin_ = 0.0;                   // of uniqueness
+    EdgeSamples samples_;                       // of A
+    exact::PickedEdges beside_;                 // of a small B
+    EdgesNearPoints near_b_;                    // of a small B, near the points inside
+    std::vector<std::uint32_t> inside_;         // points of A
+    std::vector<exact::NearestEdges> nearest_;  // to them, of near_b_
+    std::uint32_t near_last_ = 0;               // an edge of B near the last point
+    double margin_ = 0.0;                       // of uniqueness
     Pair last_;
 };
 

@@ -1,6 +1,4 @@
 #include <engine/intersection_samples.hpp>
-#include <engine/localize/overlap.hpp>
-#include <engine/nearest_feature.hpp>
 #include <engine/results.hpp>
 
 #include <algorithm>
@@ -9,29 +7,13 @@
 namespace nearfield {
 namespace {
 
-using geometry::PlacedPolygon;
-using plan::PlannedQuery;
 using plan::Tile;
-
-/// Counts what it takes among the result's statistics.
-bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
-    localize::Effort effort;
-    const bool answer =
-        localize::intersects(PlacedPolygon(*query.a, query.pose_a),
-                             PlacedPolygon(*query.b, query.pose_b), plan.bounding_volume, &effort);
-    result.localization.nodes_evaluated += effort.nodes_evaluated;
-    result.localization.pairs_rejected += effort.pairs_rejected;
-    return answer;
-}
 
 }  // namespace
 
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());
     samples_.clear();
-    instances_.clear();
-    penetration_.begin_batch();
-    simplified_.clear();
     fields_.begin_batch(plan);
 }
 
@@ -65,35 +47,6 @@ void ResultDecoder::add_samples(const plan::Plan& plan, const plan::Round& round
     }
 }
 
-void ResultDecoder::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
-                                       PenetrationResult& result) {
-    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
-    if (planned.edge_by_edge) {
-        penetration_.answer(planned, instances_, result);
-        return;
-    }
-    resolver_.begin(plan, planned);
-    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
-         ++i) {
-        if ((words_[i] & plan::point_inside) == 0) {
-            continue;
-        }
-        const ResolvedPoint resolved = resolver_.resolve(plan.points[i], words_[i]);
-        if (!resolved.inside) {
-            continue;  // it touches the boundary
-        }
-        const PenetrationRecord record = penetration_record(resolved);
-        if (result.count == 0 || record.depth > result.deepest.depth) {
-            result.deepest = record;
-        }
-        ++result.count;
-        if (keep) {
-            result.records.push_back(record);
-        }
-    }
-    result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
-}
-
 void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
     // The device found them in no particular order; the result has one.
     std::sort(samples_.begin(), samples_.end(), [](const FoundSample& i, const FoundSample& j) {
@@ -106,75 +59,12 @@ void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
 }
 
 void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    exact_points_.answer(plan, instances_, words_);
-    finish_queries(plan, true, results);
+    answers_->answer_on_cpu(plan, words_, fields_, results);
 }
 
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     write_drawn_samples(results);
-    finish_queries(plan, false, results);
-}
-
-void ResultDecoder::finish_queries(const plan::Plan& plan, bool on_cpu,
-                                   std::vector<AnyResult>& results) {
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const PlannedQuery& planned = plan.queries[i];
-        if (planned.on_cpu != on_cpu) {
-            continue;
-        }
-        if (auto* penetration = std::get_if<PenetrationResult>(&results[i])) {
-            if (penetration->status.ok()) {
-                finish_penetration(plan, planned, *penetration);
-            }
-        } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
-            if (intersection->status.ok()) {
-                if (planned.on_cpu) {
-                    overlaps_.answer(plan, planned, simplified_, *intersection);
-                }
-                intersection->area = static_cast<double>(intersection->count) * intersection->cell *
-                                     intersection->cell;
-                intersection->intersects = shapes_intersect(plan, planned, *intersection);
-            }
-        } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
-            if (field->status.ok()) {
-                field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
-                const auto query = static_cast<std::uint32_t>(i);
-                if (planned.on_cpu) {
-                    fields_.set_largest(query,
-                                        exact_fields_.answer(plan, planned, simplified_, *field));
-                }
-                fields_.finish(planned, query, *field);
-            }
-        } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
-            if (contact->status.ok()) {
-                if (std::get<ContactQuery>(*planned.query).normals == ContactNormals::analytic) {
-                    contacts_.find(plan, planned, words_, contact->cell);
-                    contacts_.write(planned, *contact);
-                }
-                contact->intersects = shapes_intersect(plan, planned, *contact);
-            }
-        } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {
-            if (closest->status.ok()) {
-                closest_.decode(plan, planned, words_, instances_, *closest);
-            }
-        } else if (auto* separation = std::get_if<SeparationResult>(&results[i])) {
-            if (separation->status.ok()) {
-                closest_.decode(plan, planned, words_, instances_, *separation);
-            }
-        } else if (auto* test = std::get_if<IntersectionTestResult>(&results[i])) {
-            if (test->status.ok()) {
-                intersection_test_.answer(planned, instances_, *test);
-            }
-        } else if (auto* impact = std::get_if<TimeOfImpactResult>(&results[i])) {
-            if (impact->status.ok()) {
-                time_of_impact_.answer(planned, *impact);
-            }
-        } else if (auto* vector = std::get_if<SeparationVectorResult>(&results[i])) {
-            if (vector->status.ok()) {
-                separation_vector_.answer(planned, instances_, *vector);
-            }
-        }
-    }
+    answers_->finish(plan, words_, fields_, results);
 }
 
 }  // namespace nearfield

@@ -1,19 +1,9 @@
 #pragma once
 
-#include <engine/closest.hpp>
-#include <engine/contacts.hpp>
-#include <engine/exact/placed_edges.hpp>
-#include <engine/exact_field.hpp>
-#include <engine/exact_overlap.hpp>
-#include <engine/exact_points.hpp>
+#include <engine/answer_jobs.hpp>
 #include <engine/field_results.hpp>
-#include <engine/intersection_test.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/round.hpp>
-#include <engine/point_penetration.hpp>
-#include <engine/point_resolver.hpp>
-#include <engine/separation_vector.hpp>
-#include <engine/time_of_impact.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
@@ -25,7 +15,9 @@ namespace nearfield {
 /// Decodes what came back from the device, round by round, and makes it exact in double precision.
 class ResultDecoder {
 public:
-    explicit ResultDecoder(const char* gradient_format) : fields_(gradient_format) {}
+    /// The jobs are shared with other decoders and must outlive this one.
+    ResultDecoder(const char* gradient_format, AnswerJobs& answers)
+        : answers_(&answers), fields_(gradient_format) {}
 
     void begin_batch(const plan::Plan& plan);
 
@@ -59,27 +51,12 @@ private:
         IntersectionSample sample;
     };
 
-    void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                            PenetrationResult& result);
-    /// Of the queries that the CPU answers, or of the others.
-    void finish_queries(const plan::Plan& plan, bool on_cpu, std::vector<AnyResult>& results);
     void write_drawn_samples(std::vector<AnyResult>& results);
 
-    PointResolver resolver_;
-    ExactField exact_fields_;
-    ContactDecoder contacts_;
+    AnswerJobs* answers_;
     std::vector<std::uint32_t> words_;  // by point of the plan
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;
-    exact::PlacedInstances instances_;  // of the batch, as far as the CPU alone answers
-    ExactPoints exact_points_;
-    plan::SimplifiedShapes simplified_;  // of what the CPU answers
-    ExactOverlap overlaps_;
-    IntersectionTest intersection_test_;
-    TimeOfImpact time_of_impact_;
-    SeparationVector separation_vector_;
-    PointPenetration penetration_;
-    ClosestDecoder closest_;
 };
 
 }  // namespace nearfield

@@ -73,7 +73,7 @@ bool Boundary::is_unique(const Vector& point, const NearestPoint& nearest, doubl
     const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin;
     // What is clearly farther needs no closer look.
     const std::uint32_t count = kernels::find_edges_within(*tree_, point.x(), point.y(),
-                                                           1.001 * limit * limit, near_.data());
+                                                           beyond_rounding(limit), near_.data());
     if (count <= 1) {
         return true;  // none but the nearest
     }

@@ -26,6 +26,11 @@ struct NearestPoint {
            (other.point - nearest.point).squaredNorm() > 4.0 * along_wall;
 }
 
+/// A squared distance that is clearly more than a limit, whatever the kernels rounded.
+[[nodiscard]] inline double beyond_rounding(double limit) {
+    return 1.001 * limit * limit;
+}
+
 /// Exact answers about single points and one boundary, in double precision, from boxes over its
 /// edges: the time grows with what lies near, not with the shape. Keeps its memory from polygon to
 /// polygon.

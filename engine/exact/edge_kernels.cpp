@@ -1,5 +1,6 @@
 #include <engine/exact/edge_kernels.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -54,14 +55,53 @@ bool Contain(const EdgeArrays& edges, double point_x, double point_y) {
     return (std::popcount(bits_of(are_negative(odd))) & 1) != 0;
 }
 
+/// Fewer points are quicker held against several edges at once than several points against one.
+constexpr std::uint32_t few_points = 4;
+
+/// As many listed points as there are lanes; of fewer the last one fills the rest.
+struct PointLanes {
+    Lanes x;
+    Lanes y;
+
+    HWY_INLINE PointLanes(const PointArrays& points, const std::uint32_t* listed,
+                          std::uint32_t count) {
+        const Tag tag;
+        HWY_ALIGN double of_x[most_lanes];
+        HWY_ALIGN double of_y[most_lanes];
+        for (std::uint32_t i = 0; i < hn::Lanes(tag); ++i) {
+            const std::uint32_t point = listed[i < count ? i : count - 1];
+            of_x[i] = points.x[point];
+            of_y[i] = points.y[point];
+        }
+        x = hn::Load(tag, of_x);
+        y = hn::Load(tag, of_y);
+    }
+};
+
 std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,
                                const EdgeArrays& edges, std::uint32_t* found) {
+    const Tag tag;
     const std::uint32_t in_box = FindPointsIn(points, box, found);
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < in_box; ++i) {
-        const std::uint32_t point = found[i];
-        found[count] = point;
-        count += Contain(edges, points.x[point], points.y[point]) ? 1U : 0U;
+    for (std::uint32_t i = 0; i < in_box;) {
+        if (in_box - i <= few_points) {
+            const std::uint32_t point = found[i++];
+            found[count] = point;
+            count += Contain(edges, points.x[point], points.y[point]) ? 1U : 0U;
+            continue;
+        }
+        const auto together = std::min(in_box - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
+        const PointLanes lanes(points, found + i, together);
+        Lanes odd = hn::Zero(tag);
+        for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, edge), lanes.x, lanes.y));
+        }
+        const std::uint32_t inside = bits_of(are_negative(odd));
+        for (std::uint32_t k = 0; k < together; ++k) {
+            found[count] = found[i + k];
+            count += inside >> k & 1U;
+        }
+        i += together;
     }
     return count;
 }
@@ -94,10 +134,66 @@ NearEdge FindNearest(const EdgeArrays& edges, double point_x, double point_y) {
     return found;
 }
 
+/// Of several points at once, one edge after the other.
+class NearestOfLanes {
+public:
+    HWY_INLINE NearestOfLanes()
+        : first_(hn::Set(Tag(), std::numeric_limits<double>::infinity())),
+          second_(first_),
+          third_(first_),
+          first_edge_(hn::Zero(Tag())),
+          second_edge_(hn::Zero(Tag())) {}
+
+    HWY_INLINE void Look(Lanes squared, Lanes edge) {
+        const LaneMask nearest = hn::Lt(squared, first_);
+        const LaneMask second = hn::Lt(squared, second_);
+        third_ = hn::Min(third_, hn::Max(second_, squared));
+        second_ = hn::Min(second_, hn::Max(first_, squared));
+        first_ = hn::Min(first_, squared);
+        second_edge_ =
+            hn::IfThenElse(nearest, first_edge_, hn::IfThenElse(second, edge, second_edge_));
+        first_edge_ = hn::IfThenElse(nearest, edge, first_edge_);
+    }
+
+    HWY_INLINE void Write(std::uint32_t count, NearestEdges* nearest) const {
+        const Tag tag;
+        HWY_ALIGN double values[4][most_lanes];
+        hn::Store(first_edge_, tag, values[0]);
+        hn::Store(second_edge_, tag, values[1]);
+        hn::Store(second_, tag, values[2]);
+        hn::Store(third_, tag, values[3]);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            nearest[i] = {static_cast<std::uint32_t>(values[0][i]),
+                          static_cast<std::uint32_t>(values[1][i]), values[2][i], values[3][i]};
+        }
+    }
+
+private:
+    Lanes first_;
+    Lanes second_;
+    Lanes third_;
+    Lanes first_edge_;
+    Lanes second_edge_;
+};
+
 void FindNearestOf(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                   const EdgeArrays& edges, NearEdge* nearest) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        nearest[i] = FindNearest(edges, points.x[listed[i]], points.y[listed[i]]);
+                   const EdgeArrays& edges, NearestEdges* nearest) {
+    const Tag tag;
+    for (std::uint32_t i = 0; i < count;) {
+        if (count - i <= few_points) {
+            nearest[i] = {FindNearest(edges, points.x[listed[i]], points.y[listed[i]]).edge};
+            ++i;
+            continue;
+        }
+        const auto together = std::min(count - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
+        const PointLanes lanes(points, listed + i, together);
+        NearestOfLanes search;
+        for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+            search.Look(squared_distances(EdgesAlong::Same(edges, edge), lanes.x, lanes.y),
+                        hn::Set(tag, static_cast<double>(edge)));
+        }
+        search.Write(together, nearest + i);
+        i += together;
     }
 }
 
@@ -220,7 +316,7 @@ NearEdge find_nearest(const EdgeArrays& edges, double x, double y) {
 }
 
 void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                     const EdgeArrays& edges, NearEdge* nearest) {
+                     const EdgeArrays& edges, NearestEdges* nearest) {
     HWY_DYNAMIC_DISPATCH(FindNearestOf)(points, listed, count, edges, nearest);
 }
 

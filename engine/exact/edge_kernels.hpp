@@ -49,6 +49,15 @@ struct NearEdge {
     double squared = 0.0;
 };
 
+/// The edges nearest to a point, and how far others are: squared distances, up to rounding. Of
+/// edges that were not looked for the distance is 0.
+struct NearestEdges {
+    std::uint32_t edge = 0;    ///< the nearest, of equally near ones the first
+    std::uint32_t second = 0;  ///< the nearest of the others
+    double second_squared = 0.0;
+    double third_squared = 0.0;  ///< no other is nearer
+};
+
 /// An edge of each of two arrays.
 struct EdgePair {
     std::uint32_t first = 0;
@@ -78,9 +87,10 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 /// The edge nearest to a point, of equally near ones the first. At least one edge.
 [[nodiscard]] NearEdge find_nearest(const EdgeArrays& edges, double x, double y);
 
-/// The same of each of the `count` points that `listed` lists.
+/// The edges nearest to each of the `count` points that `listed` lists. Of a few points more than
+/// the nearest is not looked for.
 void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                     const EdgeArrays& edges, NearEdge* nearest);
+                     const EdgeArrays& edges, NearestEdges* nearest);
 
 /// Lists the edges whose squared distance from a point is up to rounding at most `most`.
 [[nodiscard]] std::uint32_t find_edges_within(const EdgeArrays& edges, double x, double y,

@@ -85,6 +85,20 @@ struct EdgeLanes {
           start_y(hn::LoadU(Tag(), edges.start_y + i)),
           end_x(hn::LoadU(Tag(), edges.end_x + i)),
           end_y(hn::LoadU(Tag(), edges.end_y + i)) {}
+
+    /// The ends of one edge in every lane.
+    static HWY_INLINE EdgeLanes Same(const EdgeArrays& edges, std::size_t edge) {
+        const Tag tag;
+        EdgeLanes same;
+        same.start_x = hn::Set(tag, edges.start_x[edge]);
+        same.start_y = hn::Set(tag, edges.start_y[edge]);
+        same.end_x = hn::Set(tag, edges.end_x[edge]);
+        same.end_y = hn::Set(tag, edges.end_y[edge]);
+        return same;
+    }
+
+private:
+    EdgeLanes() = default;
 };
 
 /// Negative in a lane where the ray from a point to the right crosses the edge.
@@ -113,6 +127,18 @@ struct EdgesAlong {
           start_y(hn::LoadU(Tag(), edges.start_y + i)),
           along_x(hn::Sub(hn::LoadU(Tag(), edges.end_x + i), start_x)),
           along_y(hn::Sub(hn::LoadU(Tag(), edges.end_y + i), start_y)) {}
+
+    /// One edge in every lane.
+    static HWY_INLINE EdgesAlong Same(const EdgeArrays& edges, std::size_t edge) {
+        const Tag tag;
+        EdgesAlong same;
+        same.start_x = hn::Set(tag, edges.start_x[edge]);
+        same.start_y = hn::Set(tag, edges.start_y[edge]);
+        same.along_x = hn::Set(tag, edges.end_x[edge] - edges.start_x[edge]);
+        same.along_y = hn::Set(tag, edges.end_y[edge] - edges.start_y[edge]);
+        same.inverse_length = hn::Set(tag, edges.inverse_length[edge]);
+        return same;
+    }
 };
 
 /// Of points to edges, lane by lane.

@@ -3,6 +3,7 @@
 #include <nearfield/cost.hpp>
 #include <nearfield/export.hpp>
 #include <nearfield/host.hpp>
+#include <nearfield/jobs.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/requirements.hpp>
@@ -49,6 +50,9 @@ struct Settings {
     /// What Technique::automatic goes by, as Context::measure_costs found it on this machine. Left
     /// out: what holds for the device's class, see docs/performance.md.
     std::optional<CostModel> costs = std::nullopt;
+    /// Threads of the host for what the CPU answers. What it points to is called for as long as the
+    /// context lives. Left out: the thread that calls does all of it.
+    JobSystem jobs = {};
 };
 
 /// What an intersection strategy would need of a device and the device lacks.

@@ -6,6 +6,7 @@
 #include <nearfield/context.hpp>
 #include <nearfield/curve.hpp>
 #include <nearfield/host.hpp>
+#include <nearfield/jobs.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/requirements.hpp>

@@ -20,6 +20,15 @@ void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
                     "What the techniques cost here, as nearfield calibrate has measured it: what "
                     "the technique automatic goes by; default what is usual for such a device")
         ->type_name("FILE.json");
+    command
+        .add_option_function<std::uint32_t>(
+            "--threads",
+            [&arguments](std::uint32_t count) {
+                arguments.threads = std::make_shared<ThreadTeam>(count);
+            },
+            "Threads for what the CPU answers; default 1")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1U, most_jobs));
 }
 
 Settings parse_settings(const SettingsArguments& arguments) {
@@ -32,6 +41,9 @@ Settings parse_settings(const SettingsArguments& arguments) {
     settings.hierarchy_height = arguments.height.value_or(settings.hierarchy_height);
     if (arguments.costs) {
         settings.costs = read_cost_model(*arguments.costs);
+    }
+    if (arguments.threads) {
+        settings.jobs = arguments.threads->jobs();
     }
     return settings;
 }

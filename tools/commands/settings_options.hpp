@@ -3,8 +3,10 @@
 #include <nearfield/context.hpp>
 
 #include <CLI/CLI.hpp>
+#include <tools/commands/thread_team.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,13 +17,14 @@ struct SettingsArguments {
     std::optional<std::string> boxes;
     std::optional<std::uint32_t> height;
     std::optional<std::string> costs;
+    std::shared_ptr<ThreadTeam> threads;  // null for one
 };
 
-/// Adds the options --boxes, --height and --costs; parsing fills `arguments`, which must outlive
-/// it.
+/// Adds the options --boxes, --height, --costs and --threads; parsing fills `arguments`, which must
+/// outlive it.
 void add_settings_options(CLI::App& command, SettingsArguments& arguments);
 
-/// The settings of a context they ask for. Throws InputError.
+/// The settings of a context they ask for; its threads are those of `arguments`. Throws InputError.
 [[nodiscard]] Settings parse_settings(const SettingsArguments& arguments);
 
 }  // namespace nearfield::tools

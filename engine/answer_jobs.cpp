@@ -1,0 +1,146 @@
+#include <engine/answer_jobs.hpp>
+#include <engine/failure.hpp>
+#include <engine/placed_pair.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace nearfield {
+namespace {
+
+/// About ten microseconds of answers: less is not worth handing over.
+constexpr std::size_t edges_of_a_part = 1024;
+
+std::size_t edges_of(const plan::PlannedQuery& query) {
+    return (query.a == nullptr ? 0 : query.a->size()) + (query.b == nullptr ? 0 : query.b->size());
+}
+
+/// What a query comes to, in edges that are looked at once or twice.
+std::size_t weight_of(const plan::PlannedQuery& query) {
+    if (!query.on_cpu) {
+        return 0;
+    }
+    const bool looks_once = query.edge_by_edge ||
+                            std::holds_alternative<IntersectionTestQuery>(*query.query) ||
+                            std::holds_alternative<SeparationQuery>(*query.query) ||
+                            std::holds_alternative<ClosestPointQuery>(*query.query);
+    return looks_once ? edges_of(query) : edges_of_a_part;
+}
+
+}  // namespace
+
+AnswerJobs::AnswerJobs(const JobSystem& jobs) : system_(jobs) {
+    for (std::uint32_t i = 0; i < std::max(jobs.count, 1U); ++i) {
+        jobs_.push_back(std::make_unique<Job>());
+    }
+}
+
+void AnswerJobs::check(const JobSystem& jobs) {
+    if (jobs.run == nullptr && jobs.count == 0) {
+        return;
+    }
+    const auto refuse = [](const std::string& why) {
+        throw Failure({StatusCode::invalid_settings, "Settings::jobs: " + why});
+    };
+    if (jobs.run == nullptr) {
+        refuse("run is null, and count is " + std::to_string(jobs.count));
+    }
+    if (jobs.count < 1 || jobs.count > most_jobs) {
+        refuse("count is " + std::to_string(jobs.count) + "; it must be at least 1 and at most " +
+               std::to_string(most_jobs));
+    }
+}
+
+/// Into parts worth handing over, by what the batch is alone: where a part ends nothing is told
+/// from the query before.
+void AnswerJobs::divide(const plan::Plan& plan, std::size_t queries) {
+    ends_.clear();
+    std::size_t weight = 0;
+    for (std::size_t i = 0; i < queries; ++i) {
+        weight += weight_of(plan.queries[i]);
+        const bool goes_on = i + 1 < queries && is_reverse(plan.queries[i], plan.queries[i + 1]);
+        if (weight >= edges_of_a_part && !goes_on) {
+            ends_.push_back(i + 1);
+            weight = 0;
+        }
+    }
+    if (weight > 0) {
+        ends_.push_back(queries);
+    }
+}
+
+void AnswerJobs::run(Job& job, std::size_t first_part, std::size_t step, const Work& work) const {
+    for (std::size_t part = first_part; part < ends_.size(); part += step) {
+        const std::size_t first = part == 0 ? 0 : ends_[part - 1];
+        job.answers.write(work.plan, first, ends_[part], true, work.words, work.fields,
+                          work.results);
+    }
+}
+
+void AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
+    struct Call {
+        AnswerJobs& all;
+        std::uint32_t jobs;
+        const Work& work;
+    } call{*this, jobs, work};
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        jobs_[i]->answers.begin_batch();
+        jobs_[i]->done = false;
+    }
+    const auto run_one = [](void* data, std::uint32_t number) {
+        Call& of = *static_cast<Call*>(data);
+        Job& job = *of.all.jobs_[number];
+        try {
+            of.all.run(job, number, of.jobs, of.work);
+        } catch (...) {
+            job.failure = std::current_exception();
+        }
+        job.done = true;
+    };
+    system_.run(system_.user, jobs, run_one, &call);
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        if (!jobs_[i]->done) {
+            throw Failure({StatusCode::invalid_settings,
+                           "Settings::jobs: run returned and job " + std::to_string(i) + " of " +
+                               std::to_string(jobs) + " was not done"});
+        }
+    }
+    std::exception_ptr failure;
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        const std::exception_ptr own = std::exchange(jobs_[i]->failure, nullptr);
+        failure = failure ? failure : own;
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+void AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
+                               FieldDecoder& fields, std::vector<AnyResult>& results) {
+    if (system_.run != nullptr) {
+        divide(plan, results.size());
+        const std::size_t jobs = std::min<std::size_t>(ends_.size(), system_.count);
+        if (jobs > 1) {
+            run_at_once(static_cast<std::uint32_t>(jobs), {plan, words, fields, results});
+            return;
+        }
+    }
+    QueryAnswers& answers = jobs_.front()->answers;
+    answers.begin_batch();
+    answers.write(plan, 0, results.size(), true, words, fields, results);
+}
+
+void AnswerJobs::finish(const plan::Plan& plan, std::span<std::uint32_t> words,
+                        FieldDecoder& fields, std::vector<AnyResult>& results) {
+    if (std::all_of(plan.queries.begin(), plan.queries.end(),
+                    [](const plan::PlannedQuery& query) { return query.on_cpu; })) {
+        return;
+    }
+    // Other batches may have been answered in between.
+    QueryAnswers& answers = jobs_.front()->answers;
+    answers.begin_batch();
+    answers.write(plan, 0, results.size(), false, words, fields, results);
+}
+
+}  // namespace nearfield

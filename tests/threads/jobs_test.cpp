@@ -1,0 +1,192 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/query/all_numbers.hpp>
+#include <tests/support/allocations.hpp>
+#include <tests/support/polygons.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+using Job = void (*)(void* data, std::uint32_t number);
+
+/// A thread for every job.
+void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
+    std::vector<std::thread> threads;
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        threads.emplace_back(job, data, i);
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+}
+
+/// One after the other, another one first each time; says how many there were.
+void run_in_turn(void* user, std::uint32_t jobs, Job job, void* data) {
+    auto& calls = *static_cast<std::uint32_t*>(user);
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        job(data, (calls + i) % jobs);
+    }
+    ++calls;
+}
+
+void leave_one_out(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
+    for (std::uint32_t i = 1; i < jobs; ++i) {
+        job(data, i);
+    }
+}
+
+/// The memory of the machine ends in the second job.
+void run_out_of_memory(void* user, std::uint32_t jobs, Job job, void* data) {
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        std::optional<test_support::FailingAllocations> none;
+        if (i == 1) {
+            none.emplace(0);
+        }
+        job(data, i);
+        *static_cast<bool*>(user) |= test_support::FailingAllocations::has_failed();
+    }
+}
+
+/// Forty shapes side by side and a large one over them all, and every kind of query about them.
+class Crowd {
+public:
+    explicit Crowd(const JobSystem& jobs) {
+        Settings settings;
+        settings.jobs = jobs;
+        Expected<Context> made = Context::create_headless({}, settings);
+        EXPECT_TRUE(made.ok()) << made.status().text();
+        if (!made.ok()) {
+            return;
+        }
+        context_.emplace(std::move(*made));
+        Random random(7);
+        for (int i = 0; i < 40; ++i) {
+            const Vector2 at{1.6 * (i % 8), 1.6 * (i / 8)};
+            add(star(random, 50, 0.6), {at, random.between(0.0, 6.0)});
+        }
+        add(scaled_and_moved(coast(random, 1500, 0.4), 6.0, {}), {{6.0, 3.0}, 0.0});
+        fill();
+    }
+
+    Status run() { return context_->run(batch_, results_); }
+
+    [[nodiscard]] std::vector<double> numbers() const { return all_numbers(results_); }
+
+private:
+    void add(const Rings& rings, const Pose& pose) {
+        const Expected<ShapeHandle> shape = context_->add_shape(rings);
+        EXPECT_TRUE(shape.ok()) << shape.status().text();
+        instances_.push_back({shape.ok() ? *shape : ShapeHandle{}, pose});
+    }
+    void fill() {
+        std::vector<InstancePair> pairs;
+        EXPECT_TRUE(context_->find_pairs(instances_, 0.0, pairs).ok());
+        EXPECT_GT(pairs.size(), 60U);
+        for (const InstancePair& pair : pairs) {
+            const Instance a = instances_[pair.first];
+            const Instance b = instances_[pair.second];
+            for (const auto points : {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
+                batch_.add(PenetrationQuery{a, b, 0.02, points, true, Technique::cpu});
+                batch_.add(PenetrationQuery{b, a, 0.02, points, true, Technique::cpu});
+            }
+            batch_.add(IntersectionTestQuery{a, b});
+            batch_.add(SeparationQuery{a, b, 0.02, Technique::cpu});
+        }
+        for (std::size_t i = 1; i < 4; ++i) {
+            const Instance a = instances_[i - 1];
+            const Instance b = instances_[i];
+            ContactQuery contacts{a, b, 0.05, 0.1};
+            contacts.technique = Technique::cpu;
+            batch_.add(contacts);
+            IntersectionQuery common{a, b, 0.05};
+            common.technique = Technique::cpu;
+            batch_.add(common);
+            DistanceFieldQuery field;
+            field.a = a;
+            field.b = b;
+            field.tolerance = 0.02;
+            field.technique = Technique::cpu;
+            batch_.add(field);
+        }
+    }
+
+    std::optional<Context> context_;
+    std::vector<Instance> instances_;
+    Batch batch_;
+    Results results_;
+};
+
+/// What a thread alone finds.
+std::vector<double> found_alone() {
+    Crowd crowd({});
+    const Status status = crowd.run();
+    EXPECT_TRUE(status.ok()) << status.text();
+    EXPECT_GT(crowd.numbers().size(), 10000U);
+    return crowd.numbers();
+}
+
+TEST(Jobs, GiveTheSameAnswersAsNone) {
+    const auto expected = found_alone();
+    for (const std::uint32_t count : {1U, 2U, 3U, 8U}) {
+        SCOPED_TRACE(count);
+        Crowd crowd({nullptr, count, run_on_threads});
+        for (int frame = 0; frame < 2; ++frame) {
+            const Status status = crowd.run();
+            ASSERT_TRUE(status.ok()) << status.text();
+            EXPECT_EQ(crowd.numbers(), expected);
+        }
+    }
+}
+
+TEST(Jobs, AllocateNothingInTheLongRunWhoeverDoesThem) {
+    std::uint32_t calls = 0;
+    Crowd crowd({&calls, 5, run_in_turn});
+    for (int frame = 0; frame < 3; ++frame) {
+        ASSERT_TRUE(crowd.run().ok());
+    }
+    ASSERT_EQ(calls, 3U);
+    const std::uint64_t before = test_support::allocation_count();
+    for (int frame = 0; frame < 6; ++frame) {
+        ASSERT_TRUE(crowd.run().ok());
+    }
+    EXPECT_EQ(calls, 9U);
+    EXPECT_EQ(test_support::allocation_count(), before);
+}
+
+TEST(Jobs, ThatWereNotDoneAreAnError) {
+    Crowd crowd({nullptr, 4, leave_one_out});
+    const Status status = crowd.run();
+    EXPECT_EQ(status.code(), StatusCode::invalid_settings);
+    EXPECT_NE(status.message().find("job 0 of 4"), std::string::npos) << status.text();
+}
+
+TEST(Jobs, CarryOverWhatGoesWrongInOne) {
+    bool has_failed = false;
+    Crowd crowd({&has_failed, 4, run_out_of_memory});
+    const Status status = crowd.run();
+    EXPECT_TRUE(has_failed);
+    EXPECT_EQ(status.code(), StatusCode::out_of_memory) << status.text();
+}
+
+TEST(Jobs, ThatCannotBeUsedAreRefused) {
+    const auto code = [](const JobSystem& jobs) {
+        Settings settings;
+        settings.jobs = jobs;
+        const Status status = Context::create_headless({}, settings).status();
+        EXPECT_NE(status.message().find("Settings::jobs"), std::string::npos) << status.text();
+        return status.code();
+    };
+    EXPECT_EQ(code({nullptr, 2, nullptr}), StatusCode::invalid_settings);
+    EXPECT_EQ(code({nullptr, 0, run_on_threads}), StatusCode::invalid_settings);
+    EXPECT_EQ(code({nullptr, most_jobs + 1, run_on_threads}), StatusCode::invalid_settings);
+}
+
+}  // namespace
+}  // namespace nearfield::test
