@@ -58,16 +58,17 @@ void TimeOfImpact::answer(const plan::PlannedQuery& planned, TimeOfImpactResult&
     }
     // Less by what sums with times up to 1 round.
     const double time_bound = query.time_bound - 4.0 * std::numeric_limits<double>::epsilon();
-    const FirstContact contact = finder_.find(a, b, {tolerance, time_bound, query.most_steps});
+    const FirstContact contact =
+        finder_.find(a, b, {tolerance, time_bound, query.most_steps, query.contact_distance});
     result.state = state_of(contact.kind);
-    result.intersects = contact.meet_at_latest;
+    result.intersects = contact.touch_at_latest;
     result.error_bound = contact.rounding + planned.deviations.a + planned.deviations.b;
     result.time = contact.time;
     result.pose_a = a.at(contact.time);
     result.pose_b = b.at(contact.time);
     result.least_distance = contact.least_distance;
     result.steps = contact.steps;
-    if (contact.kind == FirstContact::Kind::at_start) {
+    if (contact.share_a_point_at_start) {
         result.point_a = result.point_b =
             geometry::to_public(common_point_.find(finder_.placed_a(), finder_.placed_b()));
         return;

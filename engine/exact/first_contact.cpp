@@ -11,8 +11,9 @@ using geometry::Vector;
 
 constexpr double no_end = std::numeric_limits<double>::infinity();
 
-// Of the distance at a time, what a step leaves between the shapes. The rest can be certified as
-// kept all along, and is an eighth in the worst case; a step takes the other seven.
+// Of the distance at a time that is more than that of touching, what a step leaves between the
+// shapes. The rest can be certified as kept all along, and is an eighth in the worst case; a step
+// takes the other seven.
 constexpr double kept_part = 1.0 / 8.0;
 
 // So many pairs, and half as many as there are edges, are looked at one by one in a step: that
@@ -21,6 +22,11 @@ constexpr std::size_t most_pairs = 64;
 
 // Distances of less than so many roundings are none.
 constexpr double touching = 4.0;
+
+/// What a step leaves of a distance, where shapes touch at another.
+double kept_of(double distance, double touching_distance) {
+    return touching_distance + kept_part * (distance - touching_distance);
+}
 
 /// When a length that shrinks from `length` at a rate that is `-slope` now and grows by at most
 /// `acceleration` reaches zero at the earliest.
@@ -78,9 +84,26 @@ bool FirstContactFinder::meet() {
     return meeting_.intersect(placed_a(), placed_b());
 }
 
-bool FirstContactFinder::meet_at(double time, FirstContact& contact) {
+bool FirstContactFinder::touch_at(double time, double distance, double at_most,
+                                  FirstContact& contact) {
     place(time, contact);
-    return meet();
+    if (meet()) {
+        return true;
+    }
+    return distance > 0.0 && find_closest(at_most).squared_distance <= distance * distance;
+}
+
+bool FirstContactFinder::touch_soon(const ContactAim& aim, double ahead, FirstContact& contact) {
+    const double time = std::min(contact.time + ahead, 1.0);
+    const double farthest = std::sqrt(contact.closest.squared_distance) +
+                            motion_.length(time - contact.time) + rounding_;
+    if (!touch_at(time, aim.distance, farthest, contact)) {
+        return false;
+    }
+    contact.kind = FirstContact::Kind::found;
+    contact.latest = time;
+    contact.touch_at_latest = true;
+    return true;
 }
 
 ClosestPair FirstContactFinder::find_closest(double at_most) {
@@ -160,10 +183,18 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
         const double distance = std::sqrt(closest.squared_distance);
         // On the way away from the one and to the other they came no closer than half way.
         const double kept =
-            time > 0.0 ? std::max(kept_part * before, 0.5 * (before + distance - path)) : no_end;
+            time > 0.0 ? std::max(kept_of(before, aim.distance), 0.5 * (before + distance - path))
+                       : no_end;
         const double least = std::max(
             std::min({contact.least_distance, kept - rounding_, distance - rounding_}), 0.0);
-        if (distance <= touching * rounding_) {
+        if (time == 0.0 && aim.distance > 0.0 && distance <= aim.distance) {
+            contact.kind = FirstContact::Kind::at_start;
+            contact.touch_at_latest = true;
+            contact.closest = closest;
+            contact.least_distance = least;
+            return;
+        }
+        if (distance - aim.distance <= touching * rounding_) {
             contact.kind = FirstContact::Kind::found;
             contact.latest = time;
             // Of shapes that all but touch there is no direction; before, there was one.
@@ -182,7 +213,7 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
             return;
         }
         const double left = 1.0 - time;
-        const double step = safe_step(distance, kept_part * distance, left);
+        const double step = safe_step(distance, kept_of(distance, aim.distance), left);
         moved = motion_.length(step);
         path = motion_.path(step);
         const double next = step < left ? time + step : 1.0;
@@ -191,19 +222,15 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
         if (step < std::min(open, left)) {
             // Where they touch and part again before that, they meet soon after the step.
             const double ahead = time < looked_until ? std::min(open, 2.0 * step) : open;
-            const double ahead_time = std::min(time + ahead, 1.0);
-            if (meet_at(ahead_time, contact)) {
-                contact.kind = FirstContact::Kind::found;
-                contact.latest = ahead_time;
-                contact.meet_at_latest = true;
+            if (touch_soon(aim, ahead, contact)) {
                 return;
             }
-            looked_until = std::max(looked_until, ahead_time);
+            looked_until = std::max(looked_until, std::min(time + ahead, 1.0));
         }
         if (contact.steps >= aim.most_steps) {
             contact.kind = FirstContact::Kind::unknown;
             contact.latest = 1.0;
-            contact.meet_at_latest = meet_at(1.0, contact);
+            contact.touch_at_latest = touch_at(1.0, aim.distance, no_end, contact);
             return;
         }
         time = next;
@@ -221,7 +248,8 @@ FirstContact FirstContactFinder::find(const Motion& a, const Motion& b, const Co
     place(0.0, contact);
     if (meet()) {
         contact.kind = FirstContact::Kind::at_start;
-        contact.meet_at_latest = true;
+        contact.touch_at_latest = true;
+        contact.share_a_point_at_start = true;
         contact.least_distance = 0.0;
     } else {
         advance(aim, contact);

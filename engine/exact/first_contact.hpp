@@ -16,6 +16,7 @@ struct ContactAim {
     double motion = 0.0;  ///< no two points move farther against each other in the time left open
     double time = 1.0;    ///< nor is that longer
     std::uint32_t most_steps = 0;  ///< so many times at the most the shapes are looked at
+    double distance = 0.0;         ///< shapes no farther apart than this touch
 };
 
 /// What is known of the first contact of two moving shapes.
@@ -23,14 +24,15 @@ struct FirstContact {
     enum class Kind : std::uint8_t {
         none,      ///< they stay apart from 0 to 1
         found,     ///< between `time` and `latest`
-        at_start,  ///< they share a point at 0
+        at_start,  ///< they touch at 0
         unknown,   ///< apart until `time`; if they do touch before `latest`, it was not found where
     };
     Kind kind = Kind::none;
-    double time = 0.0;    ///< they are apart before it, from 0 on
-    double latest = 0.0;  ///< found: they share a point no later than this, up to `rounding`
-    bool meet_at_latest = false;  ///< seen to share a point then
-    ClosestPair closest;          ///< at `time`; not at_start
+    double time = 0.0;             ///< they are apart before it, from 0 on
+    double latest = 0.0;           ///< found: they touch no later than this, up to `rounding`
+    bool touch_at_latest = false;  ///< seen to touch then
+    bool share_a_point_at_start = false;  ///< at_start: not only near each other
+    ClosestPair closest;                  ///< at `time`, but where they share a point
     double least_distance = std::numeric_limits<double>::infinity();  ///< no less before `time`
     double rounding = 0.0;    ///< how far apart what is said to touch may be
     std::uint32_t steps = 0;  ///< how many times the shapes were looked at
@@ -45,12 +47,13 @@ struct FirstContact {
 /// value and slope are known and whose second derivative is no more than the accelerations, so it
 /// stays above a length until the root of a parabola; the ends of the edge enclose its other
 /// points, so that holds for all of them. The pairs that are farther apart than some distance are
-/// left to a bound on all relative motion.
+/// left to a bound on all relative motion. Where shapes touch at a distance already, the length is
+/// more than that.
 class FirstContactFinder {
 public:
     [[nodiscard]] FirstContact find(const Motion& a, const Motion& b, const ContactAim& aim);
 
-    /// Of find() that said at_start: the shapes at 0.
+    /// Of find() that said they share a point at the start: the shapes then.
     [[nodiscard]] const PlacedEdges& placed_a() const { return instances_[index_a_]; }
     [[nodiscard]] const PlacedEdges& placed_b() const { return instances_[index_b_]; }
 
@@ -58,8 +61,12 @@ private:
     /// Looks at the shapes as they are at a time.
     void place(double time, FirstContact& contact);
     [[nodiscard]] bool meet();
-    /// Leaves them there.
-    [[nodiscard]] bool meet_at(double time, FirstContact& contact);
+    /// Leaves them there. `at_most`: known of their distance then.
+    [[nodiscard]] bool touch_at(double time, double distance, double at_most,
+                                FirstContact& contact);
+    /// Whether they touch `ahead` of contact.time, where they were looked at last; leaves them
+    /// there.
+    [[nodiscard]] bool touch_soon(const ContactAim& aim, double ahead, FirstContact& contact);
     /// `at_most`: they are known to be no farther apart.
     [[nodiscard]] ClosestPair find_closest(double at_most);
 

@@ -190,6 +190,11 @@ Status check_query(const TimeOfImpactQuery& query) {
     if (query.most_steps == 0) {
         return invalid("the most steps are 0; at least 1 has to be allowed");
     }
+    if (!(query.contact_distance >= 0.0 && is_usable(query.contact_distance))) {
+        return invalid("the contact distance is " + number(query.contact_distance) +
+                       "; it must be a finite number, 0 or above and at most " +
+                       number(largest_coordinate));
+    }
     if (!is_usable(query.end_a)) {
         return unusable(query.end_a, "A's end pose");
     }

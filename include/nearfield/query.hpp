@@ -246,6 +246,10 @@ struct TimeOfImpactQuery {
     /// that graze each other, or turn many times close to each other, take more. Where as many are
     /// not enough, the result says so (ImpactState::bound_not_reached).
     std::uint32_t most_steps = 10000;
+    /// How close counts as touching, world units, >= 0: the time is sought at which the shapes
+    /// first come as close as this. For what has to keep a gap: a simulation that goes back to just
+    /// before a contact, a part that needs clearance.
+    double contact_distance = 0.0;
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 

@@ -233,7 +233,7 @@ struct IntersectionTestResult : ResultSummary {};
 enum class ImpactState : std::uint8_t {
     separated,              ///< the shapes stay apart from time 0 to time 1
     hit,                    ///< they are apart at first and touch later
-    intersecting_at_start,  ///< they share a point at time 0
+    intersecting_at_start,  ///< they touch at time 0
     /// They are apart before `time`, and most_steps did not suffice to say what comes after it.
     bound_not_reached,
 };
@@ -241,27 +241,29 @@ enum class ImpactState : std::uint8_t {
 /// The name of a state as it stands in the enumeration ("bound_not_reached").
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(ImpactState state) noexcept;
 
-/// Answer to a TimeOfImpactQuery. Never late: whatever the state, the shapes share no point before
-/// `time`. Said of the rings as given, as `intersects` is.
+/// Answer to a TimeOfImpactQuery. Shapes touch where they share a point or, with a contact
+/// distance, are no farther apart than that. Never late: whatever the state, the shapes do not
+/// touch before `time`. Said of the rings as given, as `intersects` is.
 ///
-/// `error_bound`: shapes no farther apart than this may be said to touch; the rounding of placed
-/// vertices and the shapes' deviations. `intersects`: the shapes were seen to share a point, at
-/// time + time_error_bound or before.
+/// `error_bound`: shapes no farther apart than this, or than this more than the contact distance,
+/// may be said to touch; the rounding of placed vertices and the shapes' deviations. `intersects`:
+/// the shapes were seen to touch, at time + time_error_bound or before.
 struct TimeOfImpactResult : ResultSummary {
     ImpactState state = ImpactState::separated;  ///< what there is to say of the motion
-    /// The shapes are apart from 0 up to it: 0 where they intersect at the start, 1 where they stay
-    /// apart.
+    /// The shapes do not touch from 0 up to it: 0 where they do at the start, 1 where they never
+    /// do.
     double time = 0.0;
     /// Hit: they touch no later than `time` and this, which keeps to the tolerance and the time
     /// bound asked for. Bound not reached: if they touch no later than `time` and this, it was not
-    /// found where; they share a point at its end where `intersects` is true, else it is the rest
-    /// of the motion. 0 otherwise.
+    /// found where; they touch at its end where `intersects` is true, else it is the rest of the
+    /// motion. 0 otherwise.
     double time_error_bound = 0.0;
     Pose pose_a;            ///< at `time`
     Pose pose_b;            ///< at `time`
     double distance = 0.0;  ///< between the shapes at `time`
     /// The shapes were certified to be no closer than this from 0 to `time`; at least an eighth of
-    /// the least distance there was.
+    /// the least distance there was; with a contact distance, that and an eighth of what the least
+    /// distance was more.
     double least_distance = 0.0;
     Vector2 point_a;          ///< of A at `time`, closest to B; a common point at distance 0
     Vector2 point_b;          ///< of B at `time`, closest to A

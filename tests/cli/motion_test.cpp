@@ -39,6 +39,15 @@ TEST_F(TimeOfImpactCommand, SaysWhyThereIsNoTime) {
               "intersecting-at-start");
 }
 
+TEST_F(TimeOfImpactCommand, TakesADistanceThatCountsAsTouching) {
+    const Json json = answer(moving("1,0.5,0") + Arguments{"--contact-distance", "0.5"});
+    EXPECT_EQ(json.at("state"), "hit");
+    EXPECT_NEAR(json.at("time").get<double>(), 0.375, 1e-6);
+    EXPECT_NEAR(json.at("distance").get<double>(), 0.5, 1e-6);
+    expect_refused(moving("1,0.5,0") + Arguments{"--contact-distance", "-1"},
+                   {"--contact-distance"});
+}
+
 TEST_F(TimeOfImpactCommand, KeepsWholeTurns) {
     const Json json = answer(moving("-3,0.5,720"));
     EXPECT_NEAR(json.at("pose_a").at("degrees").get<double>(), 720.0, 1e-9);
@@ -65,6 +74,40 @@ TEST_F(TimeOfImpactCommand, MovesTheInstancesOfAScene) {
     ASSERT_TRUE(json.is_object());
     ASSERT_EQ(json.at("results").size(), 1U);
     EXPECT_NEAR(json.at("results").at(0).at("time").get<double>(), 0.25, 1e-6);
+}
+
+TEST_F(TimeOfImpactCommand, AsksAllPairsOfASceneThatMayMeetOnTheWay) {
+    // A goes past B to the right; C goes up, D turns beside it; E is far from all ways.
+    const std::string scene = folder_.write("scene.json", R"({
+        "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1], [0, 1]]]},
+                   "bar": {"rings": [[[0, 0], [3, 0], [3, 0.5], [0, 0.5]]]}},
+        "instances": {"A": {"shape": "square", "end_pose": [8, 0, 0]},
+                      "B": {"shape": "square", "pose": [3, 0.5, 0]},
+                      "C": {"shape": "square", "pose": [20, 0, 0], "end_pose": [20, 4, 0]},
+                      "D": {"shape": "bar", "pose": [18, 4, 180], "end_pose": [18, 4, 0]},
+                      "E": {"shape": "square", "pose": [3, 9, 0]}},
+        "queries": [{"query": "time-of-impact", "pairs": "all", "tolerance": 1e-6},
+                    {"query": "time-of-impact", "pairs": "all", "tolerance": 1e-6,
+                     "contact_distance": 7.75}]})");
+    const Json json = answer({"scene", scene});
+    ASSERT_TRUE(json.is_object());
+    const Json& results = json.at("results");
+    ASSERT_GE(results.size(), 3U);
+    const auto is_of = [&](std::size_t index, const char* a, const char* b) {
+        return results.at(index).at("a") == a && results.at(index).at("b") == b;
+    };
+    ASSERT_TRUE(is_of(0, "A", "B"));
+    EXPECT_NEAR(results.at(0).at("time").get<double>(), 0.25, 1e-6);
+    ASSERT_TRUE(is_of(1, "C", "D"));
+    EXPECT_EQ(results.at(1).at("state"), "hit");
+    // From here on it is the second query: B and E are 7.5 apart.
+    ASSERT_TRUE(is_of(2, "A", "B"));
+    EXPECT_NEAR(results.at(2).at("distance").get<double>(), 2.0, 1e-9);
+    bool far = false;
+    for (std::size_t i = 2; i < results.size(); ++i) {
+        far = far || (is_of(i, "B", "E") && results.at(i).at("state") == "intersecting-at-start");
+    }
+    EXPECT_TRUE(far);
 }
 
 class SeparationVectorCommand : public CliTest {};

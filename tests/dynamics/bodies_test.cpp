@@ -69,39 +69,88 @@ TEST(Bodies, WhatIsOnAShaftTurnsAndWhatIsDirectedDoesNeither) {
     EXPECT_FALSE(motor.movable());
 }
 
+// What thousands of steps may lose of a momentum by rounding: each adds a few roundings of numbers
+// below 10.
+constexpr double lost_by_rounding = 1e-10;
+
+/// The part of the energy that steps of a length hide and show again: of an oscillation, steps that
+/// change velocities first keep E - time / 2 * velocity * force, where the last term is at the most
+/// frequency * time / 2 of E. The fastest oscillation has neighbours going opposite ways, and the
+/// pressure as if it were in phase with it.
+double hidden_by_steps(const DeformableBody& body, const Softness& softness, double time) {
+    const auto count = static_cast<double>(body.rest().size());
+    double perimeter = 0.0;
+    for (std::size_t i = 0; i < body.rest().size(); ++i) {
+        perimeter += length(body.rest()[(i + 1) % body.rest().size()] - body.rest()[i]);
+    }
+    const double spacing = perimeter / count;
+    const double stiffness =
+        4.0 * softness.tension + softness.support * spacing +
+        softness.incompressibility / body.rest_area() * spacing * spacing * count;
+    const double mass = softness.density * body.rest_area() / count;
+    return 0.5 * time * std::sqrt(stiffness / mass);
+}
+
 TEST(Bodies, ADisturbedDeformableBodyKeepsItsMomentaAndItsEnergy) {
-    DeformableBody body(rounded(60), {1.0, 8.0, 2.0, 30.0, 0.0});
+    constexpr double time = 1.0 / 1000.0;
+    const Softness softness{1.0, 8.0, 2.0, 30.0, 0.0};
+    DeformableBody body(rounded(60), softness);
     for (std::size_t i = 0; i < 8; ++i) {
         body.disturb(i, {0.1, 0.05}, {0.6, -0.4 + 0.2 * static_cast<double>(i)});
     }
     const Inventory before = body.inventory();
-    let_go(body, 4000, 1.0 / 1000.0);
-    const Inventory after = body.inventory();
-    EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-9);
-    EXPECT_NEAR(after.momentum.y, before.momentum.y, 1e-9);
-    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 2e-3);
     const double energy = before.kinetic_energy + before.elastic_energy;
-    EXPECT_NEAR(after.kinetic_energy + after.elastic_energy, energy, 0.03 * energy);
-    EXPECT_NEAR(body.area(), body.rest_area(), 0.05 * body.rest_area());
+    const double hidden = hidden_by_steps(body, softness, time) * energy;
+    // All of the energy in the pressure would be this change of the area.
+    const double change =
+        std::sqrt(2.0 * (energy + hidden) * body.rest_area() / softness.incompressibility);
+    for (int i = 0; i < 40; ++i) {
+        let_go(body, 100, time);
+        const Inventory now = body.inventory();
+        EXPECT_NEAR(now.kinetic_energy + now.elastic_energy, energy, hidden) << i;
+        EXPECT_NEAR(body.area(), body.rest_area(), change) << i;
+    }
+    const Inventory after = body.inventory();
+    EXPECT_NEAR(after.momentum.x, before.momentum.x, lost_by_rounding);
+    EXPECT_NEAR(after.momentum.y, before.momentum.y, lost_by_rounding);
+    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, lost_by_rounding);
 }
 
 TEST(Bodies, DampingTakesTheEnergyOfADeformableBodyButNotItsMomenta) {
-    DeformableBody body(rounded(60), {1.0, 8.0, 2.0, 30.0, 0.2});
+    constexpr double time = 1.0 / 1000.0;
+    const Softness softness{1.0, 8.0, 2.0, 30.0, 0.2};
+    DeformableBody body(rounded(60), softness);
     for (std::size_t i = 0; i < 60; ++i) {
         body.disturb(i, {}, {i < 8 ? 3.0 : 0.0, 0.2});
     }
     const Inventory before = body.inventory();
-    double last = before.kinetic_energy + before.elastic_energy;
+    const double start = before.kinetic_energy + before.elastic_energy;
+    // What moving and turning as a whole has of it, which stays: the turning about the middle, with
+    // the moment of inertia of the ring of masses.
+    const Vector2 velocity = (1.0 / before.mass) * before.momentum;
+    const double turning = before.angular_momentum - cross(body.center(), before.momentum);
+    double inertia = 0.0;
+    for (const Vector2& vertex : body.rest()) {
+        inertia += before.mass / 60.0 * dot(vertex, vertex);
+    }
+    const double rigid =
+        0.5 * before.mass * dot(velocity, velocity) + 0.5 * turning * turning / inertia;
+    double last = start;
     for (int i = 0; i < 20; ++i) {
-        let_go(body, 400, 1.0 / 1000.0);
+        let_go(body, 400, time);
         const Inventory now = body.inventory();
-        EXPECT_LT(now.kinetic_energy + now.elastic_energy, 1.001 * last) << i;
-        last = now.kinetic_energy + now.elastic_energy;
+        const double energy = now.kinetic_energy + now.elastic_energy;
+        EXPECT_LT(energy, last * (1.0 + hidden_by_steps(body, softness, time))) << i;
+        last = energy;
     }
     const Inventory after = body.inventory();
-    EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-9);
-    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 2e-3);
-    EXPECT_LT(after.kinetic_energy + after.elastic_energy, 0.6 * before.kinetic_energy);
+    EXPECT_NEAR(after.momentum.x, before.momentum.x, lost_by_rounding);
+    EXPECT_NEAR(after.momentum.y, before.momentum.y, lost_by_rounding);
+    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, lost_by_rounding);
+    // A wave of n periods round the ring decays at damping / mass * (2 pi n / 60)^2 of its energy:
+    // in these 8 seconds all from three periods on to less than a seventh. Of a push on 8
+    // vertices of 60 less than half is in the two longest.
+    EXPECT_LT(last - rigid, (0.5 + 0.5 / 7.0) * (start - rigid));
 }
 
 TEST(Bodies, ADeformableBodyHasNoEnergyWhereverItIsTurned) {

@@ -39,22 +39,31 @@ World world_of(Scene scene, Response response, Technique technique = Technique::
 TEST(Penalty, ACollisionKeepsMomentaAndTakesEnergy) {
     World world = world_of(meeting_stars(), Response::penalty);
     const Inventory before = inventory_of(world.scene());
+    const Scene& scene = world.scene();
+    // As deep as all of the energy could bring them, and what they move in the step in which that
+    // is found out.
+    const double step = scene.frame_time / scene.steps;
+    const double deepest =
+        deepest_by_energy(before.kinetic_energy, scene.touch.stiffness) + 2.5 * step;
+    // A step of a spring keeps its energy to a part of (frequency * step)^2 / 2: less than 0.4
+    // of boundary are inside, of which either body's half counts, against a mass of 0.7.
+    const double squared_frequency = 0.5 * scene.touch.stiffness * 0.4 / 0.7;
+    const double by_step = 0.5 * squared_frequency * step * step * before.kinetic_energy;
     double last = before.kinetic_energy;
     bool met = false;
     for (int frame = 0; frame < 240; ++frame) {
         const FrameReport report = world.advance();
         met = met || report.contacts > 0;
-        // The energy stored in the springs is that of samples, which come and go cell by cell.
-        EXPECT_LT(report.energies.total(), last + 0.004 * before.kinetic_energy) << frame;
+        EXPECT_LT(report.energies.total(), last + by_step) << frame;
         last = std::min(last, report.energies.total());
-        EXPECT_LT(report.worst_penetration, 0.2);
+        EXPECT_LT(report.worst_penetration, deepest);
     }
     const Inventory after = inventory_of(world.scene());
     EXPECT_TRUE(met);
     EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-10);
     EXPECT_NEAR(after.momentum.y, before.momentum.y, 1e-10);
     EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 1e-10);
-    EXPECT_LT(last, 0.95 * before.kinetic_energy);
+    EXPECT_LT(last, before.kinetic_energy - by_step);
     EXPECT_TRUE(world.proximity().overlaps().empty()) << "they part again";
 }
 
@@ -63,54 +72,50 @@ TEST(Penalty, WithoutDampingAndFrictionTheEnergyComesBack) {
     scene.touch.damping = 0.0;
     scene.touch.friction = 0.0;
     scene.steps = 16;
+    // Steps change velocities first and so keep an energy that differs from the true one by a part
+    // of frequency * step / 2 while springs are pressed (as above, and the turning of either body
+    // yields as much again). Afterwards none of that is left but where samples came and went
+    // between steps, which has no sign; so the part bounds it.
+    const double step = scene.frame_time / scene.steps;
+    const double part = 0.5 * step * std::sqrt(2.0 * 0.5 * scene.touch.stiffness * 0.4 / 0.7);
     World world = world_of(std::move(scene), Response::penalty);
     const double before = inventory_of(world.scene()).kinetic_energy;
     double stored = 0.0;
     for (int frame = 0; frame < 240; ++frame) {
         stored = std::max(stored, world.advance().energies.contact);
     }
-    EXPECT_GT(stored, 0.1 * before);
-    EXPECT_NEAR(inventory_of(world.scene()).kinetic_energy, before, 0.02 * before);
+    EXPECT_GT(stored, 5.0 * part * before) << "else there was nothing to come back";
+    EXPECT_NEAR(inventory_of(world.scene()).kinetic_energy, before, part * before);
 }
 
 TEST(Penalty, AStackComesToRestWhereItStands) {
-    World world = world_of(stack_of_boxes(4), Response::penalty);
+    constexpr int boxes = 4;
+    World world = world_of(stack_of_boxes(boxes), Response::penalty);
+    const Scene& scene = world.scene();
     FrameReport report;
     for (int frame = 0; frame < 360; ++frame) {
         report = world.advance();
     }
-    EXPECT_LT(report.energies.kinetic, 1e-6);
-    EXPECT_LT(report.worst_penetration, 0.02);
-    for (std::size_t i = 1; i < 5; ++i) {
-        const Pose pose = world.scene().bodies[i]->pose();
-        EXPECT_NEAR(pose.translation.y, 0.5 + 1.0 * static_cast<double>(i - 1), 0.05) << i;
-        EXPECT_NEAR(pose.angle, 0.0, 0.02) << i;
+    // At rest: nothing moves by a tenth of the tolerance in a second.
+    const double slow = 0.1 * scene.tolerance;
+    EXPECT_LT(report.energies.kinetic, 0.5 * boxes * slow * slow);
+    // Boxes of mass 1 and width 1: the weight of all above presses each into what is below, and
+    // both bodies' springs, half each, have the width to act on. A sample more or less at the ends
+    // is a cell of it, and a box beside the one below by 0.03 has so much less.
+    const double per_box = -scene.surroundings.gravity.y / scene.touch.stiffness;
+    const double part = 0.03 + scene.tolerance * std::sqrt(2.0);
+    double sunk = 0.0;
+    double slack = 0.0;
+    for (int i = 0; i < boxes; ++i) {
+        sunk += (boxes - i) * per_box;
+        slack += part * (boxes - i) * per_box;
+        const Pose pose = scene.bodies[static_cast<std::size_t>(i) + 1]->pose();
+        EXPECT_NEAR(pose.translation.y, 0.5 + i - sunk, slack) << i;
+        // The boxes above stand aside by 0.03 and lean it: their torque by that of the springs.
+        EXPECT_NEAR(pose.angle, 0.0, 2.0 * boxes * 0.03 * per_box * 12.0) << i;
     }
-}
-
-TEST(Penalty, IsTheSameOnEveryRunAndWithEveryTechnique) {
-    const auto run = [](Technique technique) {
-        World world = world_of(meeting_stars(), Response::penalty, technique);
-        std::vector<Pose> poses;
-        for (int frame = 0; frame < 60; ++frame) {
-            static_cast<void>(world.advance());
-        }
-        for (const auto& body : world.scene().bodies) {
-            poses.push_back(body->pose());
-        }
-        return poses;
-    };
-    const std::vector<Pose> first = run(Technique::cpu);
-    const auto expect_near = [&first](const std::vector<Pose>& other, double tolerance) {
-        for (std::size_t i = 0; i < first.size(); ++i) {
-            EXPECT_NEAR(other[i].translation.x, first[i].translation.x, tolerance) << i;
-            EXPECT_NEAR(other[i].translation.y, first[i].translation.y, tolerance) << i;
-            EXPECT_NEAR(other[i].angle, first[i].angle, tolerance) << i;
-        }
-    };
-    expect_near(run(Technique::cpu), 0.0);
-    expect_near(run(Technique::raster), 0.01);
-    expect_near(run(Technique::compute), 0.01);
+    const double lean = 0.5 * 2.0 * boxes * 0.03 * per_box * 12.0;
+    EXPECT_LT(report.worst_penetration, boxes * per_box * (1.0 + part) + lean);
 }
 
 TEST(Backtracking, EqualBoxesExchangeTheirSpeedsByRestitution) {
@@ -127,9 +132,14 @@ TEST(Backtracking, EqualBoxesExchangeTheirSpeedsByRestitution) {
             events += world.advance().events;
         }
         EXPECT_GT(events, 0U);
-        EXPECT_NEAR(right.velocity().x, restitution, 0.02) << restitution;
-        EXPECT_NEAR(left.velocity().x, -restitution, 0.02) << restitution;
-        EXPECT_NEAR(left.spin(), 0.0, 1e-3);
+        // Where they would part more slowly than that, they are opened to half the tolerance, by
+        // a twentieth of what is missing, at most a quarter of it, in a step.
+        const double step = world.scene().frame_time / world.scene().steps;
+        const double opening = 0.5 * 0.05 * 0.25 * world.scene().tolerance / step;
+        const double tolerance = restitution > 0.0 ? 1e-9 : opening;
+        EXPECT_NEAR(right.velocity().x, restitution, tolerance) << restitution;
+        EXPECT_NEAR(left.velocity().x, -restitution, tolerance) << restitution;
+        EXPECT_NEAR(left.spin(), 0.0, 1e-9);
     }
 }
 
@@ -142,39 +152,59 @@ TEST(Backtracking, ACollisionKeepsMomentaAndNeverPenetrates) {
     const Inventory after = inventory_of(world.scene());
     EXPECT_NEAR(after.momentum.x, before.momentum.x, 1e-10);
     EXPECT_NEAR(after.momentum.y, before.momentum.y, 1e-10);
-    // The two points of a contact are up to a tolerance apart.
-    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 0.02);
+    EXPECT_NEAR(after.angular_momentum, before.angular_momentum, 1e-10);
     EXPECT_LT(after.kinetic_energy, before.kinetic_energy);
 }
 
 TEST(Backtracking, AStackComesToRestWhereItStandsWithoutPenetration) {
-    World world = world_of(stack_of_boxes(3), Response::backtracking);
+    constexpr int boxes = 3;
+    World world = world_of(stack_of_boxes(boxes), Response::backtracking);
+    const Scene& scene = world.scene();
     FrameReport report;
     for (int frame = 0; frame < 300; ++frame) {
         report = world.advance();
         EXPECT_EQ(report.worst_penetration, 0.0) << frame;
     }
-    // What is left is the opening of contacts within the tolerance.
-    EXPECT_LT(report.energies.kinetic, 5e-3);
-    for (std::size_t i = 1; i < 4; ++i) {
-        const Pose pose = world.scene().bodies[i]->pose();
-        EXPECT_NEAR(pose.translation.y, 0.5 + 1.0 * static_cast<double>(i - 1), 0.06) << i;
-        EXPECT_NEAR(pose.angle, 0.0, 0.02) << i;
+    // What is left is the opening of contacts, each by a twentieth of a quarter of the tolerance a
+    // step, and the fall of a step that closes them.
+    const double step = scene.frame_time / scene.steps;
+    const double slow =
+        boxes * 0.05 * 0.25 * scene.tolerance / step - scene.surroundings.gravity.y * step;
+    EXPECT_LT(report.energies.kinetic, 0.5 * boxes * slow * slow);
+    double low = 0.0;
+    double high = 0.0;
+    for (int i = 0; i < boxes; ++i) {
+        // Each keeps a quarter of the tolerance, and a contact acts within two tolerances.
+        low += 0.25 * scene.tolerance;
+        high += 2.0 * scene.tolerance;
+        const Pose pose = scene.bodies[static_cast<std::size_t>(i) + 1]->pose();
+        EXPECT_GE(pose.translation.y, 0.5 + i + low) << i;
+        EXPECT_LE(pose.translation.y, 0.5 + i + high) << i;
+        // So leans a box with one corner low and the other high.
+        EXPECT_NEAR(pose.angle, 0.0, high - low) << i;
     }
 }
 
-TEST(Backtracking, IsTheSameOnEveryRun) {
-    const auto run = [] {
-        World world = world_of(meeting_stars(), Response::backtracking);
-        for (int frame = 0; frame < 120; ++frame) {
-            static_cast<void>(world.advance());
-        }
-        return world.scene().bodies[0]->pose();
-    };
-    const Pose first = run();
-    const Pose second = run();
-    EXPECT_EQ(first.translation, second.translation);
-    EXPECT_EQ(first.angle, second.angle);
+TEST(Backtracking, NothingPassesThroughAnotherBetweenTwoSteps) {
+    // In a step it is carried by twenty times the thickness of the wall, whose two sides are both
+    // free of it at the ends of that step.
+    Scene scene;
+    add_body(scene, box(0.05, 6.0), {}, Freedom::directed);
+    RigidBody& fast = add_body(scene, box(0.2, 0.2), {{-0.53, 0.0}});
+    fast.set_motion({240.0, 0.0}, 0.0);
+    scene.touch.restitution = 0.5;
+    World world = world_of(std::move(scene), Response::backtracking);
+    const FrameReport report = world.advance();
+    EXPECT_EQ(report.events, 1U);
+    EXPECT_LT(fast.center().x, 0.0);
+    EXPECT_NEAR(fast.velocity().x, -120.0, 1e-9);
+}
+
+TEST(Backtracking, RefusesASceneThatStartsWithATouch) {
+    Scene scene;
+    add_body(scene, box(1.0, 1.0), {});
+    add_body(scene, box(1.0, 1.0), {{1.0, 0.0}});
+    EXPECT_THROW(world_of(std::move(scene), Response::backtracking), std::invalid_argument);
 }
 
 TEST(Backtracking, RefusesASceneThatStartsWithAnOverlap) {

@@ -41,57 +41,113 @@ TEST(Scenes, GearsTurnByTheRatioOfTheirTeethThroughContactAlone) {
         SCOPED_TRACE(response == Response::penalty ? "penalty" : "backtracking");
         World world(simulation_context(), scenes::gears_scene(), response, Technique::cpu);
         const int frames = response == Response::penalty ? 600 : 240;
+        // A tooth is 0.22 of a pitch wide at its tip and 0.345 half way up; the gap beside it is
+        // the rest. Were half a tip inside, the next thing would be that teeth slip.
+        constexpr double pitch = 2.0 * std::numbers::pi * 0.125;
+        constexpr double half_a_tip = 0.11 * pitch;
         double worst = 0.0;
+        std::size_t stopped = 0;
         for (int frame = 0; frame < frames; ++frame) {
-            worst = std::max(worst, world.advance().worst_penetration);
+            const FrameReport report = world.advance();
+            worst = std::max(worst, report.worst_penetration);
+            stopped += report.stopped;
         }
-        EXPECT_LT(worst, response == Response::penalty ? 0.04 : 1e-300);
+        EXPECT_EQ(stopped, 0U);
+        if (response == Response::penalty) {
+            EXPECT_LT(worst, half_a_tip);
+        } else {
+            EXPECT_EQ(worst, 0.0);
+        }
         const std::vector<scenes::TrainGear> train = scenes::gear_train();
-        const double driven =
-            world.scene().bodies[0]->pose().angle * static_cast<double>(train[0].teeth);
-        EXPECT_GT(driven, 0.7 * scenes::driver_spin * world.time() * 9.0) << "the driver turns";
+        // It takes a second to come up to its speed, which steps know to within one.
+        const double turned = world.scene().bodies[0]->pose().angle;
+        EXPECT_NEAR(turned, scenes::driver_spin * (world.time() - 0.5),
+                    scenes::driver_spin * world.scene().frame_time / world.scene().steps);
+        const double driven = turned * static_cast<double>(train[0].teeth);
+        const double play_of_a_mesh = 0.5 * (1.0 - 2.0 * 0.345) + worst / pitch;
         for (std::size_t i = 1; i < train.size(); ++i) {
             const double sign = train[i].driver == 0 ? -1.0 : 1.0;
-            // Counted in teeth: a tooth of play a mesh at the very most, however far they turn.
+            // Counted in teeth: no more than the play of its meshes, however far they turn.
             const double teeth = (world.scene().bodies[i]->pose().angle - train[i].angle) *
                                  static_cast<double>(train[i].teeth) / (2.0 * std::numbers::pi);
-            const double play = train[i].driver == 0 ? 0.3 : 0.6;
-            EXPECT_NEAR(teeth, sign * driven / (2.0 * std::numbers::pi), play) << i;
+            const double meshes = train[i].driver == 0 ? 1.0 : 2.0;
+            EXPECT_NEAR(teeth, sign * driven / (2.0 * std::numbers::pi), meshes * play_of_a_mesh)
+                << i;
         }
     }
 }
 
 TEST(Scenes, LinksHangTogether) {
+    // A ball of nine or ten sides has at least this radius all round. It comes out of the socket
+    // only where it is deeper than the rest in both sides of the opening.
+    constexpr double degree = std::numbers::pi / 180.0;
+    const double ball_radius = 0.175 * std::cos(320.0 / 9.0 / 2.0 * degree);
+    const double half_opening = 0.205 * std::sin(38.0 * degree);
+    const double slip = ball_radius - half_opening;
+    // The room it has: up to the wall, or into the opening until both of its sides are met.
+    const double room = std::max(0.205 - ball_radius, 0.205 * std::cos(38.0 * degree) -
+                                                          std::sqrt(ball_radius * ball_radius -
+                                                                    half_opening * half_opening));
     for (const Response response : {Response::penalty, Response::backtracking}) {
         World world(simulation_context(), scenes::links_scene(), response, Technique::cpu);
         double worst = 0.0;
         for (int frame = 0; frame < 240; ++frame) {
             worst = std::max(worst, world.advance().worst_penetration);
         }
-        EXPECT_LT(worst, response == Response::penalty ? 0.03 : 1e-300);
+        if (response == Response::penalty) {
+            EXPECT_LT(worst, slip);
+        } else {
+            EXPECT_EQ(worst, 0.0);
+        }
         for (std::size_t i = 0; i + 1 < world.scene().bodies.size(); ++i) {
             // The ball of a link is in the socket of the next.
             const auto& body = dynamic_cast<const RigidBody&>(*world.scene().bodies[i]);
             const auto& next = dynamic_cast<const RigidBody&>(*world.scene().bodies[i + 1]);
             const Vector2 ball = placed(body.pose(), Vector2{0.0, -1.0} - body.plate().centroid);
             const Vector2 socket = placed(next.pose(), -next.plate().centroid);
-            EXPECT_LT(length(ball - socket), 0.1) << i;
+            EXPECT_LT(length(ball - socket), room + worst) << i;
         }
     }
 }
 
-TEST(Scenes, CarsBumpAndStayOnTheGround) {
-    World world(simulation_context(), scenes::cars_scene(), Response::backtracking, Technique::cpu);
-    std::size_t events = 0;
-    for (int frame = 0; frame < 300; ++frame) {
-        const FrameReport report = world.advance();
-        events += report.events;
-        EXPECT_EQ(report.worst_penetration, 0.0) << frame;
-    }
-    EXPECT_GT(events, 0U);
-    for (const auto& body : world.scene().bodies) {
-        EXPECT_LT(std::abs(body->center().x), 7.0);
-        EXPECT_LT(std::abs(body->center().y), 5.5);
+TEST(Scenes, CarsDriveRoundAndBumpForAsLongAsTheyRun) {
+    for (const Response response : {Response::penalty, Response::backtracking}) {
+        SCOPED_TRACE(response == Response::penalty ? "penalty" : "backtracking");
+        World world(simulation_context(), scenes::cars_scene(), response, Technique::cpu);
+        const Scene& scene = world.scene();
+        const auto angle_of = [](const Body& car) {
+            return std::atan2((car.center().y - 0.2) / 3.1, car.center().x / 4.3);
+        };
+        std::vector<double> last;
+        std::vector<double> driven(scene.bodies.size(), 0.0);
+        for (const auto& car : scene.bodies) {
+            last.push_back(angle_of(*car));
+        }
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            std::size_t contacts = 0;
+            for (int frame = 0; frame < 250; ++frame) {
+                const FrameReport report = world.advance();
+                contacts += report.contacts;
+                if (response == Response::backtracking) {
+                    ASSERT_EQ(report.worst_penetration, 0.0);
+                }
+                for (std::size_t i = 0; i < last.size(); ++i) {
+                    const double angle = angle_of(*scene.bodies[i]);
+                    driven[i] += std::remainder(angle - last[i], 2.0 * std::numbers::pi);
+                    last[i] = angle;
+                }
+            }
+            EXPECT_GT(contacts, 0U) << "quarter " << quarter;
+            // The slowest lane's pace is 0.36 radians a second. A car that falls behind by more
+            // than the sixth of a round to the next car of its lane has been stuck.
+            for (std::size_t i = 0; i < driven.size(); ++i) {
+                EXPECT_GT(driven[i], 0.36 * world.time() - std::numbers::pi / 3.0) << i;
+                EXPECT_TRUE(std::abs(scene.bodies[i]->center().x) < scene.view.max.x &&
+                            scene.bodies[i]->center().y < scene.view.max.y &&
+                            scene.bodies[i]->center().y > scene.view.min.y)
+                    << i;
+            }
+        }
     }
 }
 
@@ -106,64 +162,97 @@ TEST(Scenes, AWaveIsHandedFromTheRightBarToTheLeft) {
     for (int frame = 0; frame < 40; ++frame) {
         static_cast<void>(world.advance());
     }
+    // The push is over, and the wave is on its way below the end of the other bar.
     const double given = energy(right);
-    EXPECT_GT(given, 0.05);
-    EXPECT_LT(energy(left), 1e-3 * given) << "not there yet";
+    EXPECT_GT(given, 0.0);
+    EXPECT_LT(energy(left), 1e-12 * given) << "not there yet: rounding alone";
     double handed = 0.0;
     for (int frame = 40; frame < 290; ++frame) {
         static_cast<void>(world.advance());
         handed = std::max(handed, energy(left));
+        EXPECT_LT(energy(left) + energy(right), given) << "nobody else pushes";
     }
-    EXPECT_GT(handed, 0.05 * given);
-    EXPECT_LT(handed, given);
+    // As it runs past, it presses the other bar's face in like its own: what it then has in the
+    // wave's half that is in contact is worth a tenth at least.
+    EXPECT_GT(handed, 0.1 * given);
 }
 
 TEST(Scenes, BarsFarInsideEachOtherArePushedApart) {
     World world(simulation_context(), scenes::overlap_scene(), Response::penalty, Technique::cpu);
+    const Scene& scene = world.scene();
     double start = 0.0;
     for (const auto& overlap : world.proximity().overlaps()) {
         start = std::max(start, overlap.first_in_second->deepest.depth);
     }
-    EXPECT_GT(start, 0.3);
+    // Bars of 1.9 by 3.4 that lie 0.6 inside each other.
+    EXPECT_NEAR(start, 0.6, scene.tolerance);
     const double stored = world.advance().energies.contact;
     FrameReport report;
     for (int frame = 1; frame < 360; ++frame) {
         report = world.advance();
     }
-    EXPECT_LT(report.energies.contact, 0.02 * stored);
+    // At rest they lie side by side, drawn together with a force of their mass by how far each is
+    // from the middle, which a face of about 2 of length has to bear; being soft, it is pressed
+    // in like a parabola, so half as much again in its middle, and may sway by half of that.
+    const double force = inventory_of(scene).mass / 2.0 * scene.surroundings.attraction * 0.95;
+    const double depth = force / (scene.touch.stiffness * 2.0);
     for (const auto& overlap : world.proximity().overlaps()) {
-        EXPECT_LT(overlap.first_in_second->deepest.depth, 0.1);
+        EXPECT_LT(overlap.first_in_second->deepest.depth, 1.5 * 1.5 * depth);
     }
-    for (const auto& body : world.scene().bodies) {
+    EXPECT_LT(report.energies.contact, stored * depth / start);
+    for (const auto& body : scene.bodies) {
         const auto& bar = dynamic_cast<const DeformableBody&>(*body);
-        EXPECT_NEAR(bar.area(), bar.rest_area(), 0.05 * bar.rest_area());
+        // The pressure bears the same force on the same face.
+        EXPECT_NEAR(bar.area(), bar.rest_area(), 1.5 * force / 2.0 / 20.0 * bar.rest_area());
     }
 }
 
 TEST(Scenes, CountriesDoNotFlyApartNorMerge) {
     World world(simulation_context(), scenes::map_scene(), Response::penalty, Technique::cpu);
-    for (int frame = 0; frame < 300; ++frame) {
-        EXPECT_LT(world.advance().worst_penetration, 0.3) << frame;
+    const Scene& scene = world.scene();
+    // Of two that come together from where they start, the energy they fall by to the middle.
+    double heaviest = 0.0;
+    for (const auto& body : scene.bodies) {
+        heaviest = std::max(heaviest, body->inventory().mass);
     }
-    for (const auto& body : world.scene().bodies) {
-        EXPECT_LT(length(body->center()), 4.5);
+    constexpr double far = 3.9;
+    const double energy = 2.0 * 0.5 * heaviest * scene.surroundings.attraction * far * far;
+    const double deepest = deepest_by_energy(energy, scene.touch.stiffness);
+    for (int frame = 0; frame < 300; ++frame) {
+        EXPECT_LT(world.advance().worst_penetration, deepest) << frame;
+    }
+    // The stirring does not lift them out of where they fell from.
+    for (const auto& body : scene.bodies) {
+        EXPECT_LT(length(body->center()), far);
     }
 }
 
-TEST(Scenes, WhatIsPouredStaysInTheContainer) {
-    World world(simulation_context(), scenes::pour_scene(100), Response::penalty, Technique::cpu);
+TEST(Scenes, WhatIsPouredComesToRestInTheContainer) {
+    constexpr std::size_t stars = 100;
+    World world(simulation_context(), scenes::pour_scene(stars), Response::penalty, Technique::cpu);
+    const Scene& scene = world.scene();
     FrameReport report;
-    for (int frame = 0; frame < 400; ++frame) {
+    double worst = 0.0;
+    for (int frame = 0; frame < 900; ++frame) {
         report = world.advance();
         EXPECT_EQ(report.queries.batches, 1U);
+        worst = std::max(worst, report.worst_penetration);
     }
-    for (std::size_t i = 1; i < world.scene().bodies.size(); ++i) {
-        const Vector2 center = world.scene().bodies[i]->center();
+    // 5 rows of 20 stars of at most 0.64 in a container that is 16 wide: however they come to
+    // lie, no higher than all of them upright.
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+        const Vector2 center = scene.bodies[i]->center();
         EXPECT_LT(std::abs(center.x), 8.0) << i;
         EXPECT_GT(center.y, -7.0) << i;
-        EXPECT_LT(center.y, -4.0) << i;
+        EXPECT_LT(center.y, -7.0 + 5.0 * 0.64) << i;
     }
-    EXPECT_LT(report.energies.kinetic, 0.5);
+    // A star is nowhere thicker than the circle in its middle, 0.55 of its size: not so deep that
+    // the way out could be on its other side.
+    EXPECT_LT(worst, 0.55 * 0.24);
+    // At rest: nothing moves by the tolerance in a second.
+    const double mass = inventory_of(scene).mass;
+    const double slow = scene.tolerance;
+    EXPECT_LT(report.energies.kinetic, 0.5 * mass * slow * slow);
 }
 
 }  // namespace

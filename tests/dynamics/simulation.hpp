@@ -6,6 +6,7 @@
 #include <tools/dynamics/rigid_body.hpp>
 #include <tools/dynamics/world.hpp>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -26,6 +27,14 @@ namespace nearfield::test {
         sum.elastic_energy += inventory.elastic_energy;
     }
     return sum;
+}
+
+/// No point can be deeper in another body than this, where the springs of the penalty response have
+/// no more energy than `energy`. From a point that is deep, the boundary goes out of the other body
+/// in two directions; the depth falls no faster than the boundary is long, so either way holds at
+/// least the integral of stiffness / 4 * s^2 from 0 to the depth.
+[[nodiscard]] inline double deepest_by_energy(double energy, double stiffness) {
+    return std::cbrt(6.0 * energy / stiffness);
 }
 
 [[nodiscard]] inline Ring box(double width, double height) {

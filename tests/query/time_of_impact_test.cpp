@@ -22,6 +22,7 @@ struct MovingPair {
     Pair pair;
     Pose end_a;
     Pose end_b;
+    double contact_distance = 0.0;
 };
 
 double between(double start, double end, double time) {
@@ -36,12 +37,18 @@ Pose pose_at_time(const Pose& start, const Pose& end, double time) {
 
 MovingPair swapped(const MovingPair& moving) {
     const Pair& pair = moving.pair;
-    return {{pair.b, pair.a, pair.pose_b, pair.pose_a, pair.tolerance}, moving.end_b, moving.end_a};
+    return {{pair.b, pair.a, pair.pose_b, pair.pose_a, pair.tolerance},
+            moving.end_b,
+            moving.end_a,
+            moving.contact_distance};
 }
 
 MovingPair reversed(const MovingPair& moving) {
     const Pair& pair = moving.pair;
-    return {{pair.a, pair.b, moving.end_a, moving.end_b, pair.tolerance}, pair.pose_a, pair.pose_b};
+    return {{pair.a, pair.b, moving.end_a, moving.end_b, pair.tolerance},
+            pair.pose_a,
+            pair.pose_b,
+            moving.contact_distance};
 }
 
 /// The same motion seen from elsewhere.
@@ -96,10 +103,10 @@ protected:
     static TimeOfImpactResult ask(const MovingPair& moving, double time_bound = 1.0,
                                   std::uint32_t most_steps = TimeOfImpactQuery().most_steps) {
         const PlacedPair placed(context(), moving.pair, Technique::cpu);
-        return run_alone(
-            context(),
-            TimeOfImpactQuery{placed.instance_a(), placed.instance_b(), moving.end_a, moving.end_b,
-                              moving.pair.tolerance, time_bound, most_steps});
+        return run_alone(context(),
+                         TimeOfImpactQuery{placed.instance_a(), placed.instance_b(), moving.end_a,
+                                           moving.end_b, moving.pair.tolerance, time_bound,
+                                           most_steps, moving.contact_distance});
     }
 
     /// What every answer promises, held against the oracle at `moments` times.
@@ -118,7 +125,7 @@ protected:
             case ImpactState::intersecting_at_start:
                 EXPECT_TRUE(result.intersects);
                 EXPECT_EQ(result.time, 0.0);
-                check_common_point(moving, result);
+                check_start(moving, result);
                 break;
             case ImpactState::hit:
                 check_hit(moving, result, time_bound);
@@ -147,8 +154,12 @@ private:
             const double time = i == moments ? result.time : result.time * i / moments;
             const Moment moment(moving, time);
             const double distance = moment.boundary_distance();
+            const double apart = moment.meets() ? 0.0 : distance;
             EXPECT_TRUE(distance <= result.error_bound || !moment.meets())
                 << "late: they meet at " << time << " and are said to be apart until "
+                << result.time;
+            EXPECT_GE(apart, moving.contact_distance - result.error_bound)
+                << "late: they touch at " << time << " and are said to be apart until "
                 << result.time;
             EXPECT_GE(distance, result.least_distance) << "at " << time;
         }
@@ -162,7 +173,8 @@ private:
             const Moment moment(moving, result.time + result.time_error_bound * i / 16);
             EXPECT_LE(relative_motion(first, moment),
                       result.tolerance * (1.0 + 1e-9) + 4.0 * result.error_bound);
-            met = moment.meets() || moment.boundary_distance() <= result.error_bound;
+            met = moment.meets() ||
+                  moment.boundary_distance() <= moving.contact_distance + result.error_bound;
         }
         EXPECT_TRUE(met) << "early: from " << result.time << " for " << result.time_error_bound;
     }
@@ -181,8 +193,14 @@ private:
         EXPECT_NEAR(pose.translation.y, expected.translation.y, allowed);
         EXPECT_NEAR(pose.angle, expected.angle, 1e-12 * (1.0 + std::abs(expected.angle)));
     }
-    static void check_common_point(const MovingPair& moving, const TimeOfImpactResult& result) {
+    static void check_start(const MovingPair& moving, const TimeOfImpactResult& result) {
         const Moment start(moving, 0.0);
+        if (result.distance > 0.0) {
+            EXPECT_FALSE(start.meets());
+            EXPECT_LE(result.distance, moving.contact_distance + result.error_bound);
+            check_closest(moving, result);
+            return;
+        }
         EXPECT_TRUE(start.meets() || start.boundary_distance() <= result.error_bound);
         for (const ShapeOracle* shape : {&start.a(), &start.b()}) {
             EXPECT_LE(shape->signed_distance(result.point_a), result.error_bound);
@@ -215,6 +233,12 @@ MovingPair falling(const Rings& a, const Rings& b, const Pose& start, const Pose
     return {{{"A", a}, {"B", b}, start, {}, tolerance}, end, {}};
 }
 
+/// To come that close is to touch.
+MovingPair keeping(MovingPair moving, double contact_distance) {
+    moving.contact_distance = contact_distance;
+    return moving;
+}
+
 bool brackets_overlap(const TimeOfImpactResult& first, const TimeOfImpactResult& second) {
     constexpr double rounding = 1e-9;
     return first.time <= second.time + second.time_error_bound + rounding &&
@@ -231,6 +255,24 @@ TEST_F(TimeOfImpactTest, HoldsForRandomMotions) {
     });
     EXPECT_GT(hits, random_cases(60) / 10);
     EXPECT_GT(separated, random_cases(60) / 20);
+}
+
+TEST_F(TimeOfImpactTest, HoldsForRandomMotionsThatKeepADistance) {
+    int hits = 0;
+    int started = 0;
+    for_each_case(seed + 500, 40, [&](Random& random) {
+        const MovingPair moving = any_moving_pair(random);
+        const double size = std::max(moving.pair.tolerance, 0.01);
+        const double distance = size * random.scale(1e-3, 30.0);
+        const TimeOfImpactResult result = check(keeping(moving, distance), 30);
+        hits += result.state == ImpactState::hit ? 1 : 0;
+        started += result.state == ImpactState::intersecting_at_start ? 1 : 0;
+        // Who comes as close as that later or not at all does not touch before.
+        const TimeOfImpactResult touching = ask(moving);
+        EXPECT_LE(result.time, touching.time + touching.time_error_bound);
+    });
+    EXPECT_GT(hits, random_cases(40) / 10);
+    EXPECT_GT(started, 0);
 }
 
 TEST_F(TimeOfImpactTest, HoldsForEveryFamily) {
@@ -290,6 +332,46 @@ TEST_F(TimeOfImpactTest, KnownTimes) {
     result = check(falling(square, floor, {{0, 4}, 0}, {{0, -4}, 0}, 0.1), 60, 1e-17);
     EXPECT_EQ(result.state, ImpactState::hit);
     EXPECT_NEAR(result.time, 0.375, 1e-12);
+}
+
+TEST_F(TimeOfImpactTest, KnownTimesAtADistance) {
+    const Rings square = rectangle({-1, -1}, {1, 1});
+    const Rings floor = rectangle({-50, -2}, {50, 0});
+    const MovingPair fall = falling(square, floor, {{0, 4}, 0}, {{0, -4}, 0}, 1e-6);
+    // 3 above the floor at first, 8 lower at the end.
+    TimeOfImpactResult result = check(keeping(fall, 0.5));
+    ASSERT_EQ(result.state, ImpactState::hit);
+    EXPECT_NEAR(result.time, 2.5 / 8.0, 1e-6 / 8.0);
+    EXPECT_NEAR(result.distance, 0.5, 1e-6);
+    EXPECT_GE(result.distance, 0.5);
+    EXPECT_GE(result.least_distance, 0.5 - result.error_bound);
+    EXPECT_NEAR(result.direction.y, -1.0, 1e-12);
+    // Closer than that already, and as close.
+    result = check(keeping(fall, 3.5));
+    EXPECT_EQ(result.state, ImpactState::intersecting_at_start);
+    EXPECT_EQ(result.distance, 3.0);
+    EXPECT_EQ(check(keeping(fall, 3.0)).state, ImpactState::intersecting_at_start);
+    // Through the floor and far below it: never seen as far apart.
+    result = check(keeping(falling(square, floor, {{0, 4}, 0}, {{0, -40}, 0}, 1e-3), 0.1));
+    ASSERT_EQ(result.state, ImpactState::hit);
+    EXPECT_NEAR(result.time, 2.9 / 44.0, 1e-3 / 44.0);
+    // It slides along at a little more than the distance, and at a little less.
+    const auto slide = [&](double gap) {
+        return keeping(falling(square, floor, {{-30, 1.0 + gap}, 0}, {{30, 1.0 + gap}, 0}, 1e-3),
+                       0.25);
+    };
+    result = check(slide(0.25 + 1e-9));
+    EXPECT_EQ(result.state, ImpactState::separated);
+    EXPECT_GE(result.least_distance, 0.25);
+    EXPECT_LT(result.steps, 20U);
+    EXPECT_EQ(check(slide(0.25 - 1e-9)).state, ImpactState::intersecting_at_start);
+    // A corner that passes another at the distance or less, slanting.
+    const Rings corner{{{0, 0}, {-3, 1}, {-3, -1}}};
+    const auto pass = [&](double by) {
+        return keeping(falling(square, corner, {{1.0 + by, 9}, 0}, {{1.0 + by, -9}, 0}, 1e-5), 0.3);
+    };
+    EXPECT_EQ(check(pass(0.3 + 1e-6)).state, ImpactState::separated);
+    EXPECT_EQ(check(pass(0.3 - 1e-6)).state, ImpactState::hit);
 }
 
 TEST_F(TimeOfImpactTest, InsideAHoleTheWallIsHit) {
@@ -447,6 +529,11 @@ TEST_F(TimeOfImpactTest, RefusesWhatItCannotUse) {
     query = good;
     query.most_steps = 0;
     expect_refused(query, "most steps");
+    query = good;
+    for (const double distance : {-0.1, std::nan(""), 1e300}) {
+        query.contact_distance = distance;
+        expect_refused(query, "the contact distance is");
+    }
     query = good;
     query.end_a.angle = std::numeric_limits<double>::infinity();
     expect_refused(query, "the angle of A's end pose");

@@ -97,7 +97,10 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     refuse_option(arguments.kind, "--kind", request, QueryType::intersection);
     refuse_option(arguments.rectangle, "--rect", request, QueryType::distance_field);
     refuse_option(arguments.field, "--field", request, QueryType::distance_field);
-    refuse_option(arguments.contact_distance, "--contact-distance", request, QueryType::contacts);
+    if (request.type != QueryType::time_of_impact) {
+        refuse_option(arguments.contact_distance, "--contact-distance", request,
+                      QueryType::contacts);
+    }
     refuse_option(arguments.normals, "--normals", request, QueryType::contacts);
     refuse_option(arguments.sign, "--sign", request, QueryType::distance_field);
     refuse_option(arguments.gradient, "--gradient", request, QueryType::distance_field);

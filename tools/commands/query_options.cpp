@@ -133,8 +133,8 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
         ->type_name("NAME");
     command
         ->add_option("--contact-distance", arguments.contact_distance,
-                     "Of contacts: how close counts as contact, world units, > 0; default the "
-                     "tolerance")
+                     "Of contacts and time-of-impact: how close counts as contact, world units, > "
+                     "0; default the tolerance, and of time-of-impact none: they share a point")
         ->type_name("D");
     command
         ->add_option("--normals", arguments.normals,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace nearfield::tools {
@@ -25,7 +27,40 @@ namespace {
 /// True where A and B may change places: once is enough then.
 bool is_symmetric(QueryType type) {
     return type == QueryType::separation || type == QueryType::intersection_test ||
-           type == QueryType::separation_vector;
+           type == QueryType::time_of_impact || type == QueryType::separation_vector;
+}
+
+/// A box that holds a shape all the way from its pose to its end pose.
+Rectangle swept_box(const SceneShape& shape, const SceneInstance& instance) {
+    const Pose& start = instance.pose;
+    const Pose end = instance.end_pose.value_or(start);
+    constexpr double none = std::numeric_limits<double>::infinity();
+    Rectangle box{{none, none}, {-none, -none}};
+    const auto hold = [&box](Vector2 origin, Vector2 low, Vector2 high) {
+        box.min = {std::min(box.min.x, origin.x + low.x), std::min(box.min.y, origin.y + low.y)};
+        box.max = {std::max(box.max.x, origin.x + high.x), std::max(box.max.y, origin.y + high.y)};
+    };
+    for (const Ring& ring : shape.rings) {
+        for (const Vector2 vertex : ring) {
+            // What turns stays in a circle about the origin of its coordinates.
+            const double radius = std::hypot(vertex.x, vertex.y);
+            const double cosine = std::cos(start.angle);
+            const double sine = std::sin(start.angle);
+            const Vector2 arm{cosine * vertex.x - sine * vertex.y,
+                              sine * vertex.x + cosine * vertex.y};
+            const bool turns = start.angle != end.angle;
+            const Vector2 low = turns ? Vector2{-radius, -radius} : arm;
+            const Vector2 high = turns ? Vector2{radius, radius} : arm;
+            hold(start.translation, low, high);
+            hold(end.translation, low, high);
+        }
+    }
+    return box;
+}
+
+bool come_within(const Rectangle& a, const Rectangle& b, double reach) {
+    return a.min.x - b.max.x <= reach && b.min.x - a.max.x <= reach && a.min.y - b.max.y <= reach &&
+           b.min.y - a.max.y <= reach;
 }
 
 }  // namespace
@@ -72,13 +107,40 @@ double SceneRunner::run_frame() {
 }
 
 void SceneRunner::add(std::size_t query, std::size_t a, std::size_t b) {
-    add_query(batch_, scene_.queries[query].request, instances_[a], instances_[b]);
+    const QueryRequest& request = scene_.queries[query].request;
+    if (request.type == QueryType::time_of_impact) {
+        QueryRequest moving = request;
+        moving.end_a = scene_.instances[a].end_pose;
+        moving.end_b = scene_.instances[b].end_pose;
+        add_query(batch_, moving, instances_[a], instances_[b]);
+    } else {
+        add_query(batch_, request, instances_[a], instances_[b]);
+    }
     entries_.push_back({query, a, b});
+}
+
+void SceneRunner::add_moving_pairs(std::size_t query) {
+    const double reach = scene_.queries[query].request.contact_distance.value_or(0.0);
+    std::vector<Rectangle> boxes;
+    for (const SceneInstance& instance : scene_.instances) {
+        boxes.push_back(swept_box(scene_.shapes[instance.shape], instance));
+    }
+    for (std::size_t a = 0; a < boxes.size(); ++a) {
+        for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+            if (come_within(boxes[a], boxes[b], reach)) {
+                add(query, a, b);
+            }
+        }
+    }
 }
 
 void SceneRunner::add_all_pairs(std::size_t query) {
     const SceneQuery& all = scene_.queries[query];
     const QueryRequest& request = all.request;
+    if (request.type == QueryType::time_of_impact) {
+        add_moving_pairs(query);
+        return;
+    }
     const double reach = request.type == QueryType::contacts
                              ? request.contact_distance.value_or(request.tolerance)
                              : all.reach;

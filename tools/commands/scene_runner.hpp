@@ -56,6 +56,8 @@ private:
 
     void add(std::size_t query, std::size_t a, std::size_t b);
     void add_all_pairs(std::size_t query);
+    /// Of times of impact.
+    void add_moving_pairs(std::size_t query);
     [[nodiscard]] std::string place_of(const SceneShape& shape) const;
 
     const Scene& scene_;

@@ -1,23 +1,47 @@
 #include <tools/dynamics/backtracking.hpp>
 #include <tools/dynamics/impulses.hpp>
+#include <tools/dynamics/plane.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace nearfield::dynamics {
 namespace {
 
-/// A pair and how close it may come.
-struct Watched {
-    InstancePair pair;
-    double least = 0.0;
+using Approach = Proximity::Approach;
+
+std::vector<InstancePair> pairs_of(const std::vector<Approach>& approaches) {
+    std::vector<InstancePair> pairs;
+    pairs.reserve(approaches.size());
+    for (const Approach& approach : approaches) {
+        pairs.push_back(approach.pair);
+    }
+    return pairs;
+}
+
+/// A pair that is that close already, by rounding or because the scene started so, may stay but
+/// come no closer.
+double least_from(double start) {
+    return start * (1.0 - 1e-9);
+}
+
+/// The pairs that would come too close, and a time before which none does.
+struct Meeting {
+    std::vector<InstancePair> pairs;
+    double clear = 0.0;
 };
 
-/// One step: knows which pairs are too close at a time after the last settled state.
+/// One step: knows which pairs come too close in a time after the last settled state.
 class Step {
 public:
     Step(Proximity& proximity, const Scene& scene)
-        : proximity_(proximity), scene_(scene), waiting_(scene.bodies.size(), false) {}
+        : proximity_(proximity),
+          scene_(scene),
+          deforming_(static_cast<std::size_t>(
+              std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                            [](const auto& body) { return body->deforms(); }))),
+          waiting_(scene.bodies.size(), false) {}
 
     /// Bodies that wait stay where they settled.
     void move(double time) {
@@ -31,12 +55,121 @@ public:
         }
     }
 
-    /// The pairs that are too close after `time`. A pair that is so already, by rounding or because
-    /// the scene started so, may stay but come no closer.
-    [[nodiscard]] std::vector<Watched> offenders_after(double time) {
+    [[nodiscard]] Meeting first_meeting(double time) {
+        Meeting meeting{{}, time};
+        if (deforming_ + 1 < scene_.bodies.size()) {
+            find_rigid(meeting);
+        }
+        if (deforming_ > 0) {
+            find_deforming(meeting);
+        }
+        return meeting;
+    }
+
+    [[nodiscard]] std::size_t wait(const Meeting& meeting) {
+        std::size_t more = 0;
+        for (const InstancePair& pair : meeting.pairs) {
+            for (const std::uint32_t body : {pair.first, pair.second}) {
+                more += waiting_[body] ? 0U : 1U;
+                waiting_[body] = true;
+            }
+        }
+        return more;
+    }
+
+private:
+    /// The least distance that bodies keep.
+    [[nodiscard]] double floor() const { return 0.25 * proximity_.tolerance(); }
+
+    [[nodiscard]] bool deforms(const InstancePair& pair) const {
+        return scene_.bodies[pair.first]->deforms() || scene_.bodies[pair.second]->deforms();
+    }
+
+    /// Where rigid bodies are after a time, and how far any point of one has come by then at the
+    /// most. Leaves all where they settled.
+    double find_ends(double time) {
+        move(time);
+        ends_.clear();
+        for (const std::unique_ptr<Body>& body : scene_.bodies) {
+            ends_.push_back(body->pose());
+        }
+        move(0.0);
+        double farthest = 0.0;
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+            const Body& body = *scene_.bodies[i];
+            if (body.deforms()) {
+                continue;
+            }
+            double radius = 0.0;
+            for (const Ring& ring : body.rings()) {
+                for (const Vector2 vertex : ring) {
+                    radius = std::max(radius, length(vertex));
+                }
+            }
+            const Pose start = body.pose();
+            farthest = std::max(farthest, length(ends_[i].translation - start.translation) +
+                                              radius * std::abs(ends_[i].angle - start.angle));
+        }
+        return farthest;
+    }
+
+    /// Adds the pairs of rigid bodies that touch within meeting.clear, which comes down to the
+    /// first of these times.
+    void find_rigid(Meeting& meeting) {
+        const double time = meeting.clear;
+        const double farthest = find_ends(time);
+        std::vector<Approach> approaches;
+        for (const InstancePair& pair : proximity_.near_pairs(floor() + 2.0 * farthest)) {
+            const bool both_wait = waiting_[pair.first] && waiting_[pair.second];
+            if (!deforms(pair) && !both_wait) {
+                approaches.push_back({pair, floor()});
+            }
+        }
+        const std::vector<Approach> close = add_impacts(approaches, time, meeting);
+        if (!close.empty()) {
+            static_cast<void>(add_impacts(close, time, meeting));
+        }
+    }
+
+    /// Returns those that start as close as they may be, and how close they then may be.
+    std::vector<Approach> add_impacts(const std::vector<Approach>& approaches, double time,
+                                      Meeting& meeting) {
+        std::vector<Approach> close;
+        const std::vector<const TimeOfImpactResult*>& impacts =
+            proximity_.impacts(approaches, ends_);
+        for (std::size_t i = 0; i < approaches.size(); ++i) {
+            const TimeOfImpactResult& impact = *impacts[i];
+            const InstancePair& pair = approaches[i].pair;
+            const double rounding = impact.error_bound;
+            if (impact.time == 0.0 && impact.distance <= approaches[i].least + rounding) {
+                close.push_back(
+                    {pair, std::max(0.0, least_from(impact.distance) - 2.0 * rounding)});
+            } else if (impact.state != ImpactState::separated) {
+                meeting.pairs.push_back(pair);
+                meeting.clear = std::min(meeting.clear, impact.time * time);
+            }
+        }
+        return close;
+    }
+
+    /// Adds the pairs with a deformable body that are too close after meeting.clear, which comes
+    /// down to a time after which they are not.
+    void find_deforming(Meeting& meeting) {
+        const std::vector<Approach> offenders = deforming_offenders_after(meeting.clear);
+        if (offenders.empty()) {
+            return;
+        }
+        meeting.clear = time_before(offenders, meeting.clear);
+        for (const Approach& offender : offenders) {
+            meeting.pairs.push_back(offender.pair);
+        }
+    }
+
+    [[nodiscard]] std::vector<Approach> deforming_offenders_after(double time) {
         move(time);
         std::vector<InstancePair> pairs = proximity_.near_pairs(floor());
-        std::vector<Watched> close;
+        std::erase_if(pairs, [this](const InstancePair& pair) { return !deforms(pair); });
+        std::vector<Approach> close;
         const std::vector<double>& ends = proximity_.distances(pairs);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             if (ends[i] < floor()) {
@@ -47,20 +180,19 @@ public:
             return close;
         }
         move(0.0);
-        const std::vector<double> starts = proximity_.distances(pairs_of(close));
-        std::vector<Watched> offenders;
+        const std::vector<double>& starts = proximity_.distances(pairs_of(close));
+        std::vector<Approach> offenders;
         for (std::size_t i = 0; i < close.size(); ++i) {
-            const double least = std::min(floor(), starts[i] * (1.0 - 1e-9));
+            const double least = std::min(floor(), least_from(starts[i]));
             if (close[i].least < least) {
                 offenders.push_back({close[i].pair, least});
             }
         }
-        move(time);
         return offenders;
     }
 
     /// The longest time found by bisection after which none of the pairs is too close.
-    [[nodiscard]] double time_before(const std::vector<Watched>& offenders, double time) {
+    [[nodiscard]] double time_before(const std::vector<Approach>& offenders, double time) {
         constexpr int halvings = 9;
         const std::vector<InstancePair> pairs = pairs_of(offenders);
         double clear = 0.0;
@@ -78,33 +210,11 @@ public:
         return clear;
     }
 
-    [[nodiscard]] std::size_t wait(const std::vector<Watched>& offenders) {
-        std::size_t more = 0;
-        for (const Watched& offender : offenders) {
-            for (const std::uint32_t body : {offender.pair.first, offender.pair.second}) {
-                more += waiting_[body] ? 0U : 1U;
-                waiting_[body] = true;
-            }
-        }
-        return more;
-    }
-
-    /// The least distance that bodies keep.
-    [[nodiscard]] double floor() const { return 0.25 * proximity_.tolerance(); }
-
-private:
-    static std::vector<InstancePair> pairs_of(const std::vector<Watched>& watched) {
-        std::vector<InstancePair> pairs;
-        pairs.reserve(watched.size());
-        for (const Watched& each : watched) {
-            pairs.push_back(each.pair);
-        }
-        return pairs;
-    }
-
     Proximity& proximity_;
     const Scene& scene_;
+    std::size_t deforming_;
     std::vector<bool> waiting_;
+    std::vector<Pose> ends_;
 };
 
 }  // namespace
@@ -116,24 +226,24 @@ BacktrackingReport move_without_penetration(Proximity& proximity, const Scene& s
     Step step(proximity, scene);
     double remaining = time;
     while (true) {
-        std::vector<Watched> offenders = step.offenders_after(remaining);
-        if (offenders.empty()) {
+        const Meeting meeting = step.first_meeting(remaining);
+        if (meeting.pairs.empty()) {
             break;
         }
         if (report.events == most_events) {
-            report.stopped += step.wait(offenders);
+            report.stopped += step.wait(meeting);
             continue;
         }
-        const double clear = step.time_before(offenders, remaining);
-        step.move(clear);
+        step.move(meeting.clear);
         step.settle();
-        remaining -= clear;
+        remaining -= meeting.clear;
         const std::vector<Contact> contacts =
             contacts_of(proximity.contacts(2.0 * proximity.tolerance()), scene);
         resolve(contacts, scene.touch, gap, {time, std::max(remaining, 0.01 * time)});
         report.contacts += contacts.size();
         ++report.events;
     }
+    step.move(remaining);
     step.settle();
     return report;
 }

@@ -71,7 +71,9 @@ Contact contact_at(const ContactRecord& record, Body& a, Body& b) {
     const Vector2 normal = record.distance > 0.0 && !record.inside
                                ? (1.0 / record.distance) * (point_a - point_b)
                                : record.normal;
-    return {&a, &b, a.grip(point_a), b.grip(point_b), normal, record.distance, record.distance};
+    // One point for both: what one gains in angular momentum the other loses.
+    const Vector2 between = 0.5 * (point_a + point_b);
+    return {&a, &b, a.grip(between), b.grip(between), normal, record.distance, record.distance};
 }
 
 /// Contacts of one pair find out about each other: only those close to each other matter.

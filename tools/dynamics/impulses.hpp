@@ -12,7 +12,7 @@ namespace nearfield::dynamics {
 struct Contact {
     Body* a;
     Body* b;
-    Grip on_a;
+    Grip on_a;  ///< half way between the two points, as on_b
     Grip on_b;
     Vector2 normal;         ///< from B to A, unit
     double distance = 0.0;  ///< between the two points

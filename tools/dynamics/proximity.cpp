@@ -124,6 +124,29 @@ const std::vector<double>& Proximity::distances(std::span<const InstancePair> pa
     return distances_;
 }
 
+const std::vector<const TimeOfImpactResult*>& Proximity::impacts(
+    std::span<const Approach> approaches, std::span<const Pose> ends) {
+    place();
+    batch_.clear();
+    TimeOfImpactQuery query;
+    // Bodies stop before they are as close as they may be, and so much sooner at the most.
+    query.tolerance = tolerance_ / 32.0;
+    for (const Approach& approach : approaches) {
+        query.a = instances_[approach.pair.first];
+        query.b = instances_[approach.pair.second];
+        query.end_a = ends[approach.pair.first];
+        query.end_b = ends[approach.pair.second];
+        query.contact_distance = approach.least;
+        batch_.add(query);
+    }
+    run();
+    impacts_.clear();
+    for (std::uint32_t i = 0; i < approaches.size(); ++i) {
+        impacts_.push_back(&results_[QueryHandle<TimeOfImpactQuery>{i}]);
+    }
+    return impacts_;
+}
+
 const std::vector<Proximity::Touching>& Proximity::contacts(double contact_distance) {
     batch_.clear();
     ContactQuery query;

@@ -39,6 +39,15 @@ public:
     [[nodiscard]] const std::vector<Overlap>& overlaps();
     /// Least distances; 0 where they intersect.
     [[nodiscard]] const std::vector<double>& distances(std::span<const InstancePair> pairs);
+    /// Rigid bodies that are on their way, and how close they may come, > 0.
+    struct Approach {
+        InstancePair pair;
+        double least = 0.0;
+    };
+    /// When pairs first come as close as they may on the way from where they are to `ends`, the
+    /// poses of all bodies; valid until the next question.
+    [[nodiscard]] const std::vector<const TimeOfImpactResult*>& impacts(
+        std::span<const Approach> approaches, std::span<const Pose> ends);
     /// Contacts of every near pair; valid until the next question.
     [[nodiscard]] const std::vector<Touching>& contacts(double contact_distance);
 
@@ -72,6 +81,7 @@ private:
     std::vector<Overlap> overlaps_;
     std::vector<Touching> touching_;
     std::vector<double> distances_;
+    std::vector<const TimeOfImpactResult*> impacts_;
     Count count_;
 };
 

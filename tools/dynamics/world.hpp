@@ -33,7 +33,7 @@ struct FrameReport {
 /// A scene that runs, frame by frame, always the same way.
 class World {
 public:
-    /// Throws std::invalid_argument where the response is backtracking and bodies overlap.
+    /// Throws std::invalid_argument where the response is backtracking and bodies touch or overlap.
     World(Context& context, Scene scene, Response response,
           Technique technique = Technique::automatic);
 

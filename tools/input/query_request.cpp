@@ -190,7 +190,8 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
         case QueryType::time_of_impact:
             batch.add(TimeOfImpactQuery{a, b, request.end_a.value_or(a.pose),
                                         request.end_b.value_or(b.pose), request.tolerance,
-                                        request.time_bound, request.most_steps, request.technique});
+                                        request.time_bound, request.most_steps,
+                                        request.contact_distance.value_or(0.0), request.technique});
             break;
     }
 }

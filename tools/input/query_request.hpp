@@ -35,7 +35,8 @@ struct QueryRequest {
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
     bool records = true;                     ///< of penetration, intersection and contacts
-    std::optional<double> contact_distance;  ///< of contacts; default: tolerance
+    /// Of contacts, default: tolerance; of time-of-impact, default: 0.
+    std::optional<double> contact_distance;
     ContactNormals normals = ContactNormals::analytic;  ///< of contacts
     // All of distance-field.
     std::optional<Rectangle> rectangle;

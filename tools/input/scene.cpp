@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-void require_known_members(const JsonPlace& place, std::initializer_list<std::string_view> known) {
+void require_known_members(const JsonPlace& place, const std::vector<std::string_view>& known) {
     for (const auto& [key, value] : place.require_object().value().items()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
             place.member(key).fail("is not known here");
@@ -176,14 +176,44 @@ void read_motion_request(const JsonPlace& place, QueryRequest& request) {
     }
 }
 
-QueryRequest read_request(const JsonPlace& place) {
-    QueryRequest request;
-    request.type = parse_member(place, "query", parse_query_type);
+/// What a query of a type may have.
+std::vector<std::string_view> members_of(QueryType type) {
+    std::vector<std::string_view> members{"query", "a", "b", "pairs", "tolerance", "technique"};
+    const auto add = [&members](std::initializer_list<std::string_view> more) {
+        members.insert(members.end(), more);
+    };
+    if (is_sampled(type)) {
+        add({"reach", "strategy", "records"});
+    }
+    switch (type) {
+        case QueryType::penetration:
+            add({"points"});
+            break;
+        case QueryType::intersection:
+            add({"kind"});
+            break;
+        case QueryType::distance_field:
+            add({"rect", "sign", "gradient", "gradients", "features", "values", "at"});
+            break;
+        case QueryType::contacts:
+            add({"contact_distance", "normals"});
+            break;
+        case QueryType::time_of_impact:
+            add({"contact_distance", "time_bound", "most_steps"});
+            break;
+        case QueryType::closest_point:
+        case QueryType::separation:
+        case QueryType::intersection_test:
+        case QueryType::separation_vector:
+            break;
+    }
+    return members;
+}
+
+/// What more than one type of query has.
+void read_shared_members(const JsonPlace& place, QueryRequest& request) {
     if (request.type != QueryType::intersection_test || place.has("tolerance")) {
         request.tolerance = read_above_zero(place.member("tolerance"));
-    }
-    if (place.has("technique")) {
-        request.technique = parse_member(place, "technique", parse_technique);
     }
     if (place.has("strategy")) {
         request.strategy = parse_member(place, "strategy", parse_strategy);
@@ -191,61 +221,41 @@ QueryRequest read_request(const JsonPlace& place) {
     const bool names_a_way_of_drawing =
         (request.type == QueryType::intersection && place.has("strategy")) ||
         (request.type == QueryType::distance_field && place.has("sign"));
-    if (names_a_way_of_drawing && !place.has("technique")) {
+    if (place.has("technique")) {
+        request.technique = parse_member(place, "technique", parse_technique);
+    } else if (names_a_way_of_drawing) {
         request.technique = Technique::raster;
     }
-    if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
-        place.member("reach").fail("belongs to the separation of all pairs");
-    }
-    switch (request.type) {
-        case QueryType::penetration:
-            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
-                                          "technique", "strategy", "records", "points"});
-            if (place.has("points")) {
-                request.points = parse_member(place, "points", parse_points);
-            }
-            break;
-        case QueryType::intersection:
-            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
-                                          "technique", "strategy", "records", "kind"});
-            if (place.has("kind")) {
-                request.kind = parse_member(place, "kind", parse_kind);
-            }
-            break;
-        case QueryType::distance_field:
-            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
-                                          "technique", "strategy", "records", "rect", "sign",
-                                          "gradient", "gradients", "features", "values", "at"});
-            read_field_request(place, request);
-            break;
-        case QueryType::contacts:
-            require_known_members(
-                place, {"query", "a", "b", "tolerance", "pairs", "reach", "technique", "strategy",
-                        "records", "contact_distance", "normals"});
-            if (place.has("contact_distance")) {
-                request.contact_distance = read_above_zero(place.member("contact_distance"));
-            }
-            if (place.has("normals")) {
-                request.normals = parse_member(place, "normals", parse_normals);
-            }
-            break;
-        case QueryType::closest_point:
-        case QueryType::separation:
-            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "reach",
-                                          "technique", "strategy", "records"});
-            break;
-        case QueryType::intersection_test:
-        case QueryType::separation_vector:
-            require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "technique"});
-            break;
-        case QueryType::time_of_impact:
-            require_known_members(
-                place, {"query", "a", "b", "tolerance", "technique", "time_bound", "most_steps"});
-            read_motion_request(place, request);
-            break;
+    if (place.has("contact_distance")) {
+        request.contact_distance = read_above_zero(place.member("contact_distance"));
     }
     if (place.has("records")) {
         request.records = place.member("records").boolean();
+    }
+}
+
+QueryRequest read_request(const JsonPlace& place) {
+    QueryRequest request;
+    request.type = parse_member(place, "query", parse_query_type);
+    if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
+        place.member("reach").fail("belongs to the separation of all pairs");
+    }
+    require_known_members(place, members_of(request.type));
+    read_shared_members(place, request);
+    if (place.has("points")) {
+        request.points = parse_member(place, "points", parse_points);
+    }
+    if (place.has("kind")) {
+        request.kind = parse_member(place, "kind", parse_kind);
+    }
+    if (place.has("normals")) {
+        request.normals = parse_member(place, "normals", parse_normals);
+    }
+    if (request.type == QueryType::distance_field) {
+        read_field_request(place, request);
+    }
+    if (request.type == QueryType::time_of_impact) {
+        read_motion_request(place, request);
     }
     return request;
 }
@@ -276,8 +286,6 @@ SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
     }
     query.a = find_entry(scene.instances, place.member("a"), "instance");
     query.b = find_entry(scene.instances, place.member("b"), "instance");
-    query.request.end_a = scene.instances[query.a].end_pose;
-    query.request.end_b = scene.instances[query.b].end_pose;
     return query;
 }
 

@@ -33,7 +33,9 @@ struct SceneQuery {
     std::size_t b = 0;  ///< index into Scene::instances
     /// In place of a and b: every ordered pair whose boxes meet (for contacts: come within the
     /// contact distance; for separation: every unordered pair within `reach`; for intersection
-    /// tests and separation vectors: every unordered pair whose boxes meet).
+    /// tests and separation vectors: every unordered pair whose boxes meet; for times of impact:
+    /// every unordered pair of which boxes that hold all of the motion come within the contact
+    /// distance).
     bool all_pairs = false;
     double reach = 0.0;  ///< of separation of all pairs, world units
 };

@@ -145,7 +145,7 @@ void write_result(std::ostream& stream, const TimeOfImpactResult& result) {
     write_item(stream, "time", time_text(result));
     write_item(stream, "pose of A then", pose_text(result.pose_a));
     write_item(stream, "pose of B then", pose_text(result.pose_b));
-    if (result.state == ImpactState::intersecting_at_start) {
+    if (result.state == ImpactState::intersecting_at_start && result.distance == 0.0) {
         write_item(stream, "common point", point_text(result.point_a));
     } else {
         write_item(stream, "distance then",

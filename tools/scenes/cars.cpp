@@ -14,31 +14,65 @@ namespace {
 using namespace dynamics;
 
 constexpr std::size_t cars = 18;
+constexpr std::size_t lanes = 3;
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr Vector2 middle{0.0, 0.2};
 
-/// Where a car wants to be.
-Vector2 goal_of(std::size_t car, double time) {
-    const double number = static_cast<double>(car);
-    const double across = 0.31 + 0.023 * std::fmod(5.0 * number, 7.0);
-    const double along = 0.37 + 0.019 * std::fmod(3.0 * number, 5.0);
-    return {5.2 * std::sin(across * time + 2.1 * number),
-            3.7 * std::sin(along * time + 1.3 * number + 0.7)};
+/// A car's way round the course: a lane that it leaves a little, to and fro, and where on it the
+/// car is to be. Inner lanes are the faster ones, so cars pass each other all the time.
+struct Driver {
+    double lane = 0.0;   // beside the middle lane, outwards
+    double start = 0.0;  // angle on the course
+    double pace = 0.0;   // radians a second
+    double mood = 0.0;   // of its waywardness, a phase
+
+    [[nodiscard]] double angle(double time) const {
+        return start + pace * time + 0.2 * std::sin(0.9 * time + 3.0 * mood);
+    }
+    [[nodiscard]] Vector2 radii(double time) const {
+        // In lane at the start.
+        const double beside = lane + 0.35 * std::min(1.0, time) * std::sin(0.7 * time + mood);
+        return {4.3 + beside, 3.1 + beside};
+    }
+    [[nodiscard]] Vector2 place(double angle, double time) const {
+        const Vector2 around = radii(time);
+        return middle + Vector2{around.x * std::cos(angle), around.y * std::sin(angle)};
+    }
+};
+
+Driver driver_of(std::size_t car) {
+    constexpr double lane_width = 0.85;
+    constexpr double per_lane = static_cast<double>(cars / lanes);
+    const double lane = static_cast<double>(car % lanes);
+    const double slot = static_cast<double>(car / lanes);
+    return {lane_width * (lane - 1.0), turn * (slot + lane / 3.0) / per_lane, 0.62 - 0.13 * lane,
+            2.4 * static_cast<double>(car)};
 }
 
-/// Wheels roll along the car and hardly slip sideways; the engine pulls towards the goal.
-void drive(RigidBody& car, Vector2 goal) {
-    constexpr double grip = 6.0;       // deceleration by speed, sideways
-    constexpr double rolling = 0.8;    // forwards
-    constexpr double engine = 2.6;     // acceleration
+/// Wheels roll along the car and hardly slip sideways. It steers for a point of its lane a little
+/// ahead of it, and drives the faster the farther it is behind its schedule.
+void drive(RigidBody& car, const Driver& driver, double time) {
+    constexpr double grip = 6.0;      // deceleration by speed, sideways
+    constexpr double engine = 4.0;    // the most acceleration, and deceleration by the brake
+    constexpr double response = 4.0;  // acceleration by the speed that is missing
+    constexpr double fastest = 3.2;
     constexpr double steering = 14.0;  // angular acceleration by the angle that is missing
     constexpr double settling = 6.0;   // and by spin
+    constexpr double look_ahead = 0.3;
+    const Vector2 around = driver.radii(time);
+    const Vector2 arm = car.center() - middle;
+    const double angle = std::atan2(arm.y / around.y, arm.x / around.x);
+    const Vector2 way = driver.place(angle + look_ahead, time) - car.center();
     const Vector2 ahead = polar(1.0, car.angle());
     const Vector2 side = left_of(ahead);
-    const Vector2 way = goal - car.center();
     const double error = std::atan2(cross(ahead, way), dot(ahead, way));
-    const double throttle = engine * std::min(1.0, length(way)) * std::max(0.25, std::cos(error));
+    const double behind = std::remainder(driver.angle(time) - angle, turn);
+    const double radius = length(arm);
+    const double wanted = std::clamp(radius * (driver.pace + 1.2 * behind), 0.3, fastest) *
+                          std::max(0.25, std::cos(error));
     const Vector2 velocity = car.velocity();
-    car.pull((throttle - rolling * dot(velocity, ahead)) * ahead -
-             (grip * dot(velocity, side)) * side);
+    const double throttle = std::clamp(response * (wanted - dot(velocity, ahead)), -engine, engine);
+    car.pull(throttle * ahead - (grip * dot(velocity, side)) * side);
     car.twist(car.inertia() * (steering * std::clamp(error, -0.8, 0.8) - settling * car.spin()));
 }
 
@@ -58,10 +92,9 @@ Scene cars_scene() {
     scene.name = "cars";
     std::vector<RigidBody*> bodies;
     for (std::size_t i = 0; i < cars; ++i) {
-        const std::size_t row = i / 6;
-        const Vector2 place{-5.0 + 2.0 * static_cast<double>(i % 6),
-                            -2.4 + 2.4 * static_cast<double>(row)};
-        const Vector2 way = goal_of(i, 0.0) - place;
+        const Driver driver = driver_of(i);
+        const Vector2 place = driver.place(driver.start, 0.0);
+        const Vector2 way = driver.place(driver.start + 0.01, 0.0) - place;
         auto body = std::make_unique<RigidBody>(std::vector<Ring>{car_outline(i < 14 ? 15 : 14)},
                                                 Pose{place, std::atan2(way.y, way.x)});
         bodies.push_back(body.get());
@@ -71,7 +104,7 @@ Scene cars_scene() {
     scene.touch = {12000.0, 60.0, 0.5, 0.2};
     scene.act = [bodies](double time) {
         for (std::size_t i = 0; i < bodies.size(); ++i) {
-            drive(*bodies[i], goal_of(i, time));
+            drive(*bodies[i], driver_of(i), time);
         }
     };
     scene.view = {{-6.3, -4.5}, {6.3, 4.9}};
