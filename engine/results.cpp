@@ -13,8 +13,14 @@ using geometry::PlacedPolygon;
 using plan::PlannedQuery;
 using plan::Tile;
 
-/// Counts what it takes among the result's statistics.
-bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
+}  // namespace
+
+/// Counts what it takes among the result's statistics, where hierarchies take it.
+bool ResultDecoder::shapes_intersect(const plan::Plan& plan, const PlannedQuery& query,
+                                     ResultSummary& result) {
+    if (query.on_cpu) {
+        return intersection_test_.intersect(query, instances_);
+    }
     localize::Effort effort;
     const bool answer =
         localize::intersects(PlacedPolygon(*query.a, query.pose_a),
@@ -23,8 +29,6 @@ bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultS
     result.localization.pairs_rejected += effort.pairs_rejected;
     return answer;
 }
-
-}  // namespace
 
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
     words_.resize(plan.points.size());

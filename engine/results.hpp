@@ -59,6 +59,9 @@ private:
         IntersectionSample sample;
     };
 
+    /// Whether the shapes of a query share a point.
+    [[nodiscard]] bool shapes_intersect(const plan::Plan& plan, const plan::PlannedQuery& query,
+                                        ResultSummary& result);
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
                             PenetrationResult& result);
     /// Of the queries that the CPU answers, or of the others.
