@@ -2,6 +2,7 @@
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/intersection_samples.hpp>
+#include <engine/plan/overlap_boundary.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +12,6 @@
 namespace nearfield {
 namespace {
 
-using geometry::PlacedPolygon;
 using plan::PlannedQuery;
 using plan::Tile;
 using plan::TileBoundary;
@@ -56,11 +56,10 @@ void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& plann
                                const Tile& tile, bool with_runs, plan::SimplifiedShapes& shapes) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
     const double cell = tile.grid.cell;
-    const double simplification = planned.budget.simplification;
+    const double slack = planned.budget.simplification / cell;
     const double offset = planned.budget.offset / cell;
     const auto boundary_of = [&](const geometry::Polygon& polygon, const Pose& pose) {
-        return TileBoundary(shapes.get(polygon, simplification, plan::longest_tile_run * cell),
-                            plan::ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
+        return plan::overlap_boundary(polygon, pose, planned.budget, tile, shapes);
     };
     b_.reset(tile.width, tile.height, plan.subpixel);
     if (query.kind == IntersectionKind::boundary_boundary) {
@@ -69,14 +68,13 @@ void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& plann
                                 b_.words()[i] |= bits;
                             });
     } else {
-        fill(boundary_of(*planned.b, planned.pose_b), tile, simplification / cell, plan.subpixel,
-             b_);
+        fill(boundary_of(*planned.b, planned.pose_b), tile, slack, plan.subpixel, b_);
     }
 
     a_.reset(tile.width, tile.height, plan.subpixel);
     const TileBoundary a = boundary_of(*planned.a, planned.pose_a);
     if (query.kind == IntersectionKind::volume_volume) {
-        fill(a, tile, simplification / cell, plan.subpixel, a_);
+        fill(a, tile, slack, plan.subpixel, a_);
         a_.keep_common(b_);
         return;
     }

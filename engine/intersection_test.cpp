@@ -2,6 +2,13 @@
 
 namespace nearfield {
 
+bool IntersectionTest::intersect(const plan::PlannedQuery& query,
+                                 exact::PlacedInstances& instances) {
+    const InstancePairIndex pair = place_pair(query, instances);
+    complete_if_near(pair, instances);
+    return meeting_.intersect(instances[pair.a], instances[pair.b]);
+}
+
 void IntersectionTest::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                               IntersectionTestResult& result) {
     const InstancePairIndex pair = place_pair(query, instances);

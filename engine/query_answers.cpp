@@ -3,13 +3,16 @@
 #include <engine/query_answers.hpp>
 
 namespace nearfield {
-namespace {
 
 using geometry::PlacedPolygon;
 using plan::PlannedQuery;
 
-/// Counts what it takes among the result's statistics.
-bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultSummary& result) {
+/// Counts what it takes among the result's statistics, where hierarchies take it.
+bool QueryAnswers::shapes_intersect(const plan::Plan& plan, const PlannedQuery& query,
+                                    ResultSummary& result) {
+    if (query.on_cpu) {
+        return intersection_test_.intersect(query, instances_);
+    }
     localize::Effort effort;
     const bool answer =
         localize::intersects(PlacedPolygon(*query.a, query.pose_a),
@@ -18,8 +21,6 @@ bool shapes_intersect(const plan::Plan& plan, const PlannedQuery& query, ResultS
     result.localization.pairs_rejected += effort.pairs_rejected;
     return answer;
 }
-
-}  // namespace
 
 void QueryAnswers::begin_batch() {
     instances_.clear();

@@ -39,6 +39,9 @@ public:
                std::vector<AnyResult>& results);
 
 private:
+    /// Whether the shapes of a query share a point.
+    [[nodiscard]] bool shapes_intersect(const plan::Plan& plan, const plan::PlannedQuery& query,
+                                        ResultSummary& result);
     void find_points(const plan::Plan& plan, const plan::PlannedQuery& planned,
                      std::span<std::uint32_t> words);
     void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,

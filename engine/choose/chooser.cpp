@@ -13,13 +13,60 @@ constexpr std::array<Technique, 3> by_position{Technique::raster, Technique::com
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// Whether the shapes that a query needs are there.
+bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
+    return shapes.b != nullptr &&
+           (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
+}
+
+template <class Query>
+bool is_open(const Query& query) {
+    return query.technique == Technique::automatic;
+}
+
 }  // namespace
 
+template <class Query>
+double Chooser::most_saved(const AnyQuery& any, const Query& query,
+                           const plan::QueryShapes& shapes) const {
+    if (plan::unanswered(Technique::cpu, query) != nullptr) {
+        return never;
+    }
+    if (!are_known(any, shapes)) {
+        return 0.0;
+    }
+    const WorkBounds bounds = work_bounds(any, shapes.a, *shapes.b);
+    double by_device = never;
+    for (const std::uint32_t device : {raster, compute}) {
+        if (plan::unanswered(by_position[device], query) == nullptr) {
+            by_device = std::min(by_device, bounds.least.time(costs_[device]));
+        }
+    }
+    return std::max(0.0, bounds.most.time(costs_[cpu]) - by_device);
+}
+
+Chooser::Outlook Chooser::look(std::span<const AnyQuery> queries,
+                               std::span<const plan::QueryShapes> shapes) const {
+    Outlook outlook;
+    for (std::size_t index = 0; index < queries.size(); ++index) {
+        std::visit(
+            [&](const auto& query) {
+                if (is_open(query)) {
+                    outlook.open = true;
+                    outlook.most_saved += most_saved(queries[index], query, shapes[index]);
+                } else {
+                    for (std::uint32_t i = 0; i < count; ++i) {
+                        outlook.paid |= query.technique == by_position[i] ? 1U << i : 0U;
+                    }
+                }
+            },
+            queries[index]);
+    }
+    return outlook;
+}
+
 void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
-    const auto [a, b] = shapes;
-    const bool known =
-        b != nullptr && (a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
-    const Work work = known ? work_of(query, a, *b) : Work{};
+    const Work work = are_known(query, shapes) ? work_of(query, shapes.a, *shapes.b) : Work{};
     Candidate& candidate = candidates_.emplace_back();
     candidate.query = &query;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -30,21 +77,14 @@ void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
     }
 }
 
-Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
-                                     std::span<const plan::QueryShapes> shapes) {
+void Chooser::add_candidates(std::span<AnyQuery> queries,
+                             std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
-    Set others = 0;
     for (std::size_t index = 0; index < queries.size(); ++index) {
-        const Technique asked =
-            std::visit([](const auto& query) { return query.technique; }, queries[index]);
-        if (asked == Technique::automatic) {
+        if (std::visit([](const auto& query) { return is_open(query); }, queries[index])) {
             add_candidate(queries[index], shapes[index]);
         }
-        for (std::uint32_t i = 0; i < count; ++i) {
-            others |= asked == by_position[i] ? 1U << i : 0U;
-        }
     }
-    return others;
 }
 
 std::uint32_t Chooser::fastest(const Candidate& candidate, Set allowed) {
@@ -97,11 +137,25 @@ Chooser::Set Chooser::best_set(Set paid) const {
 }
 
 void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
-    const Set others = add_candidates(queries, shapes);
-    if (candidates_.empty()) {
+    const Outlook outlook = look(queries, shapes);
+    if (!outlook.open) {
         return;
     }
-    const Set best = best_set(others);
+    // What no device can make up for its submission with needs no closer look, which would take as
+    // long as the answers to small pairs.
+    if (submission(cpu, outlook.paid) + outlook.most_saved <=
+        std::min(submission(raster, outlook.paid), submission(compute, outlook.paid))) {
+        for (AnyQuery& query : queries) {
+            std::visit(
+                [](auto& asked) {
+                    asked.technique = is_open(asked) ? Technique::cpu : asked.technique;
+                },
+                query);
+        }
+        return;
+    }
+    add_candidates(queries, shapes);
+    const Set best = best_set(outlook.paid);
     for (const Candidate& candidate : candidates_) {
         const Technique technique = by_position[fastest(candidate, best)];
         std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);

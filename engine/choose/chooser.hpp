@@ -35,9 +35,23 @@ private:
         std::array<double, count> times{};
     };
 
-    /// Notes the queries that leave the technique open. Returns the techniques that others ask for.
-    [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
-                                     std::span<const plan::QueryShapes> shapes);
+    /// What can be said of a batch without a look at a vertex.
+    struct Outlook {
+        bool open = false;  ///< some query leaves the technique open
+        Set paid = 0;       ///< techniques that others ask for
+        /// Microseconds that devices could take less than the CPU for what is open, submissions
+        /// left out: no more than this.
+        double most_saved = 0.0;
+    };
+    [[nodiscard]] Outlook look(std::span<const AnyQuery> queries,
+                               std::span<const plan::QueryShapes> shapes) const;
+    /// What a device could save of one query.
+    template <class Query>
+    [[nodiscard]] double most_saved(const AnyQuery& any, const Query& query,
+                                    const plan::QueryShapes& shapes) const;
+
+    /// Notes the queries that leave the technique open.
+    void add_candidates(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
     /// The techniques that may be used for the batch to take the least time.
     [[nodiscard]] Set best_set(Set paid) const;

@@ -79,7 +79,23 @@ Box common_box(const PlacedPolygon& a, const PlacedPolygon& b, double grow) {
     return grown(rough_box(a), grow).intersection(grown(rough_box(b), grow));
 }
 
-struct Estimate {
+/// How many cells a rectangle has at the most in which both shapes can be, each grown.
+double most_common_cells(const Polygon& a, const Polygon& b, double grow, double cell) {
+    const double side = 2.0 * (std::min(a.radius(), b.radius()) + grow);
+    return cells_of(Box(geometry::Vector::Zero(), geometry::Vector::Constant(side)), cell);
+}
+
+/// How many samples a cell apart a boundary has at the most, as boundary_samples() counts.
+double most_boundary_samples(const Polygon& polygon, double cell) {
+    return polygon.size() + polygon.length_along_axes() / cell;
+}
+
+double cell_of(double tolerance) {
+    return tolerance * std::numbers::sqrt2;
+}
+
+/// What can be said without a look at a vertex.
+struct Bounds {
     const Polygon* a;
     const Polygon& b;
 
@@ -87,72 +103,109 @@ struct Estimate {
         return static_cast<double>(b.size()) +
                (a == nullptr ? 0.0 : static_cast<double>(a->size()));
     }
-
-    Work operator()(const PenetrationQuery& query) const {
-        if (query.points == PenetrationPoints::vertices) {
-            // No look at the shapes: answers to small ones take no longer than that.
-            return {&TechniqueCost::points, edges(), static_cast<double>(a->size())};
-        }
-        const PlacedPolygon placed(*a, query.a.pose);
-        const Box within = rough_box(PlacedPolygon(b, query.b.pose));
-        return {&TechniqueCost::points, edges(),
-                boundary_samples(placed, rough_box(placed), within,
-                                 query.tolerance * std::numbers::sqrt2)};
+    [[nodiscard]] WorkBounds of(WorkCost TechniqueCost::*kind, double least, double most) const {
+        return {{kind, edges(), least}, {kind, edges(), most}};
     }
 
-    Work operator()(const ContactQuery& query) const {
+    WorkBounds operator()(const PenetrationQuery& query) const {
+        if (query.points == PenetrationPoints::vertices) {
+            return of(&TechniqueCost::points, a->size(), a->size());
+        }
+        return of(&TechniqueCost::points, 0.0, most_boundary_samples(*a, cell_of(query.tolerance)));
+    }
+
+    WorkBounds operator()(const ContactQuery& query) const {
+        const double cell = cell_of(query.tolerance);
+        return of(&TechniqueCost::points, 0.0,
+                  most_boundary_samples(*a, cell) + most_boundary_samples(b, cell));
+    }
+
+    WorkBounds operator()(const IntersectionQuery& query) const {
+        return of(&TechniqueCost::intersection, 0.0,
+                  most_common_cells(*a, b, 0.0, cell_of(query.tolerance)));
+    }
+
+    WorkBounds operator()(const DistanceFieldQuery& query) const {
+        const plan::FieldParts parts = plan::field_parts(query);
+        const double cell = cell_of(query.tolerance);
+        double least = 0.0;
+        double most = 0.0;
+        if (!query.values && !query.features && !query.gradients) {
+            least = most = static_cast<double>(query.points.size() * parts.cells_per_point);
+        } else if (query.rectangle) {
+            least = most = cells_of(Box(geometry::to_vector(query.rectangle->min),
+                                        geometry::to_vector(query.rectangle->max)),
+                                    cell);
+        } else if (a != nullptr) {
+            most = most_common_cells(*a, b, query.tolerance, cell);
+        }
+        // Of A nothing but its box is used.
+        const Work work{parts.features ? &TechniqueCost::features : &TechniqueCost::field,
+                        static_cast<double>(b.size()), least};
+        return {work, {work.kind, work.edges, most}};
+    }
+
+    /// Closest points, separations, tests; and what one technique alone answers.
+    template <class Query>
+    WorkBounds operator()(const Query& /*query*/) const {
+        return of(&TechniqueCost::closest, 0.0, 0.0);
+    }
+};
+
+/// How many samples a query has whose bounds leave that open.
+struct Samples {
+    const Polygon* a;
+    const Polygon& b;
+
+    double operator()(const PenetrationQuery& query) const {
+        const PlacedPolygon placed(*a, query.a.pose);
+        const Box within = rough_box(PlacedPolygon(b, query.b.pose));
+        return boundary_samples(placed, rough_box(placed), within, cell_of(query.tolerance));
+    }
+
+    double operator()(const ContactQuery& query) const {
         const PlacedPolygon placed_a(*a, query.a.pose);
         const PlacedPolygon placed_b(b, query.b.pose);
-        const double cell = query.tolerance * std::numbers::sqrt2;
+        const double cell = cell_of(query.tolerance);
         const Box box_a = rough_box(placed_a);
         const Box box_b = rough_box(placed_b);
         const double reach = query.contact_distance;
-        return {&TechniqueCost::points, edges(),
-                boundary_samples(placed_a, box_a, grown(box_b, reach), cell) +
-                    boundary_samples(placed_b, box_b, grown(box_a, reach), cell)};
+        return boundary_samples(placed_a, box_a, grown(box_b, reach), cell) +
+               boundary_samples(placed_b, box_b, grown(box_a, reach), cell);
     }
 
-    Work operator()(const ClosestPointQuery&) const { return {&TechniqueCost::closest, edges()}; }
-    Work operator()(const SeparationQuery&) const { return {&TechniqueCost::closest, edges()}; }
-    Work operator()(const IntersectionTestQuery&) const {
-        return {&TechniqueCost::closest, edges()};
-    }
-    // Several separations; one technique alone answers it.
-    Work operator()(const TimeOfImpactQuery&) const { return {&TechniqueCost::closest, edges()}; }
-    Work operator()(const SeparationVectorQuery&) const {
-        return {&TechniqueCost::closest, edges()};
+    double operator()(const IntersectionQuery& query) const { return common_cells(query, 0.0); }
+    double operator()(const DistanceFieldQuery& query) const {
+        return common_cells(query, query.tolerance);
     }
 
-    Work operator()(const IntersectionQuery& query) const {
+    template <class Query>
+    double operator()(const Query& /*query*/) const {
+        return 0.0;  // it has none
+    }
+
+private:
+    template <class Query>
+    [[nodiscard]] double common_cells(const Query& query, double grow) const {
         const Box box =
-            common_box(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose), 0.0);
-        return {&TechniqueCost::intersection, edges(),
-                cells_of(box, query.tolerance * std::numbers::sqrt2)};
-    }
-
-    Work operator()(const DistanceFieldQuery& query) const {
-        const plan::FieldParts parts = plan::field_parts(query);
-        Box box;
-        if (query.rectangle) {
-            box = Box(geometry::to_vector(query.rectangle->min),
-                      geometry::to_vector(query.rectangle->max));
-        } else if (a != nullptr) {
-            box = common_box(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose),
-                             query.tolerance);
-        }
-        double cells = cells_of(box, query.tolerance * std::numbers::sqrt2);
-        if (!query.values && !query.features && !query.gradients) {
-            cells = static_cast<double>(query.points.size() * parts.cells_per_point);
-        }
-        return {parts.features ? &TechniqueCost::features : &TechniqueCost::field,
-                static_cast<double>(b.size()), cells};
+            common_box(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose), grow);
+        return cells_of(box, cell_of(query.tolerance));
     }
 };
 
 }  // namespace
 
+WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b) {
+    return std::visit(Bounds{a, b}, query);
+}
+
 Work work_of(const AnyQuery& query, const Polygon* a, const Polygon& b) {
-    return std::visit(Estimate{a, b}, query);
+    const WorkBounds bounds = work_bounds(query, a, b);
+    Work work = bounds.most;
+    if (bounds.least.samples < bounds.most.samples) {
+        work.samples = std::min(std::visit(Samples{a, b}, query), bounds.most.samples);
+    }
+    return work;
 }
 
 }  // namespace nearfield::choose

@@ -19,9 +19,20 @@ struct Work {
     }
 };
 
-/// `a` is null where the query has none. The query's numbers need not be good: of a query that will
-/// be refused anything may be returned. Looks at a few hundred vertices at the most, whatever the
-/// size of the shapes.
+/// What a query comes to at the least and at the most.
+struct WorkBounds {
+    Work least;
+    Work most;
+};
+
+// `a` is null where the query has none. The query's numbers need not be good: of a query that will
+// be refused anything may be returned.
+
+/// Looks at no vertex. The samples of vertices and of fields over a rectangle are told exactly.
+[[nodiscard]] WorkBounds work_bounds(const AnyQuery& query, const geometry::Polygon* a,
+                                     const geometry::Polygon& b);
+
+/// Within the bounds. Looks at a few hundred vertices at the most, whatever the size of the shapes.
 [[nodiscard]] Work work_of(const AnyQuery& query, const geometry::Polygon* a,
                            const geometry::Polygon& b);
 

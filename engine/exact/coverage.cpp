@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -15,10 +16,6 @@ namespace {
 std::int64_t floor_of(std::int64_t numerator, std::int64_t denominator) {
     const std::int64_t quotient = numerator / denominator;
     return numerator % denominator < 0 ? quotient - 1 : quotient;
-}
-
-std::int64_t ceiling_of(std::int64_t numerator, std::int64_t denominator) {
-    return -floor_of(-numerator, denominator);
 }
 
 }  // namespace
@@ -49,26 +46,33 @@ void Coverage::reset(std::uint32_t width, std::uint32_t height, geometry::Subpix
     width_ = width;
     height_ = height;
     steps_ = std::llround(grid.steps);
+    shift_ = std::countr_zero(static_cast<std::uint64_t>(steps_));
     words_per_row_ = (width + 63) / 64;
     words_.assign(words_per_row_ * height, 0);
 }
 
 Coverage::GridPoint Coverage::to_grid(const Vector& point) const {
     const auto steps = static_cast<double>(steps_);
-    return {std::llrint(point.x() * steps), std::llrint(point.y() * steps)};
+    return {static_cast<std::int64_t>(point.x() * steps),
+            static_cast<std::int64_t>(point.y() * steps)};
+}
+
+std::int64_t Coverage::first_row_from(std::int64_t y) const {
+    // Samples are at half steps: sample i is at (i + 1/2) * steps.
+    const std::int64_t from_first = y - steps_ / 2;
+    return std::clamp<std::int64_t>((from_first + steps_ - 1) >> shift_, 0, height_);
 }
 
 template <class Cross>
 void Coverage::for_crossings(GridPoint low, GridPoint high, const Cross& cross) const {
-    // Samples are at half steps: sample i is at (i + 1/2) * steps.
-    const std::int64_t half = steps_ / 2;
-    const std::int64_t first = std::max<std::int64_t>(ceiling_of(low.y - half, steps_), 0);
-    const std::int64_t end = std::min<std::int64_t>(ceiling_of(high.y - half, steps_), height_);
+    const std::int64_t first = first_row_from(low.y);
+    const std::int64_t end = first_row_from(high.y);
     if (first >= end) {
         return;
     }
     // The edge passes row r at x = low.x + (r * steps + half - low.y) * dx / dy, and the number of
     // samples left of it is (x - half) / steps, rounded up: a sample on the edge is not left of it.
+    const std::int64_t half = steps_ / 2;
     const std::int64_t dx = high.x - low.x;
     const std::int64_t dy = high.y - low.y;
     const std::int64_t denominator = dy * steps_;
@@ -137,11 +141,8 @@ void Coverage::append_convex(std::span<const GridPoint> corners,
     const auto [bottom, top] =
         std::minmax_element(corners.begin(), corners.end(),
                             [](const GridPoint& i, const GridPoint& j) { return i.y < j.y; });
-    const std::int64_t half = steps_ / 2;
-    const auto first = static_cast<std::uint32_t>(
-        std::clamp<std::int64_t>(ceiling_of(bottom->y - half, steps_), 0, height_));
-    const auto end = static_cast<std::uint32_t>(
-        std::clamp<std::int64_t>(ceiling_of(top->y - half, steps_), first, height_));
+    const auto first = static_cast<std::uint32_t>(first_row_from(bottom->y));
+    const auto end = static_cast<std::uint32_t>(first_row_from(top->y));
     const std::size_t start = spans.size();
     for (std::uint32_t row = first; row < end; ++row) {
         spans.push_back({row, width_, 0});

@@ -58,6 +58,8 @@ private:
     };
 
     [[nodiscard]] GridPoint to_grid(const geometry::Vector& point) const;
+    /// The first row of the tile whose samples are no lower than y; its height where there is none.
+    [[nodiscard]] std::int64_t first_row_from(std::int64_t y) const;
     /// Calls `cross(row, count)` for each row of the tile whose samples' height lies between the
     /// two ends, the lower one included: so many of its samples lie left of the edge.
     template <class Cross>
@@ -68,7 +70,8 @@ private:
     std::uint32_t width_ = 0;
     std::uint32_t height_ = 0;
     std::size_t words_per_row_ = 0;
-    std::int64_t steps_ = 0;  // of the sub-pixel grid, per cell
+    std::int64_t steps_ = 0;  // of the sub-pixel grid, per cell: a power of two
+    int shift_ = 0;           // its logarithm
     std::vector<std::uint64_t> words_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 namespace nearfield::geometry {
 
@@ -18,25 +19,30 @@ void Containment::answer(const PlacedPolygon& placed) {
               [](const Level& i, const Level& j) { return i.point.y() < j.point.y(); });
 
     const Polygon& polygon = placed.polygon();
-    const std::span<const Vector> vertices = polygon.vertices();
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const std::uint32_t begin = polygon.ring_begin(ring);
-        const std::uint32_t end = polygon.ring_end(ring);
-        Vector a = vertices[end - 1];
-        for (const Vector& b : vertices.subspan(begin, end - begin)) {
-            // Half open, as contains() has it.
-            const double low = std::min(a.y(), b.y());
-            const double high = std::max(a.y(), b.y());
-            const bool upward = b.y() > a.y();
-            auto level =
-                std::lower_bound(levels_.begin(), levels_.end(), low,
+        cross_levels(polygon.vertices().subspan(begin, polygon.ring_end(ring) - begin));
+    }
+}
+
+void Containment::cross_levels(std::span<const Vector> ring) {
+    // How many points lie below where the ring has come to: going on moves that past those alone
+    // that are level with an edge. Half open, as contains() has it.
+    Vector a = ring.back();
+    auto next = std::lower_bound(levels_.begin(), levels_.end(), a.y(),
                                  [](const Level& entry, double y) { return entry.point.y() < y; });
-            for (; level != levels_.end() && level->point.y() < high; ++level) {
-                const bool left = cross(b - a, level->point - a) > 0.0;
-                inside_[level->index] ^= static_cast<std::uint8_t>(left == upward);
-            }
-            a = b;
+    const auto cross_level = [&](const Level& level, const Vector& b, bool upward) {
+        const bool left = cross(b - a, level.point - a) > 0.0;
+        inside_[level.index] ^= static_cast<std::uint8_t>(left == upward);
+    };
+    for (const Vector& b : ring) {
+        for (; next != levels_.end() && next->point.y() < b.y(); ++next) {
+            cross_level(*next, b, true);
         }
+        for (; next != levels_.begin() && std::prev(next)->point.y() >= b.y(); --next) {
+            cross_level(*std::prev(next), b, false);
+        }
+        a = b;
     }
 }
 

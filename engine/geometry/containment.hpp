@@ -27,6 +27,9 @@ private:
         std::size_t index = 0;
     };
 
+    /// Counts the crossings of a ring with the rays from all points.
+    void cross_levels(std::span<const Vector> ring);
+
     std::vector<Vector> points_;
     std::vector<Level> levels_;  // from the lowest point to the highest
     std::vector<std::uint8_t> inside_;

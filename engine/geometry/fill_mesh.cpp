@@ -2,7 +2,6 @@
 #include <engine/geometry/fill_mesh.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace nearfield::geometry {
@@ -41,7 +40,8 @@ FillMesh::Pieces FillMesh::pieces(const Vector& a, const Vector& b) const {
     if (low.y() > high.y()) {
         std::swap(low, high);
     }
-    if (!clip_to_slab(low, high, 1, -margin, height_ + margin)) {
+    const bool within = low.y() >= -margin && high.y() <= height_ + margin;
+    if (!within && !clip_to_slab(low, high, 1, -margin, height_ + margin)) {
         return result;
     }
     // Pieces of the edge follow each other without a gap in y: the cut point of two pieces is
@@ -72,8 +72,8 @@ void FillMesh::add_piece(const Vector& from, const Vector& to, Pieces& pieces) c
 
     // A row whose centre an end just touches counts as crossed: whether it is covered is for the
     // fill rule to say, and it says the same to the neighbour that ends there.
-    const double first_row = std::max(std::ceil(std::min(y0, y1) - 0.5), 0.0);
-    const double last_row = std::min(std::floor(std::max(y0, y1) - 0.5), height_ - 1.0);
+    const double first_row = std::max(whole_above(std::min(y0, y1) - 0.5), 0.0);
+    const double last_row = std::min(whole_below(std::max(y0, y1) - 0.5), height_ - 1.0);
     const bool left_of_all_samples = std::max(x0, x1) < 0.5;
     if (y0 != y1 && first_row <= last_row && !left_of_all_samples) {
         pieces.pieces[pieces.count++] = {x0, y0, x1, y1};

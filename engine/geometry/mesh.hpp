@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/geometry/whole.hpp>
+
 #include <cstdint>
 #include <vector>
 
@@ -25,7 +27,9 @@ struct SubpixelGrid {
     double steps = 256.0;  ///< 2^VkPhysicalDeviceLimits::subPixelPrecisionBits
 
     /// The nearest position on the grid; halves go up.
-    [[nodiscard]] double snap(double coordinate) const;
+    [[nodiscard]] double snap(double coordinate) const {
+        return whole_below(coordinate * steps + 0.5) / steps;
+    }
     /// No point moves farther than this when both its coordinates are snapped, in cells.
     [[nodiscard]] double largest_move() const;
 };

@@ -15,8 +15,14 @@ PlacedPolygon::PlacedPolygon(const Polygon& polygon, const Pose& pose) : polygon
 }
 
 Box PlacedPolygon::box_of(std::span<const Vector> vertices) const {
-    if (vertices.empty()) {
-        return {};
+    // So few are boxed sooner than the widest vectors are set up.
+    constexpr std::size_t one_by_one = 4;
+    if (vertices.size() <= one_by_one) {
+        Box box;
+        for (const Vector& vertex : vertices) {
+            box.extend(to_world(vertex));
+        }
+        return box;
     }
     return geometry::box_of(kernels::find_extent(vertices, placement()));
 }
@@ -25,8 +31,11 @@ Box PlacedPolygon::chain_box(std::uint32_t ring, std::uint32_t first, std::uint3
     const std::span<const Vector> vertices = polygon_->vertices();
     const std::uint32_t begin = polygon_->ring_begin(ring);
     const std::uint32_t before_wrap = std::min(count + 1, polygon_->ring_end(ring) - first);
-    const Box box = box_of(vertices.subspan(first, before_wrap));
-    return box.merged(box_of(vertices.subspan(begin, count + 1 - before_wrap)));
+    Box box = box_of(vertices.subspan(first, before_wrap));
+    if (before_wrap <= count) {
+        box.extend(box_of(vertices.subspan(begin, count + 1 - before_wrap)));
+    }
+    return box;
 }
 
 Box PlacedPolygon::box() const {

@@ -185,6 +185,7 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     centre_ = 0.5 * (box.min() + box.max());
     deviation_ = deviation;
     length_along_axes_ = length;
+    radius_ = 0.5 * box.diagonal().norm();
     vertices_.resize(total);
     ring_ends_.clear();
     std::size_t first = 0;

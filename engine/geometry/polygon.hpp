@@ -29,6 +29,8 @@ public:
     [[nodiscard]] const Vector& centre() const { return centre_; }
     /// Of the boundary, along both axes together: no less than its length.
     [[nodiscard]] double length_along_axes() const { return length_along_axes_; }
+    /// No vertex is farther from centre() than this, up to rounding.
+    [[nodiscard]] double radius() const { return radius_; }
     /// Vertices relative to centre().
     [[nodiscard]] std::span<const Vector> vertices() const { return vertices_; }
     [[nodiscard]] std::uint32_t size() const {
@@ -54,6 +56,7 @@ private:
     Vector centre_ = Vector::Zero();
     double deviation_ = 0.0;
     double length_along_axes_ = 0.0;
+    double radius_ = 0.0;
     std::vector<Vector> vertices_;
     std::vector<std::uint32_t> ring_ends_;
 };

@@ -90,19 +90,15 @@ double run_deviation(const RingView& ring, std::uint32_t start, std::uint32_t co
 
 class RingSimplifier {
 public:
-    RingSimplifier(const RingView& ring, double deviation, double longest_run)
+    /// `magnitude`: no coordinate is larger.
+    RingSimplifier(const RingView& ring, double deviation, double longest_run, double magnitude)
         : ring_(ring),
           deviation_(deviation),
           squared_deviation_(deviation * deviation),
-          squared_longest_run_(longest_run * longest_run) {
-        double magnitude = 0.0;
-        for (const Vector& v : ring.vertices) {
-            magnitude = std::max(magnitude, v.lpNorm<Eigen::Infinity>());
-        }
-        // The sector is a little narrower than asked for, lest rounding lets a run through that
-        // the exact measure then refuses.
-        reach_ = deviation - 16.0 * std::numeric_limits<double>::epsilon() * magnitude;
-    }
+          squared_longest_run_(longest_run * longest_run),
+          // The sector is a little narrower than asked for, lest rounding lets a run through that
+          // the exact measure then refuses.
+          reach_(deviation - 16.0 * std::numeric_limits<double>::epsilon() * magnitude) {}
 
     /// The run that starts at position `start`, as number of edges, at most `most`.
     [[nodiscard]] std::uint32_t longest_from(std::uint32_t start, std::uint32_t most) const {
@@ -159,25 +155,75 @@ private:
     double reach_;
 };
 
+/// The rings of a polygon, one after the other.
+class PolygonSimplifier {
+public:
+    PolygonSimplifier(const Polygon& polygon, double deviation, double longest_run,
+                      std::vector<SimplifiedEdge>& edges)
+        : polygon_(polygon), deviation_(deviation), longest_run_(longest_run), edges_(edges) {}
+
+    /// Calls `simplify_ring(ring, size)` for each ring, which is then the one at hand.
+    template <class SimplifyRing>
+    void for_rings(const SimplifyRing& simplify_ring) {
+        for (std::uint32_t ring = 0; ring < polygon_.ring_count(); ++ring) {
+            begin_ = polygon_.ring_begin(ring);
+            view_.vertices = polygon_.vertices().subspan(begin_, polygon_.ring_end(ring) - begin_);
+            simplify_ring(ring, view_.size());
+        }
+    }
+
+    /// Appends the runs of the edges first, ..., end - 1 of the ring.
+    void append_runs(std::uint32_t first, std::uint32_t end) const {
+        const RingSimplifier simplifier(view_, deviation_, longest_run_, polygon_.radius());
+        for (std::uint32_t start = first; start < end;) {
+            // No run takes all edges: a ring keeps two.
+            const std::uint32_t most = std::min(end - start, view_.size() - 1);
+            std::uint32_t count = simplifier.longest_from(start, most);
+            const double measured = simplifier.measure(start, count);
+            append(start, start + count, measured);
+            start += count;
+        }
+    }
+
+    /// Appends one edge for the edges first, ..., end - 1.
+    void append(std::uint32_t first, std::uint32_t end, double deviation) const {
+        edges_.push_back(
+            {begin_ + first, end == view_.size() ? begin_ : begin_ + end, end - first, deviation});
+    }
+
+private:
+    const Polygon& polygon_;
+    double deviation_;
+    double longest_run_;
+    std::vector<SimplifiedEdge>& edges_;
+    RingView view_;  // of the ring at hand
+    std::uint32_t begin_ = 0;
+};
+
 }  // namespace
 
 void simplify(const Polygon& polygon, double deviation, double longest_run,
               std::vector<SimplifiedEdge>& edges) {
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const std::uint32_t begin = polygon.ring_begin(ring);
-        const RingView view{polygon.vertices().subspan(begin, polygon.ring_end(ring) - begin)};
-        const RingSimplifier simplifier(view, deviation, longest_run);
-        for (std::uint32_t start = 0; start < view.size();) {
-            // The first run must leave an edge over: a ring keeps two.
-            const std::uint32_t most = start == 0 ? view.size() - 1 : view.size() - start;
-            std::uint32_t count = simplifier.longest_from(start, most);
-            const double measured = simplifier.measure(start, count);
-            const std::uint32_t end = start + count;
-            edges.push_back(
-                {begin + start, end == view.size() ? begin : begin + end, count, measured});
-            start = end;
+    PolygonSimplifier simplifier(polygon, deviation, longest_run, edges);
+    simplifier.for_rings(
+        [&](std::uint32_t, std::uint32_t size) { simplifier.append_runs(0, size); });
+}
+
+void simplify_near(const PlacedPolygon& placed, const Box& window, double deviation,
+                   double longest_run, std::vector<SimplifiedEdge>& edges) {
+    const Polygon& polygon = placed.polygon();
+    PolygonSimplifier simplifier(polygon, deviation, longest_run, edges);
+    simplifier.for_rings([&](std::uint32_t ring, std::uint32_t size) {
+        for (std::uint32_t first = 0; first < size; first += edges_of_a_block) {
+            const std::uint32_t end = std::min(first + edges_of_a_block, size);
+            const std::uint32_t edge = polygon.ring_begin(ring) + first;
+            if (window.intersects(placed.chain_box(ring, edge, end - first))) {
+                simplifier.append_runs(first, end);
+            } else {
+                simplifier.append(first, end, std::numeric_limits<double>::infinity());
+            }
         }
-    }
+    });
 }
 
 }  // namespace nearfield::geometry

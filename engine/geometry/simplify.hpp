@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/placed_polygon.hpp>
 #include <engine/geometry/polygon.hpp>
 
 #include <cstdint>
@@ -24,5 +25,15 @@ struct SimplifiedEdge {
 /// `longest_run` stand for themselves. Appends to `edges`, ring after ring.
 void simplify(const Polygon& polygon, double deviation, double longest_run,
               std::vector<SimplifiedEdge>& edges);
+
+/// Edges of a ring that simplify_near() takes together.
+inline constexpr std::uint32_t edges_of_a_block = 64;
+
+/// The same for one who looks at nothing but what lies in a window of the world: no run goes on
+/// from one block of its ring to the next, so that each can be simplified without the rest, and
+/// comes out alike whatever the window is. A block whose vertices' box does not meet the window
+/// becomes one edge of infinite deviation, which stays in that box; a ring may be left with one.
+void simplify_near(const PlacedPolygon& placed, const Box& window, double deviation,
+                   double longest_run, std::vector<SimplifiedEdge>& edges);
 
 }  // namespace nearfield::geometry

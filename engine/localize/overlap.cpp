@@ -2,6 +2,7 @@
 #include <engine/localize/hierarchy.hpp>
 #include <engine/localize/overlap.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -52,6 +53,9 @@ struct Scratch {
         std::uint32_t count = 0;
     };
     std::vector<Halves> halves;
+    std::vector<Candidate> of_b;  // as the candidates of A, where both are asked for
+    std::vector<Candidate> unordered;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // first edge, place above
     geometry::Containment containment;
 };
 
@@ -60,6 +64,19 @@ Scratch& thread_scratch() {
     return scratch;
 }
 
+/// What a descent found out about one boundary.
+struct Boundary {
+    const std::vector<Candidate>& candidates;  ///< all of it, in order
+    const PlacedPolygon& own;
+    const PlacedPolygon& other;
+    Box box_of_other;
+    double margin = 0.0;
+
+    [[nodiscard]] bool near_other(const Box& box) const {
+        return boxes_meet(box, box_of_other, margin);
+    }
+};
+
 /// Descends both trees together, level by level, so that no box is computed twice.
 class Descent {
 public:
@@ -67,23 +84,23 @@ public:
         : volume_(options.volume),
           tree_a_(a, options.height, options.volume),
           tree_b_(b, options.height, options.volume),
+          root_a_(tree_a_.root()),
           root_b_(tree_b_.root()),
           level_(thread_scratch().level),
           next_(thread_scratch().next),
           halves_(thread_scratch().halves) {
-        const Node root_a = tree_a_.root();
         // A settled chain then lies clear of B's boundary by more than rounding, so that one
         // vertex of it decides for all of it.
         margin_ =
-            options.grow + placement_rounding(a, root_a.box) + placement_rounding(b, root_b_.box);
+            options.grow + placement_rounding(a, root_a_.box) + placement_rounding(b, root_b_.box);
         level_.clear();
         level_.nodes.push_back(root_b_);
-        if (volumes_meet(root_a, root_b_, margin_, volume_)) {
+        if (volumes_meet(root_a_, root_b_, margin_, volume_)) {
             level_.lists.push_back(0);
         } else {
             ++pairs_rejected_;
         }
-        level_.candidates.push_back({root_a, 0, level_.lists.size()});
+        level_.candidates.push_back({root_a_, 0, level_.lists.size()});
     }
 
     /// Refines as long as there is something to split and it is worth it.
@@ -94,13 +111,36 @@ public:
         }
     }
 
-    /// The result: A's boundary, in order.
-    [[nodiscard]] const std::vector<Candidate>& candidates() const { return level_.candidates; }
-    [[nodiscard]] const PlacedPolygon& a() const { return tree_a_.polygon(); }
-    [[nodiscard]] const PlacedPolygon& b() const { return tree_b_.polygon(); }
-    /// True where the box and B's box meet.
-    [[nodiscard]] bool near_b(const Box& box) const {
-        return boxes_meet(box, root_b_.box, margin_);
+    /// The same, and keeps what becomes of B: boxes meet both ways.
+    void run_both_ways() {
+        std::vector<Candidate>& found = thread_scratch().unordered;
+        found.clear();
+        while (level_.lists.size() <= most_pairs && split_nodes()) {
+            for (std::size_t i = 0; i < level_.nodes.size(); ++i) {
+                if (halves_[i].count == 0) {
+                    found.push_back({level_.nodes[i], 0, 0});
+                }
+            }
+            split_candidates();
+            std::swap(level_, next_);
+        }
+        const std::size_t settled = found.size();
+        for (const Node& node : level_.nodes) {
+            found.push_back({node, 0, 0});
+        }
+        for (const std::uint32_t index : level_.lists) {
+            found[settled + index].list_end = 1;
+        }
+        order_of_b();
+    }
+
+    /// The results: a boundary in order.
+    [[nodiscard]] Boundary of_a() const {
+        return {level_.candidates, tree_a_.polygon(), tree_b_.polygon(), root_b_.box, margin_};
+    }
+    /// After run_both_ways().
+    [[nodiscard]] Boundary of_b() const {
+        return {thread_scratch().of_b, tree_b_.polygon(), tree_a_.polygon(), root_a_.box, margin_};
     }
     [[nodiscard]] Effort effort() const {
         return {tree_a_.nodes_evaluated() + tree_b_.nodes_evaluated(), pairs_rejected_};
@@ -136,6 +176,21 @@ private:
         return any;
     }
 
+    /// Nodes of B come level by level.
+    static void order_of_b() {
+        Scratch& scratch = thread_scratch();
+        scratch.order.clear();
+        for (const Candidate& candidate : scratch.unordered) {
+            scratch.order.emplace_back(candidate.node.first,
+                                       static_cast<std::uint32_t>(scratch.order.size()));
+        }
+        std::sort(scratch.order.begin(), scratch.order.end());
+        scratch.of_b.clear();
+        for (const auto& [first, place] : scratch.order) {
+            scratch.of_b.push_back(scratch.unordered[place]);
+        }
+    }
+
     void split_candidates() {
         for (const Candidate& candidate : level_.candidates) {
             if (candidate.settled()) {
@@ -169,6 +224,7 @@ private:
     BoundingVolume volume_;
     Hierarchy tree_a_;
     Hierarchy tree_b_;
+    Node root_a_;
     Node root_b_;
     Level& level_;
     Level& next_;
@@ -216,34 +272,35 @@ private:
     std::size_t ring_begin_;  // where the chains of the current ring begin
 };
 
-/// Tells of settled chains whether they lie in B. Asked in order along A's boundary: the answer
-/// can change only where the boundaries may cross, so it is kept from one chain to the next. All
-/// that has to be found out is asked in a first walk and answered together, for the second.
+/// Tells of settled chains whether they lie in the other shape. Asked in order along a boundary:
+/// the answer can change only where the boundaries may cross, so it is kept from one chain to the
+/// next. All that has to be found out is asked in a first walk and answered together, for the
+/// second.
 class SettledChains {
 public:
-    explicit SettledChains(const Descent& descent)
-        : descent_(descent), containment_(thread_scratch().containment) {
+    explicit SettledChains(const Boundary& boundary)
+        : boundary_(boundary), containment_(thread_scratch().containment) {
         containment_.clear();
     }
 
-    /// A chain that may cross B's boundary lies before the next settled one.
+    /// A chain that may cross the other's boundary lies before the next settled one.
     void forget() { known_ = false; }
 
     void ask(std::uint32_t ring, std::uint32_t first, const Box& box) {
-        if (is_new(ring) && descent_.near_b(box)) {
-            containment_.ask(descent_.a().vertex(first));
+        if (is_new(ring) && boundary_.near_other(box)) {
+            containment_.ask(boundary_.own.vertex(first));
         }
     }
 
     /// Between the two walks.
     void answer() {
-        containment_.answer(descent_.b());
+        containment_.answer(boundary_.other);
         known_ = false;
     }
 
     bool inside(std::uint32_t ring, const Box& box) {
         if (is_new(ring)) {
-            inside_ = descent_.near_b(box) && containment_.inside(asked_++);
+            inside_ = boundary_.near_other(box) && containment_.inside(asked_++);
         }
         return inside_;
     }
@@ -257,7 +314,7 @@ private:
         return is_new;
     }
 
-    const Descent& descent_;
+    const Boundary& boundary_;
     geometry::Containment& containment_;
     std::size_t asked_ = 0;
     std::uint32_t ring_ = 0;
@@ -281,6 +338,32 @@ void for_each_part(const Node& node, const PlacedPolygon& a, const Use& use) {
     }
 }
 
+/// Appends the chains of a boundary that may lie in the other shape.
+void append_chains_in_volume(const Boundary& boundary, std::vector<Chain>& chains) {
+    SettledChains settled(boundary);
+    const auto walk = [&](const auto& use_open, const auto& use_settled) {
+        for (const Candidate& candidate : boundary.candidates) {
+            if (!candidate.settled()) {
+                settled.forget();
+                for_each_part(candidate.node, boundary.own, use_open);
+            } else if (candidate.node.rings == 1 || boundary.near_other(candidate.node.box)) {
+                for_each_part(candidate.node, boundary.own, use_settled);
+            }
+        }
+    };
+    walk([](auto...) {}, [&](std::uint32_t ring, std::uint32_t first, std::uint32_t,
+                             const Box& box) { settled.ask(ring, first, box); });
+    settled.answer();
+    ChainWriter writer(boundary.own.polygon(), chains);
+    walk([&](auto... part) { writer.append(part...); },
+         [&](std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
+             if (settled.inside(ring, box)) {
+                 writer.append(ring, first, count, box);
+             }
+         });
+    writer.finish_ring();
+}
+
 }  // namespace
 
 Effort chains_near_boundary(const PlacedPolygon& a, const PlacedPolygon& b,
@@ -288,7 +371,7 @@ Effort chains_near_boundary(const PlacedPolygon& a, const PlacedPolygon& b,
     Descent descent(a, b, options);
     descent.run();
     ChainWriter writer(a.polygon(), chains);
-    for (const Candidate& candidate : descent.candidates()) {
+    for (const Candidate& candidate : descent.of_a().candidates) {
         if (!candidate.settled()) {
             for_each_part(candidate.node, a, [&](auto... part) { writer.append(part...); });
         }
@@ -301,28 +384,17 @@ Effort chains_in_volume(const PlacedPolygon& a, const PlacedPolygon& b,
                         const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
     descent.run();
-    SettledChains settled(descent);
-    const auto walk = [&](const auto& use_open, const auto& use_settled) {
-        for (const Candidate& candidate : descent.candidates()) {
-            if (!candidate.settled()) {
-                settled.forget();
-                for_each_part(candidate.node, a, use_open);
-            } else if (candidate.node.rings == 1 || descent.near_b(candidate.node.box)) {
-                for_each_part(candidate.node, a, use_settled);
-            }
-        }
-    };
-    walk([](auto...) {}, [&](std::uint32_t ring, std::uint32_t first, std::uint32_t,
-                             const Box& box) { settled.ask(ring, first, box); });
-    settled.answer();
-    ChainWriter writer(a.polygon(), chains);
-    walk([&](auto... part) { writer.append(part...); },
-         [&](std::uint32_t ring, std::uint32_t first, std::uint32_t count, const Box& box) {
-             if (settled.inside(ring, box)) {
-                 writer.append(ring, first, count, box);
-             }
-         });
-    writer.finish_ring();
+    append_chains_in_volume(descent.of_a(), chains);
+    return descent.effort();
+}
+
+Effort chains_in_each_other(const PlacedPolygon& a, const PlacedPolygon& b,
+                            const OverlapOptions& options, std::vector<Chain>& of_a,
+                            std::vector<Chain>& of_b) {
+    Descent descent(a, b, options);
+    descent.run_both_ways();
+    append_chains_in_volume(descent.of_a(), of_a);
+    append_chains_in_volume(descent.of_b(), of_b);
     return descent.effort();
 }
 

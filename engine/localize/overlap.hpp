@@ -49,6 +49,11 @@ struct OverlapOptions {
 Effort chains_in_volume(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
                         const OverlapOptions& options, std::vector<Chain>& chains);
 
+/// The same of A in B and of B in A, by one descent.
+Effort chains_in_each_other(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+                            const OverlapOptions& options, std::vector<Chain>& of_a,
+                            std::vector<Chain>& of_b);
+
 /// The parts of A's boundary that may come within `grow` of B's boundary. Appends to `chains`.
 Effort chains_near_boundary(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
                             const OverlapOptions& options, std::vector<Chain>& chains);

@@ -2,6 +2,7 @@
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/compute_builder.hpp>
+#include <engine/plan/overlap_boundary.hpp>
 #include <engine/plan/round.hpp>
 
 #include <algorithm>
@@ -222,8 +223,7 @@ void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& til
     }
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part, bool of_a) {
         const std::uint32_t mask = add_mask(tile, work);
-        const TileBoundary boundary(shapes.get(polygon, simplification, longest_tile_run * cell),
-                                    ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
+        const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes);
         if (part == Part::boundary) {
             add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, round);
         } else {

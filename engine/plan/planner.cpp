@@ -1,5 +1,4 @@
 #include <engine/failure.hpp>
-#include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
@@ -15,8 +14,6 @@ namespace {
 
 using geometry::Box;
 using geometry::PlacedPolygon;
-
-constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 
 // Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth);
 // signs in white, signed features with their distances, gradients.
@@ -213,81 +210,6 @@ void Planner::add_regions(double cell, ResultSummary& result) {
     }
 }
 
-void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    const PlacedPolygon a(*planned.a, query.a.pose);
-    const PlacedPolygon b(*planned.b, query.b.pose);
-    planned.budget = intersection_budget(query, limits_.subpixel, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    result.kind = query.kind;
-    result.strategy = query.strategy;
-    const auto& missing = limits_.missing_for_strategy[static_cast<std::size_t>(query.strategy)];
-    if (!missing.empty() && !planned.on_cpu && !planned.by_compute) {
-        result.status = {StatusCode::unsupported_strategy,
-                         std::string("the device lacks what the intersection strategy ") +
-                             to_string(query.strategy) + " needs; each reason names one thing",
-                         missing};
-        return;
-    }
-    const Box box_a = a.box();
-    const Box box_b = b.box();
-    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
-    if (!result.status.ok()) {
-        return;
-    }
-    result.status = check_resolution(query.tolerance, std::max(geometry::largest_magnitude(box_a),
-                                                               geometry::largest_magnitude(box_b)));
-    if (!result.status.ok()) {
-        return;
-    }
-
-    const Stopwatch start;
-    const double bound = planned.budget.bound;
-    chains_.clear();
-    Box within = box_a.intersection(box_b);
-    double grow = 0.0;
-    if (query.kind == IntersectionKind::volume_volume) {
-        // The boundary of the overlap is what lies of either boundary in the other volume.
-        localize::Effort effort = localize::chains_in_volume(a, b, overlap_options(0.0), chains_);
-        effort += localize::chains_in_volume(b, a, overlap_options(0.0), chains_);
-        count(effort, result);
-        if (!chains_.empty()) {
-            for (const localize::Chain& chain : chains_) {
-                chains_.front().box.extend(chain.box);
-            }
-            chains_.resize(1);
-        }
-    } else if (query.kind == IntersectionKind::boundary_volume) {
-        grow = bound;
-        count(localize::chains_in_volume(a, b, overlap_options(grow), chains_), result);
-    } else {
-        grow = bound;
-        count(localize::chains_near_boundary(a, b, overlap_options(2.0 * grow), chains_), result);
-    }
-    if (grow > 0.0 && !chains_.empty()) {
-        within = box_b;
-        within.min().array() -= grow;
-        within.max().array() += grow;
-    }
-    join_chain_boxes(within, grow);
-    localize_milliseconds_ += start.milliseconds();
-
-    add_regions(planned.budget.cell, result);
-    if (planned.resident && !check_resident(query, result)) {
-        return;
-    }
-    require_memory(bytes_of_samples(query) + (planned.by_compute ? bytes_of_masks(2) : 0.0),
-                   query.tolerance, 2.0);
-    require_sides(query.tolerance);
-    planned.first_cpu_tile = static_cast<std::uint32_t>(plan_->cpu_tiles.size());
-    for (std::uint32_t region = 0; region < grids_.size(); ++region) {
-        cut_into_tiles(region, TileKind::overlap, limits_.largest_tile, 0);
-    }
-    planned.cpu_tile_count =
-        static_cast<std::uint32_t>(plan_->cpu_tiles.size()) - planned.first_cpu_tile;
-}
-
 /// A side that a Region cannot state is an error.
 void Planner::require_sides(double tolerance) const {
     for (const Grid& grid : grids_) {
@@ -299,17 +221,6 @@ void Planner::require_sides(double tolerance) const {
                                " cells; a side has at most " + std::to_string(UINT32_MAX)});
         }
     }
-}
-
-/// What the tiles of the query's grids take themselves, where nothing is kept for their cells.
-double Planner::bytes_of_tiles() const {
-    double tiles = 0.0;
-    for (const Grid& grid : grids_) {
-        const double side = limits_.largest_tile;
-        tiles += std::ceil(static_cast<double>(grid.width) / side) *
-                 std::ceil(static_cast<double>(grid.height) / side);
-    }
-    return tiles * bytes_per_tile;
 }
 
 /// What bit masks of the query's grids take by the compute technique, each with a bit a cell: the

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,6 +73,26 @@ private:
     /// Nor here: SeparationVector answers it.
     void add(const SeparationVectorQuery& /*query*/, SeparationVectorResult& /*result*/) {}
 
+    /// Whether the device has what a strategy needs, where that matters; if not, the result says
+    /// so.
+    [[nodiscard]] bool check_strategy(IntersectionStrategy strategy, ResultSummary& result) const;
+    /// Whether deviations and the boxes of both shapes leave room for the tolerance; likewise.
+    [[nodiscard]] bool check_boxes(const geometry::Box& a, const geometry::Box& b,
+                                   ResultSummary& result) const;
+    /// Finds boxes (boxes_) around all that two volumes, or a boundary and what is near it, have in
+    /// common; `within`: nothing of it lies elsewhere.
+    void find_common_volume(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+                            const geometry::Box& within, ResultSummary& result);
+    void find_near_boundary(IntersectionKind kind, const geometry::PlacedPolygon& a,
+                            const geometry::PlacedPolygon& b, geometry::Box within,
+                            ResultSummary& result);
+
+    /// The box that a field covers; none, and the result says why, where it has none.
+    [[nodiscard]] std::optional<geometry::Box> field_box(const DistanceFieldQuery& query,
+                                                         ResultSummary& result) const;
+    /// Whether tolerance and deviations allow for coordinates and distances as large as these.
+    [[nodiscard]] bool check_field(const geometry::Box& box, ResultSummary& result) const;
+    void require_field_memory(const DistanceFieldQuery& query, const Grid& grid);
     /// Whether the images of a field that stays on the device can be had; else the result says why.
     [[nodiscard]] bool check_resident(const Grid& grid, DistanceFieldResult& result);
     /// The same of the samples of an intersection.

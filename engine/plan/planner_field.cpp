@@ -49,6 +49,19 @@ double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts)
 constexpr double bytes_per_cell_of_blocks =
     (block_capacity + 1.0) * sizeof(std::uint32_t) / (block_side * block_side);
 
+void make_room(const DistanceFieldQuery& query, const Grid& grid, const FieldParts& parts,
+               DistanceFieldResult& result) {
+    const std::size_t cells = grid.width * grid.height;
+    result.origin = geometry::to_public(grid.origin);
+    result.width = static_cast<std::uint32_t>(grid.width);
+    result.height = static_cast<std::uint32_t>(grid.height);
+    result.values.resize(query.values ? cells : 0);
+    result.features.resize(query.features ? cells : 0);
+    result.gradients.resize(query.gradients ? 2 * cells : 0);
+    result.unique.resize(parts.host_features ? cells : 0);
+    result.points.resize(query.points.size());
+}
+
 std::string place(const Vector& point) {
     return "(" + number(point.x()) + ", " + number(point.y()) + ")";
 }
@@ -60,41 +73,11 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
-    Box box;
-    if (query.rectangle) {
-        box = Box(geometry::to_vector(query.rectangle->min),
-                  geometry::to_vector(query.rectangle->max));
-    } else {
-        const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
-        box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
-        if (box.isEmpty()) {
-            result.status = {StatusCode::invalid_query,
-                             "the bounding boxes of A and B have nothing in common; give the "
-                             "rectangle the distance field is to cover"};
-            return;
-        }
-        box.min().array() -= query.tolerance;
-        box.max().array() += query.tolerance;
-    }
-    result.status = check_deviations(query.tolerance, planned.deviations, planned.budget.bound);
-    if (!result.status.ok()) {
+    const std::optional<Box> box = field_box(query, result);
+    if (!box || !check_field(*box, result)) {
         return;
     }
-    result.status = check_resolution(
-        query.tolerance, std::max(geometry::largest_magnitude(box),
-                                  geometry::largest_magnitude(
-                                      PlacedPolygon(*planned.b, query.b.pose), query.b.pose)));
-    if (!result.status.ok()) {
-        return;
-    }
-    // No cell is nearer to B than the boxes are to each other: what is refused for its distance in
-    // the end is refused before any work where that can be told.
-    const double gap = box.exteriorDistance(PlacedPolygon(*planned.b, query.b.pose).box());
-    result.status = check_distance(query.tolerance, planned.budget.bound + far_rounding * gap, gap);
-    if (!result.status.ok()) {
-        return;
-    }
-    boxes_.assign(1, box);
+    boxes_.assign(1, *box);
     add_regions(planned.budget.cell, result);
     const Grid& grid = grids_.front();
     planned.field = field_parts(query);
@@ -104,26 +87,13 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     if (planned.on_cpu) {
         require_sides(query.tolerance);
     }
-    const double side = field_tile(planned.field);
-    require_memory(
-        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field) +
-            (planned.by_compute ? bytes_of_masks(1) + bytes_per_cell_of_blocks * grid.cells()
-                                : 0.0),
-        query.tolerance, 2.0);
-    result.origin = geometry::to_public(grid.origin);
-    result.width = static_cast<std::uint32_t>(grid.width);
-    result.height = static_cast<std::uint32_t>(grid.height);
+    require_field_memory(query, grid);
     const auto first_tile = static_cast<std::uint32_t>(plan_->tiles.size());
     result.status = add_field_points(query, grid, first_tile);
     if (!result.status.ok()) {
         return;
     }
-    const std::size_t cells = grid.width * grid.height;
-    result.values.resize(query.values ? cells : 0);
-    result.features.resize(query.features ? cells : 0);
-    result.gradients.resize(query.gradients ? 2 * cells : 0);
-    result.unique.resize(planned.field.host_features ? cells : 0);
-    result.points.resize(query.points.size());
+    make_room(query, grid, planned.field, result);
     if (planned.on_cpu) {
         return;
     }
@@ -131,6 +101,55 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
     if (!planned.field.values && !planned.field.features) {
         drop_tiles_without_points(first_tile);
     }
+}
+
+std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
+                                      ResultSummary& result) const {
+    if (query.rectangle) {
+        return Box(geometry::to_vector(query.rectangle->min),
+                   geometry::to_vector(query.rectangle->max));
+    }
+    const PlannedQuery& planned = plan_->queries[query_];
+    const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
+    Box box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
+    if (box.isEmpty()) {
+        result.status = {StatusCode::invalid_query,
+                         "the bounding boxes of A and B have nothing in common; give the "
+                         "rectangle the distance field is to cover"};
+        return std::nullopt;
+    }
+    box.min().array() -= query.tolerance;
+    box.max().array() += query.tolerance;
+    return box;
+}
+
+bool Planner::check_field(const Box& box, ResultSummary& result) const {
+    const PlannedQuery& planned = plan_->queries[query_];
+    const double tolerance = result.tolerance;
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const Box box_b = b.box();
+    result.status = check_deviations(tolerance, planned.deviations, planned.budget.bound);
+    if (result.status.ok()) {
+        result.status = check_resolution(
+            tolerance, std::max(geometry::largest_magnitude(box),
+                                geometry::largest_magnitude(b, planned.pose_b, box_b)));
+    }
+    if (result.status.ok()) {
+        // No cell is nearer to B than the boxes are to each other: what is refused for its distance
+        // in the end is refused before any work where that can be told.
+        const double gap = box.exteriorDistance(box_b);
+        result.status = check_distance(tolerance, planned.budget.bound + far_rounding * gap, gap);
+    }
+    return result.status.ok();
+}
+
+void Planner::require_field_memory(const DistanceFieldQuery& query, const Grid& grid) {
+    const PlannedQuery& planned = plan_->queries[query_];
+    const double masks_and_lists =
+        planned.by_compute ? bytes_of_masks(1) + bytes_per_cell_of_blocks * grid.cells() : 0.0;
+    require_memory(bytes_of_cells(query, planned.field, grid, field_tile(planned.field)) +
+                       bytes_of_points(query, planned.field) + masks_and_lists,
+                   query.tolerance, 2.0);
 }
 
 bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {

@@ -2,6 +2,7 @@
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
+#include <engine/plan/overlap_boundary.hpp>
 #include <engine/plan/round.hpp>
 
 #include <algorithm>
@@ -321,8 +322,7 @@ void RoundBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
     const double simplification = query.budget.simplification;
     const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
                          bool with_runs) {
-        const TileBoundary boundary(shapes_.get(polygon, simplification, longest_tile_run * cell),
-                                    ToCells(PlacedPolygon(polygon, pose), tile.origin(), cell));
+        const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes_);
         if (part == Part::boundary) {
             return add_boundary(boundary, tile, query.budget.offset / cell, with_runs, round);
         }

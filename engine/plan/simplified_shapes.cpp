@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <functional>
+#include <limits>
 
 namespace nearfield::plan {
 namespace {
@@ -31,41 +32,74 @@ void SimplifiedShapes::clear() {
 
 SimplifiedBoundary SimplifiedShapes::get(const geometry::Polygon& polygon, double deviation,
                                          double longest_run) {
+    Entry& entry = find_or_add({&polygon, deviation, longest_run, false});
+    if (entry.whole.edge_count == 0) {
+        entry.whole = append(polygon, [&](std::vector<geometry::SimplifiedEdge>& edges) {
+            geometry::simplify(polygon, deviation, longest_run, edges);
+        });
+    }
+    return view(polygon, entry.whole);
+}
+
+SimplifiedBoundary SimplifiedShapes::get_near(const geometry::PlacedPolygon& placed,
+                                              const geometry::Box& window, double deviation,
+                                              double longest_run) {
+    const geometry::Polygon& polygon = placed.polygon();
+    const auto simplified_in = [&](const geometry::Box& box) {
+        return append(polygon, [&](std::vector<geometry::SimplifiedEdge>& edges) {
+            geometry::simplify_near(placed, box, deviation, longest_run, edges);
+        });
+    };
+    Entry& entry = find_or_add({&polygon, deviation, longest_run, true});
+    if (entry.whole.edge_count > 0) {
+        return view(polygon, entry.whole);
+    }
+    // All of a shape that many windows look at is simplified once they took as much work together,
+    // all of a small one at once.
+    constexpr std::uint32_t worth_a_window = 4 * geometry::edges_of_a_block;
+    if (polygon.size() > worth_a_window && entry.edges_of_windows < polygon.size()) {
+        const Place part = simplified_in(window);
+        entry.edges_of_windows += part.edge_count;
+        return view(polygon, part);
+    }
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    entry.whole = simplified_in(
+        {geometry::Vector::Constant(-everywhere), geometry::Vector::Constant(everywhere)});
+    return view(polygon, entry.whole);
+}
+
+SimplifiedBoundary SimplifiedShapes::view(const geometry::Polygon& polygon,
+                                          const Place& place) const {
+    return {&polygon,
+            {edges_.data() + place.edge, place.edge_count},
+            {ring_of_.data() + place.edge, place.edge_count},
+            {ring_begin_.data() + place.ring, place.ring_count},
+            {boxes_.data() + place.box, place.box_count}};
+}
+
+SimplifiedShapes::Entry& SimplifiedShapes::find_or_add(const Key& key) {
     if (2 * (entries_.size() + 1) > table_.size()) {
         grow_table();
     }
-    if (const std::uint32_t found = slot(polygon, deviation, longest_run); found != free_slot) {
-        return view(entries_[found]);
-    }
-    if (edges_.size() > most_edges) {
+    std::uint32_t& place = slot(key);
+    const bool is_there = place != free_slot && entries_[place].whole.edge_count > 0;
+    if (!is_there && edges_.size() > most_edges) {
         clear();
     }
-    slot(polygon, deviation, longest_run) = static_cast<std::uint32_t>(entries_.size());
-    add(polygon, deviation, longest_run);
-    return view(entries_.back());
+    if (place == free_slot) {
+        place = static_cast<std::uint32_t>(entries_.size());
+        entries_.push_back({key, {}, 0});
+    }
+    return entries_[place];
 }
 
-SimplifiedBoundary SimplifiedShapes::view(const Entry& entry) const {
-    return {entry.polygon,
-            {edges_.data() + entry.edge, entry.edge_count},
-            {ring_of_.data() + entry.edge, entry.edge_count},
-            {ring_begin_.data() + entry.ring, entry.ring_count},
-            {boxes_.data() + entry.box, entry.box_count}};
-}
-
-std::uint32_t& SimplifiedShapes::slot(const geometry::Polygon& polygon, double deviation,
-                                      double longest_run) {
-    std::uint64_t hash = mixed(std::hash<const void*>()(&polygon));
-    hash = mixed(hash ^ std::bit_cast<std::uint64_t>(deviation));
-    hash = mixed(hash ^ std::bit_cast<std::uint64_t>(longest_run));
+std::uint32_t& SimplifiedShapes::slot(const Key& key) {
+    std::uint64_t hash = mixed(std::hash<const void*>()(key.polygon));
+    hash = mixed(hash ^ std::bit_cast<std::uint64_t>(key.deviation));
+    hash = mixed(hash ^ std::bit_cast<std::uint64_t>(key.longest_run));
     for (std::size_t i = hash;; ++i) {
         std::uint32_t& candidate = table_[i & (table_.size() - 1)];
-        if (candidate == free_slot) {
-            return candidate;
-        }
-        const Entry& entry = entries_[candidate];
-        if (entry.polygon == &polygon && entry.deviation == deviation &&
-            entry.longest_run == longest_run) {
+        if (candidate == free_slot || entries_[candidate].key == key) {
             return candidate;
         }
     }
@@ -74,37 +108,37 @@ std::uint32_t& SimplifiedShapes::slot(const geometry::Polygon& polygon, double d
 void SimplifiedShapes::grow_table() {
     table_.assign(std::max<std::size_t>(64, 2 * table_.size()), free_slot);
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        const Entry& entry = entries_[i];
-        slot(*entry.polygon, entry.deviation, entry.longest_run) = i;
+        slot(entries_[i].key) = i;
     }
 }
 
-void SimplifiedShapes::add(const geometry::Polygon& polygon, double deviation, double longest_run) {
-    Entry& entry = entries_.emplace_back();
-    entry.polygon = &polygon;
-    entry.deviation = deviation;
-    entry.longest_run = longest_run;
-    entry.edge = static_cast<std::uint32_t>(edges_.size());
-    entry.ring = static_cast<std::uint32_t>(ring_begin_.size());
-    entry.box = static_cast<std::uint32_t>(boxes_.size());
-    geometry::simplify(polygon, deviation, longest_run, edges_);
-    entry.edge_count = static_cast<std::uint32_t>(edges_.size()) - entry.edge;
-    add_rings(polygon, entry);
-    append_boxes(polygon, {edges_.data() + entry.edge, entry.edge_count}, boxes_);
-    entry.box_count = static_cast<std::uint32_t>(boxes_.size()) - entry.box;
+template <class Simplify>
+SimplifiedShapes::Place SimplifiedShapes::append(const geometry::Polygon& polygon,
+                                                 const Simplify& simplify) {
+    Place place;
+    place.edge = static_cast<std::uint32_t>(edges_.size());
+    place.ring = static_cast<std::uint32_t>(ring_begin_.size());
+    place.box = static_cast<std::uint32_t>(boxes_.size());
+    simplify(edges_);
+    place.edge_count = static_cast<std::uint32_t>(edges_.size()) - place.edge;
+    append_rings(polygon, place);
+    append_boxes(polygon, {edges_.data() + place.edge, place.edge_count}, boxes_);
+    place.box_count = static_cast<std::uint32_t>(boxes_.size()) - place.box;
+    return place;
 }
 
-void SimplifiedShapes::add_rings(const geometry::Polygon& polygon, Entry& entry) {
+void SimplifiedShapes::append_rings(const geometry::Polygon& polygon, Place& place) {
     std::uint32_t edge = 0;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         ring_begin_.push_back(edge);
-        for (; edge < entry.edge_count && edges_[entry.edge + edge].first < polygon.ring_end(ring);
-             ++edge) {
-            ring_of_.push_back(ring);
+        const std::uint32_t end = polygon.ring_end(ring);
+        while (edge < place.edge_count && edges_[place.edge + edge].first < end) {
+            ++edge;
         }
+        ring_of_.resize(place.edge + edge, ring);
     }
     ring_begin_.push_back(edge);
-    entry.ring_count = static_cast<std::uint32_t>(ring_begin_.size()) - entry.ring;
+    place.ring_count = static_cast<std::uint32_t>(ring_begin_.size()) - place.ring;
 }
 
 }  // namespace nearfield::plan

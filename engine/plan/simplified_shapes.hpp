@@ -18,23 +18,43 @@ public:
     [[nodiscard]] SimplifiedBoundary get(const geometry::Polygon& polygon, double deviation,
                                          double longest_run);
 
+    /// The same for one who looks at nothing but what lies in a window of the world, as
+    /// geometry::simplify_near() has it: in the window always the same edges, outside it those or
+    /// fewer.
+    [[nodiscard]] SimplifiedBoundary get_near(const geometry::PlacedPolygon& placed,
+                                              const geometry::Box& window, double deviation,
+                                              double longest_run);
+
 private:
-    /// A shape, and where its parts start in the arrays that all shapes share.
-    struct Entry {
+    struct Key {
         const geometry::Polygon* polygon = nullptr;
         double deviation = 0.0;
         double longest_run = 0.0;
-        std::uint32_t edge = 0, edge_count = 0;
+        bool in_blocks = false;  // for windows
+
+        [[nodiscard]] bool operator==(const Key&) const = default;
+    };
+    /// Where the parts of a simplified boundary start in the arrays that all share.
+    struct Place {
+        std::uint32_t edge = 0, edge_count = 0;  // no edges: there is nothing yet
         std::uint32_t ring = 0, ring_count = 0;  // one more than there are rings
         std::uint32_t box = 0, box_count = 0;
     };
+    struct Entry {
+        Key key;
+        Place whole;
+        std::size_t edges_of_windows = 0;  // that were made for single windows
+    };
 
-    [[nodiscard]] SimplifiedBoundary view(const Entry& entry) const;
+    [[nodiscard]] SimplifiedBoundary view(const geometry::Polygon& polygon,
+                                          const Place& place) const;
+    [[nodiscard]] Entry& find_or_add(const Key& key);
     /// The slot of an entry, or the free one where it would stand.
-    [[nodiscard]] std::uint32_t& slot(const geometry::Polygon& polygon, double deviation,
-                                      double longest_run);
-    void add(const geometry::Polygon& polygon, double deviation, double longest_run);
-    void add_rings(const geometry::Polygon& polygon, Entry& entry);
+    [[nodiscard]] std::uint32_t& slot(const Key& key);
+    /// Appends what `simplify(edges)` appends to the edges, and all that goes with them.
+    template <class Simplify>
+    [[nodiscard]] Place append(const geometry::Polygon& polygon, const Simplify& simplify);
+    void append_rings(const geometry::Polygon& polygon, Place& place);
     void grow_table();
 
     std::vector<Entry> entries_;

@@ -7,6 +7,16 @@
 
 namespace nearfield::plan {
 
+/// What the queries of a kind are called that the CPU alone answers; null for other kinds.
+template <class Query>
+inline constexpr const char* answered_by_cpu_alone = nullptr;
+template <>
+inline constexpr const char* answered_by_cpu_alone<IntersectionTestQuery> = "intersection tests";
+template <>
+inline constexpr const char* answered_by_cpu_alone<TimeOfImpactQuery> = "times of impact";
+template <>
+inline constexpr const char* answered_by_cpu_alone<SeparationVectorQuery> = "separation vectors";
+
 /// What of a query a technique has no answer for, in words for a message; null where it answers all
 /// of it.
 template <class Query>
@@ -23,22 +33,8 @@ template <class Query>
             return "what is to stay on the device (resident)";
         }
     }
-    if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
-        if (technique != Technique::cpu && technique != Technique::automatic) {
-            return "intersection tests";
-        }
-    }
-    if constexpr (std::is_same_v<Query, TimeOfImpactQuery>) {
-        if (technique != Technique::cpu && technique != Technique::automatic) {
-            return "times of impact";
-        }
-    }
-    if constexpr (std::is_same_v<Query, SeparationVectorQuery>) {
-        if (technique != Technique::cpu && technique != Technique::automatic) {
-            return "separation vectors";
-        }
-    }
-    return nullptr;
+    const bool may_be_cpu = technique == Technique::cpu || technique == Technique::automatic;
+    return may_be_cpu ? nullptr : answered_by_cpu_alone<Query>;
 }
 
 [[nodiscard]] inline bool answers(Technique technique, const AnyQuery& query) {

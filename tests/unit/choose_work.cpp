@@ -72,6 +72,53 @@ TEST(Work, EstimatesSamplesWithinAFactor) {
     }
 }
 
+TEST(Work, LiesWithinItsBounds) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Random random(seed);
+        Polygon a;
+        Polygon b;
+        ASSERT_TRUE(a.assign(test::any_shape(random).rings).ok());
+        ASSERT_TRUE(b.assign(test::any_shape(random).rings).ok());
+        const Instance at_a{{0, 0}, {{random.between(-1.0, 1.0), 0.1}, 1.0}};
+        const Instance at_b{{1, 0}, {{random.between(-1.0, 1.0), 0.0}, 2.0}};
+        const double d = random.scale(0.001, 0.5);
+        PenetrationQuery vertices{at_a, at_b, d};
+        vertices.points = PenetrationPoints::vertices;
+        DistanceFieldQuery field;
+        field.a = at_a;
+        field.b = at_b;
+        field.tolerance = d;
+        DistanceFieldQuery window = field;
+        window.rectangle = Rectangle{{-1.0, -0.5}, {0.5, 0.5}};
+        IntersectionQuery intersection;
+        intersection.a = at_a;
+        intersection.b = at_b;
+        intersection.tolerance = d;
+        for (const AnyQuery& query :
+             {AnyQuery(vertices), AnyQuery(PenetrationQuery{at_a, at_b, d}), AnyQuery(intersection),
+              AnyQuery(ContactQuery{at_a, at_b, d, 2.0 * d}), AnyQuery(field), AnyQuery(window),
+              AnyQuery(SeparationQuery{at_a, at_b, d})}) {
+            const WorkBounds bounds = work_bounds(query, &a, b);
+            const Work work = work_of(query, &a, b);
+            for (const Work& bound : {bounds.least, bounds.most}) {
+                EXPECT_EQ(bound.kind, work.kind);
+                EXPECT_EQ(bound.edges, work.edges);
+            }
+            EXPECT_LE(bounds.least.samples, work.samples);
+            EXPECT_LE(work.samples, bounds.most.samples);
+            // Where all vertices are looked at, not only by being cut off there.
+            if (bounds.least.samples < bounds.most.samples && a.size() + b.size() < 512) {
+                EXPECT_LT(work.samples, bounds.most.samples);
+            }
+        }
+        EXPECT_EQ(work_bounds(vertices, &a, b).least.samples, a.size());
+        EXPECT_EQ(work_bounds(vertices, &a, b).most.samples, a.size());
+        EXPECT_EQ(work_bounds(window, &a, b).least.samples,
+                  work_bounds(window, &a, b).most.samples);
+    }
+}
+
 TEST(Work, IsOfTheKindThatTheQueryIs) {
     Random random(1);
     Polygon shape;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -133,6 +134,56 @@ TEST(Simplify, KeepsItsLawsOnWanderingLines) {
         }
         expect_lawful(samples::polygon({ring}), 1.0, round % 2 == 0 ? endless : 10.0,
                       "round " + std::to_string(round));
+    }
+}
+
+/// Whether what is simplified in a window is what is simplified everywhere, block by block.
+void expect_same_in_window(const PlacedPolygon& placed, const Box& window, double deviation,
+                           const std::string& what) {
+    const Polygon& polygon = placed.polygon();
+    const Box everywhere(Vector(-endless, -endless), Vector(endless, endless));
+    std::vector<SimplifiedEdge> all;
+    std::vector<SimplifiedEdge> found;
+    simplify_near(placed, everywhere, deviation, endless, all);
+    simplify_near(placed, window, deviation, endless, found);
+    auto next = all.begin();
+    for (const SimplifiedEdge& edge : found) {
+        ASSERT_EQ(edge.first, next->first) << what;
+        const std::uint32_t ring = polygon.ring_of(edge.first);
+        const std::uint32_t block = (edge.first - polygon.ring_begin(ring)) / edges_of_a_block;
+        if (edge.deviation < endless) {
+            ASSERT_EQ(edge.last, next->last) << what;
+            ASSERT_EQ(edge.count, next->count) << what;
+            const std::uint32_t last = edge.first + edge.count - 1 - polygon.ring_begin(ring);
+            ASSERT_EQ(last / edges_of_a_block, block) << what << ": a run goes on";
+            ++next;
+            continue;
+        }
+        ASSERT_FALSE(window.intersects(placed.chain_box(ring, edge.first, edge.count))) << what;
+        std::uint32_t left = edge.count;
+        for (; left > 0; left -= next->count, ++next) {
+            ASSERT_LE(next->count, left) << what;
+        }
+        ASSERT_EQ(edge.last, std::prev(next)->last) << what;
+    }
+    EXPECT_TRUE(next == all.end()) << what;
+}
+
+TEST(Simplify, IsTheSameInEveryWindow) {
+    samples::Random random(5);
+    for (int round = 0; round < 200; ++round) {
+        samples::Rings rings{samples::coast(random, 3 + random.below(700), 1.0)};
+        if (round % 2 == 0) {
+            rings.push_back(samples::star(random, 3 + random.below(200), 0.1, 0.3));
+        }
+        const Polygon polygon = samples::polygon(rings);
+        const PlacedPolygon placed(polygon, {{random.between(-1.0, 1.0), 0.0}, 1.0 * round});
+        const Vector low(random.between(-2.0, 1.0), random.between(-2.0, 1.0));
+        const Vector size(random.between(0.0, 1.0), random.between(0.0, 1.0));
+        for (const double deviation : {0.0, 1e-3, 0.05}) {
+            expect_same_in_window(placed, Box(low, low + size), deviation,
+                                  "round " + std::to_string(round));
+        }
     }
 }
 

@@ -173,6 +173,47 @@ TEST(Chains, ContainmentEitherWay) {
     }
 }
 
+void expect_same(const std::vector<Chain>& found, const std::vector<Chain>& wanted,
+                 const std::string& what) {
+    ASSERT_EQ(found.size(), wanted.size()) << what;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        EXPECT_EQ(found[i].ring, wanted[i].ring) << what;
+        EXPECT_EQ(found[i].first, wanted[i].first) << what;
+        EXPECT_EQ(found[i].count, wanted[i].count) << what;
+        EXPECT_EQ(found[i].box.min(), wanted[i].box.min()) << what;
+        EXPECT_EQ(found[i].box.max(), wanted[i].box.max()) << what;
+    }
+}
+
+TEST(Chains, OfBothAreFoundByOneDescent) {
+    samples::Random random(8);
+    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    for (const samples::NamedRings& shape_a : shapes) {
+        for (const samples::NamedRings& shape_b : shapes) {
+            const Polygon polygon_a = samples::polygon(shape_a.rings);
+            const Polygon polygon_b = samples::polygon(shape_b.rings);
+            const PlacedPolygon a(polygon_a, {{random.between(0.0, 2.0), 0.1}, 1.0});
+            const PlacedPolygon b(polygon_b, {});
+            for (const BoundingVolume volume :
+                 {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
+                const OverlapOptions options{random.below(13), 0.0, volume};
+                const std::string what = shape_a.name + " and " + shape_b.name + ", height " +
+                                         std::to_string(options.height);
+                std::vector<Chain> of_a;
+                std::vector<Chain> of_b;
+                const Effort both = chains_in_each_other(a, b, options, of_a, of_b);
+                std::vector<Chain> wanted;
+                const Effort one = chains_in_volume(a, b, options, wanted);
+                EXPECT_EQ(both.nodes_evaluated, one.nodes_evaluated) << what;
+                expect_same(of_a, wanted, what + ", of A");
+                wanted.clear();
+                chains_in_volume(b, a, options, wanted);
+                expect_same(of_b, wanted, what + ", of B");
+            }
+        }
+    }
+}
+
 TEST(Chains, ManyRingsInsideOrInAHole) {
     samples::Random random(7);
     samples::Rings islands;

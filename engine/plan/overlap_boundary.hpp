@@ -1,0 +1,27 @@
+#pragma once
+
+#include <engine/plan/plan.hpp>
+#include <engine/plan/simplified_shapes.hpp>
+#include <engine/plan/tile_edges.hpp>
+
+namespace nearfield::plan {
+
+/// A boundary as a tile of an intersection sees it: simplified where the tile looks, and nothing
+/// but a few edges elsewhere. The same for every technique, so that samples are, too. Valid until
+/// the next call to `shapes`.
+[[nodiscard]] inline TileBoundary overlap_boundary(const geometry::Polygon& polygon,
+                                                   const Pose& pose, const ErrorBudget& budget,
+                                                   const Tile& tile, SimplifiedShapes& shapes) {
+    const double cell = tile.grid.cell;
+    const geometry::PlacedPolygon placed(polygon, pose);
+    // Farther than crossing_edges() looks and offset polygons reach.
+    const double beyond = 2.0 * budget.offset + budget.simplification + 4.0 * cell;
+    geometry::Box window(tile.origin(),
+                         tile.origin() + cell * geometry::Vector(tile.width, tile.height));
+    window.min().array() -= beyond;
+    window.max().array() += beyond;
+    return {shapes.get_near(placed, window, budget.simplification, longest_tile_run * cell),
+            ToCells(placed, tile.origin(), cell)};
+}
+
+}  // namespace nearfield::plan
