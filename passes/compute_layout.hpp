@@ -23,6 +23,8 @@ public:
         summaries = points,           ///< of the collect passes
         work = tiles,                 ///< of the masks (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
+        blocks = tiles,               ///< of fields
+        segments = geometry,
         scratch_of_blocks = points,
         // Of the passes that hand results over:
         words = tiles,

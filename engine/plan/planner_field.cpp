@@ -1,6 +1,5 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 
@@ -44,10 +43,6 @@ double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts)
     return static_cast<double>(query.points.size()) *
            (sizeof(FieldPoint) + sizeof(PlannedFieldPoint) + 2.0 * sizeof(PointData) + words);
 }
-
-// A list of edges for each block of 8 x 8 cells.
-constexpr double bytes_per_cell_of_blocks =
-    (block_capacity + 1.0) * sizeof(std::uint32_t) / (block_side * block_side);
 
 std::string place(const Vector& point) {
     return "(" + number(point.x()) + ", " + number(point.y()) + ")";
@@ -105,11 +100,10 @@ void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) 
         require_sides(query.tolerance);
     }
     const double side = field_tile(planned.field);
-    require_memory(
-        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field) +
-            (planned.by_compute ? bytes_of_masks(1) + bytes_per_cell_of_blocks * grid.cells()
-                                : 0.0),
-        query.tolerance, 2.0);
+    require_memory(bytes_of_cells(query, planned.field, grid, side) +
+                       bytes_of_points(query, planned.field) +
+                       (planned.by_compute ? bytes_of_masks(1) : 0.0),
+                   query.tolerance, 2.0);
     result.origin = geometry::to_public(grid.origin);
     result.width = static_cast<std::uint32_t>(grid.width);
     result.height = static_cast<std::uint32_t>(grid.height);
