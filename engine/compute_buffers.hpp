@@ -50,7 +50,7 @@ private:
     gpu::MappedBuffer scratch_;
     std::uint64_t end_ = 0;  // of what is in the input
     std::uint64_t scratch_bytes_ = 0;
-    BufferPart tiles_, points_, parts_, geometry_, work_;
+    BufferPart tiles_, points_, blocks_, segments_, feature_blocks_, geometry_, work_;
 };
 
 }  // namespace nearfield

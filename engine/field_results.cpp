@@ -73,13 +73,7 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
                             DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
     if (planned.field.host_values) {
-        const auto values = words.subspan(draw.first_value);
-        for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
-            const float distance = in_world(values[drawn], tile);
-            if (query.values) {
-                result.values[cell] = distance;
-            }
-        });
+        add_values(tile, words.subspan(draw.first_value), query.values, result);
     }
     if (planned.field.host_features) {
         add_features(planned, tile, words.subspan(draw.first_feature), result);
@@ -101,6 +95,30 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
                 half_difference(drawn + tile.width, drawn - tile.width);
         });
     }
+}
+
+void FieldDecoder::add_values(const Tile& tile, std::span<const std::uint32_t> words, bool keep,
+                              DistanceFieldResult& result) {
+    const auto cell = static_cast<float>(tile.grid.cell);
+    const std::size_t halo = tile.halo;
+    const std::size_t count = tile.width - 2 * halo;
+    // As numbers of the same order, without their signs: the loop below goes by vectors.
+    std::int32_t largest = 0;
+    for (std::size_t row = halo; row + halo < tile.height; ++row) {
+        const std::uint32_t* drawn = words.data() + row * tile.width + halo;
+        for (std::size_t i = 0; i < count; ++i) {
+            largest = std::max(largest, static_cast<std::int32_t>(drawn[i] & 0x7fffffffU));
+        }
+        if (keep) {
+            float* values =
+                result.values.data() + (tile.row + row - halo) * result.width + tile.column;
+            for (std::size_t i = 0; i < count; ++i) {
+                values[i] = from_word(drawn[i]) * cell;
+            }
+        }
+    }
+    largest_[tile.query] =
+        std::max(largest_[tile.query], from_word(static_cast<std::uint32_t>(largest)) * cell);
 }
 
 void FieldDecoder::add_features(const plan::PlannedQuery& planned, const Tile& tile,

@@ -37,6 +37,9 @@ private:
     void add_tile(const plan::PlannedQuery& planned, const plan::Tile& tile,
                   const plan::TileDraw& draw, std::span<const std::uint32_t> words,
                   DistanceFieldResult& result);
+    /// `keep`: the result holds them; if not, it is their magnitude that counts.
+    void add_values(const plan::Tile& tile, std::span<const std::uint32_t> words, bool keep,
+                    DistanceFieldResult& result);
     static void add_features(const plan::PlannedQuery& planned, const plan::Tile& tile,
                              std::span<const std::uint32_t> words, DistanceFieldResult& result);
     void add_point(const plan::PlannedQuery& planned, const plan::Tile& tile,

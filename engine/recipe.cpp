@@ -78,18 +78,18 @@ void Recipe::declare_compute(const Passes& passes) {
     if (needs.boundaries_a) {
         scratch = passes.masks.declare_boundaries_a(graph_, input_, scratch);
     }
-    if (needs.field_cells) {
-        scratch = passes.blocks.declare_lists(graph_, input_, scratch);
-    }
     if (needs.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
         static_cast<void>(passes.masks.declare_collect(graph_, input_, scratch, samples_));
     }
-    if (needs.field_cells || needs.field_points) {
+    if (needs.field_values || needs.field_features || needs.field_points) {
         field_ = graph_.import_buffer({"field results", false, true});
         Handle field = field_;
-        if (needs.field_cells) {
-            field = passes.blocks.declare_cells(graph_, input_, scratch, field);
+        if (needs.field_values) {
+            field = passes.blocks.declare_values(graph_, input_, scratch, field);
+        }
+        if (needs.field_features) {
+            field = passes.blocks.declare_features(graph_, input_, scratch, field);
         }
         if (needs.field_points) {
             field = passes.blocks.declare_points(graph_, input_, scratch, field);

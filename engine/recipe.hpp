@@ -34,7 +34,8 @@ namespace nearfield {
 /// What a round of the compute technique asks for; all false for one that is drawn.
 struct ComputeNeeds {
     bool points = false;
-    bool field_cells = false;   ///< something at every cell of a field
+    bool field_values = false;
+    bool field_features = false;
     bool field_points = false;  ///< something at points of a field
     bool fill = false;          ///< a volume as a mask, or the sign of a field
     bool boundaries_a = false;

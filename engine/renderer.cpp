@@ -13,7 +13,8 @@ ComputeNeeds compute_needs_of(const plan::Round& round) {
     const plan::ComputeWork& work = round.compute;
     ComputeNeeds needs;
     needs.points = !round.points.empty();
-    needs.field_cells = !work.blocks.empty();
+    needs.field_values = !work.blocks.empty();
+    needs.field_features = work.features;
     needs.field_points = !work.points.empty();
     needs.fill = !work.rows.empty();
     needs.boundaries_a = !work.polygons_a.empty();

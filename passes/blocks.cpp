@@ -1,9 +1,11 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/blocks.hpp>
 
-#include <shaders/list_blocks_comp.hpp>
 #include <shaders/resolve_blocks_comp.hpp>
+#include <shaders/resolve_features_comp.hpp>
 #include <shaders/resolve_field_points_by_lists_comp.hpp>
+
+#include <utility>
 
 namespace nearfield::passes {
 
@@ -11,81 +13,85 @@ Blocks::Blocks(const gpu::Device& device, const ComputeLayout& layout, const Fra
     : device_(&device),
       layout_(layout.pipeline_layout()),
       frame_(&frame),
-      lists_(gpu::make_compute_pipeline(device, layout_, shaders::list_blocks_comp,
-                                        "nearfield list blocks")),
-      cells_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_blocks_comp,
-                                        "nearfield resolve blocks")),
+      values_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_blocks_comp,
+                                         "nearfield resolve blocks")),
+      features_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_features_comp,
+                                           "nearfield resolve features")),
       points_(gpu::make_compute_pipeline(device, layout_,
                                          shaders::resolve_field_points_by_lists_comp,
                                          "nearfield resolve field points by lists")) {}
 
-void Blocks::bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const {
+void Blocks::bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
+                  VkDescriptorSet set) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->blocks, 0, nullptr);
+    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set,
+                                      0, nullptr);
 }
 
-graph::Handle Blocks::declare_lists(graph::Graph& graph, graph::Handle input,
-                                    graph::Handle scratch) const {
+graph::Handle Blocks::declare(graph::Graph& graph, const char* name, graph::Handle input,
+                              graph::Handle scratch, graph::Handle field,
+                              graph::Record record) const {
     graph.add_pass(
-        "list blocks", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, graph::Access::storage_read_in_compute);
-            scratch = pass.write(scratch, graph::Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands) { record_blocks(commands, lists_, 1); });
-    return scratch;
-}
-
-graph::Handle Blocks::declare_cells(graph::Graph& graph, graph::Handle input, graph::Handle scratch,
-                                    graph::Handle field) const {
-    graph.add_pass(
-        "resolve blocks", graph::PassKind::compute,
+        name, graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(input, graph::Access::storage_read_in_compute);
             pass.read(scratch, graph::Access::storage_read_in_compute);
             field = pass.write(field, graph::Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { record_blocks(commands, cells_, plan::block_side); });
+        std::move(record));
     return field;
 }
 
-void Blocks::record_blocks(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
-                           std::uint32_t threads_per_block) const {
+graph::Handle Blocks::declare_values(graph::Graph& graph, graph::Handle input,
+                                     graph::Handle scratch, graph::Handle field) const {
+    return declare(graph, "resolve blocks", input, scratch, field,
+                   [this](VkCommandBuffer commands) { record_values(commands); });
+}
+
+graph::Handle Blocks::declare_features(graph::Graph& graph, graph::Handle input,
+                                       graph::Handle scratch, graph::Handle field) const {
+    return declare(graph, "resolve features", input, scratch, field,
+                   [this](VkCommandBuffer commands) { record_features(commands); });
+}
+
+graph::Handle Blocks::declare_points(graph::Graph& graph, graph::Handle input,
+                                     graph::Handle scratch, graph::Handle field) const {
+    return declare(graph, "resolve field points by lists", input, scratch, field,
+                   [this](VkCommandBuffer commands) { record_points(commands); });
+}
+
+void Blocks::record_values(VkCommandBuffer commands) const {
+    constexpr std::uint32_t threads_per_block = plan::block_side / 2;
     const gpu::Functions& functions = device_->functions();
-    const plan::Round& round = *frame_->round;
-    const plan::ComputeWork& work = round.compute;
-    const auto end = static_cast<std::uint32_t>(work.blocks.size()) * threads_per_block;
-    bind(commands, pipeline);
+    const auto end =
+        static_cast<std::uint32_t>(frame_->round->compute.blocks.size()) * threads_per_block;
+    bind(commands, values_, frame_->blocks);
     dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
-        const std::uint32_t push[5] = {
-            first, end, static_cast<std::uint32_t>(round.lists.geometry().size()),
-            static_cast<std::uint32_t>(work.mask_words + work.run_words), round.resident ? 1U : 0U};
+        const std::uint32_t push[2] = {first, end};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
     });
 }
 
-graph::Handle Blocks::declare_points(graph::Graph& graph, graph::Handle input,
-                                     graph::Handle scratch, graph::Handle field) const {
-    graph.add_pass(
-        "resolve field points by lists", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, graph::Access::storage_read_in_compute);
-            pass.read(scratch, graph::Access::storage_read_in_compute);
-            field = pass.write(field, graph::Access::storage_write_in_compute);
-        },
-        [this](VkCommandBuffer commands) { record_points(commands); });
-    return field;
+void Blocks::record_features(VkCommandBuffer commands) const {
+    constexpr std::uint32_t cells = plan::block_side * plan::block_side;
+    const gpu::Functions& functions = device_->functions();
+    const plan::Round& round = *frame_->round;
+    const auto end = static_cast<std::uint32_t>(round.compute.feature_blocks.size()) * cells;
+    bind(commands, features_, frame_->feature_blocks);
+    dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
+        const std::uint32_t push[3] = {first, end, round.resident ? 1U : 0U};
+        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(push), push);
+    });
 }
 
 void Blocks::record_points(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     const plan::Round& round = *frame_->round;
-    const auto points =
-        static_cast<std::uint32_t>(round.lists.geometry().size() + round.compute.blocks.size());
-    bind(commands, points_);
+    const auto points = static_cast<std::uint32_t>(round.lists.geometry().size());
+    bind(commands, points_, frame_->feature_blocks);
     for (const plan::FieldPointRun& run : round.field_point_runs) {
         dispatch_points(
             functions, commands, run.first, run.first + run.count, [&](std::uint32_t first) {

@@ -24,6 +24,8 @@ public:
         kept_hits = geometry,         ///< of those of images
         work = tiles,                 ///< of the masks (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
+        blocks = tiles,               ///< of fields
+        segments = geometry,
         scratch_of_blocks = points,
         // Of the passes that hand results over:
         words = tiles,

@@ -24,7 +24,7 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     return owned;
 }
 
-constexpr std::array<const char*, 5 + sign_encodings + intersection_strategies> names_of_round{
+constexpr std::array<const char*, 6 + sign_encodings + intersection_strategies> names_of_round{
     "nearfield resolve points set",
     "nearfield field by stencil set",
     "nearfield field by color set",
@@ -36,6 +36,7 @@ constexpr std::array<const char*, 5 + sign_encodings + intersection_strategies> 
     "nearfield collect set, depth",
     "nearfield masks set",
     "nearfield blocks set",
+    "nearfield feature blocks set",
     "nearfield points by lists set"};
 
 }  // namespace
@@ -71,6 +72,7 @@ void ComputeSets::hand_to(Frame& frame) const {
     }
     frame.masks = sets_[next++];
     frame.blocks = sets_[next++];
+    frame.feature_blocks = sets_[next++];
     frame.points_by_lists = sets_[next++];
 }
 

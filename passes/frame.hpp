@@ -27,6 +27,7 @@ struct Frame {
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
     VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
     VkDescriptorSet blocks = VK_NULL_HANDLE;                         ///< of the compute technique
+    VkDescriptorSet feature_blocks = VK_NULL_HANDLE;                 ///< of the compute technique
     VkBuffer scratch = VK_NULL_HANDLE;  ///< the compute technique's scratch memory
     std::uint32_t subpixel_bits = 8;    ///< of the grid that vertices are snapped to
     VkBuffer read_back = VK_NULL_HANDLE;

@@ -22,7 +22,6 @@ struct Tile {
     uint outside;
     uint tile_width;
     uint mask;
-    uint first_value;
     uint first_feature;
 };
 

@@ -1,90 +1,104 @@
 #version 450
-#extension GL_GOOGLE_include_directive : require
 
-// What is asked for at every cell of a field, from the lists of the blocks: signed distance (section
-// 2.2.2 of the paper), nearest feature. One thread a column of a block.
-
-#define BLOCKS_ACCESS readonly
-#include "layout.glsl"
-#include "nearest.glsl"
-#include "blocks.glsl"
+// The signed distance at every cell of a field (section 2.2.2 of the paper), from the segments that
+// can be nearest in the cell's block. Eight threads a block; each has two columns, so that what it
+// reads of a segment serves 32 cells and what neighbours write lies side by side.
+//
+// In the frame of a segment, whose middle is the origin and which lies along an axis, a cell is so
+// far along and so far across: the distance is that across, and beyond an end also that to the end.
+// From row to row both change by the same steps.
 
 layout(local_size_x = 64) in;
 
+// plan::BlockData
+layout(std430, set = 0, binding = 0) readonly buffer Blocks {
+    uvec4 blocks[];  // first segment, segments, size, tile width; value, sign, first sign, words
+};
+// plan::SegmentData
+layout(std430, set = 0, binding = 1) readonly buffer Segments {
+    vec4 segments[];
+};
+layout(std430, set = 0, binding = 2) readonly buffer Scratch {
+    uint scratch[];
+};
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
 
 layout(push_constant) uniform Push {
-    uint first;   // column of a block
+    uint first;  // column of a block
     uint end;
-    uint blocks;  // where they start in the geometry array
-    uint lists;   // where their lists start in the scratch memory
-    uint resident;  // 1: features stay on the device, and say which vertices are nearest
 } push;
 
-struct List {
-    uint first;  // in the scratch memory
-    uint count;
-    bool whole;  // there was no room: the list of the part counts
+const uint threads_per_block = 8u;
+const float columns_apart = 8.0;
+const vec4 rows = vec4(0.0, 1.0, 2.0, 3.0);
+
+// Squared distances of 16 cells above each other. Those of floats that are not negative are in the
+// same order as their bits, whose minimum costs less.
+struct Column {
+    uvec4 rows_0, rows_4, rows_8, rows_12;
 };
 
-uint place_in_part(List list, uint i) {
-    return list.whole ? i : scratch[list.first + i];
+const uint infinity_bits = 0x7f800000u;
+const Column nothing_near =
+    Column(uvec4(infinity_bits), uvec4(infinity_bits), uvec4(infinity_bits), uvec4(infinity_bits));
+
+uvec4 squared_distance(vec4 along, vec4 across, float half_length) {
+    vec4 beyond = max(abs(along) - half_length, 0.0);
+    return floatBitsToUint(across * across + beyond * beyond);
 }
 
-void consider_edge(vec2 from_a, vec2 d, float inverse, vec4 rows, inout vec4 squared) {
-    vec4 y = from_a.y + rows;
-    vec4 t = clamp((from_a.x * d.x + y * d.y) * inverse, 0.0, 1.0);
-    vec4 away_x = from_a.x - t * d.x;
-    vec4 away_y = y - t * d.y;
-    squared = min(squared, away_x * away_x + away_y * away_y);
+// A segment along `way`, as seen from a column's lowest cell: so far along and across.
+void consider(vec2 from_middle, vec2 way, float half_length, inout Column column) {
+    vec4 along = dot(from_middle, way) + rows * way.y;
+    vec4 across = from_middle.x * way.y - from_middle.y * way.x - rows * way.x;
+    column.rows_0 = min(column.rows_0, squared_distance(along, across, half_length));
+    along += 4.0 * way.y;
+    across -= 4.0 * way.x;
+    column.rows_4 = min(column.rows_4, squared_distance(along, across, half_length));
+    along += 4.0 * way.y;
+    across -= 4.0 * way.x;
+    column.rows_8 = min(column.rows_8, squared_distance(along, across, half_length));
+    along += 4.0 * way.y;
+    across -= 4.0 * way.x;
+    column.rows_12 = min(column.rows_12, squared_distance(along, across, half_length));
 }
 
-const vec4 low_rows = vec4(0.0, 1.0, 2.0, 3.0);
-const vec4 high_rows = vec4(4.0, 5.0, 6.0, 7.0);
+struct Block {
+    uint first_segment;
+    uint end_segment;
+    uvec2 size;
+    uint tile_width;
+    uint value;
+    uint sign;
+    uint first_sign;
+    uint words_per_row;
+};
 
-void write_values(Tile part, List list, uvec2 corner, uint rows, uint word) {
-    vec4 low = vec4(infinity);
-    vec4 high = vec4(infinity);
-    vec2 p = vec2(corner) + 0.5;
-    for (uint i = 0u; i < list.count; ++i) {
-        uint edge = part.nearest.edges + 4u * place_in_part(list, i);
-        vec2 a = geometry[edge];
-        vec2 d = geometry[edge + 1u] - a;
-        float squared = dot(d, d);
-        float inverse = squared > 0.0 ? 1.0 / squared : 0.0;
-        consider_edge(p - a, d, inverse, low_rows, low);
-        consider_edge(p - a, d, inverse, high_rows, high);
-    }
-    low = sqrt(low);
-    high = sqrt(high);
-    uvec2 in_tile = corner + uvec2(part.atlas_x, part.atlas_y);
-    for (uint row = 0u; row < rows; ++row) {
-        float value = row < 4u ? low[row] : high[row - 4u];
-        bool inside = filled_at(part, in_tile + uvec2(0u, row));
-        field.words[word + row * part.tile_width] = floatBitsToUint(inside ? -value : value);
-    }
+Block block_at(uint index) {
+    uvec4 a = blocks[2u * index];
+    uvec4 b = blocks[2u * index + 1u];
+    return Block(a.x, a.x + a.y, uvec2(a.z & 0xffffu, a.z >> 16), a.w, b.x, b.y, b.z, b.w);
 }
 
-uint feature_at(Tile part, List list, vec2 p, uvec2 cell) {
-    Nearest nearest = nothing_near;
-    for (uint i = 0u; i < list.count; ++i) {
-        Edge edge = list_edge(part.nearest, place_in_part(list, i));
-        if (distance_to_segment(p, edge.a, edge.b) - edge.deviation < nearest.distance) {
-            consider_run(p, edge, nearest);
+void write(uint word, uint squared, bool inside) {
+    float value = sqrt(uintBitsToFloat(squared));
+    field.words[word] = floatBitsToUint(inside ? -value : value);
+}
+
+void write_rows(Block block, uint row, uint x, uvec4 left, uvec4 right) {
+    uint beside = x + threads_per_block;
+    for (uint i = 0u; i < 4u; ++i) {
+        if (row + i < block.size.y) {
+            uint signs = scratch[block.sign + (row + i) * block.words_per_row] >> block.first_sign;
+            uint word = block.value + (row + i) * block.tile_width + x;
+            write(word, left[i], (signs >> x & 1u) != 0u);
+            if (beside < block.size.x) {
+                write(word + threads_per_block, right[i], (signs >> beside & 1u) != 0u);
+            }
         }
     }
-    float margin = rival_margin(part, nearest);
-    bool rival = false;
-    for (uint i = 0u; i < list.count && !rival; ++i) {
-        Edge edge = list_edge(part.nearest, place_in_part(list, i));
-        rival = distance_to_segment(p, edge.a, edge.b) - edge.deviation <=
-                    nearest.distance + margin &&
-                run_has_rival(p, edge, nearest, margin);
-    }
-    uint word = feature_word(part, p, cell, nearest, rival);
-    return push.resident == 0u ? word : word | vertex_flags(p, part.nearest, nearest);
 }
 
 void main() {
@@ -92,28 +106,26 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    uint block_index = index / block_side;
-    Block block = block_at(push.blocks + block_index);
-    Tile part = tiles[block.part];
-    uvec2 corner = block.corner + uvec2(index % block_side, 0u);
-    if (corner.x >= part.width) {
+    Block block = block_at(index / threads_per_block);
+    uint x = index % threads_per_block;
+    if (x >= block.size.x) {
         return;
     }
-    uint rows = min(block_side, part.height - corner.y);
-    uint start = push.lists + block_words * block_index;
-    uint count = scratch[start];
-    bool whole = count > block_capacity;
-    List list = List(start + 1u, whole ? part.nearest.count : count, whole);
-    uvec2 in_tile = corner + uvec2(part.atlas_x, part.atlas_y);
-    uint cell = in_tile.y * part.tile_width + in_tile.x;
-    if (part.first_value != not_asked) {
-        write_values(part, list, corner, rows, part.first_value + cell);
+    Column left = nothing_near;
+    Column right = nothing_near;
+    vec2 cell = vec2(float(x) + 0.5, 0.5);
+    for (uint i = block.first_segment; i < block.end_segment; ++i) {
+        vec4 segment = segments[i];
+        float squared = dot(segment.zw, segment.zw);
+        float inverse = squared > 0.0 ? inversesqrt(squared) : 0.0;
+        // Of a segment without length, any way is as good.
+        vec2 way = squared > 0.0 ? segment.zw * inverse : vec2(1.0, 0.0);
+        vec2 from_middle = cell - segment.xy;
+        consider(from_middle, way, squared * inverse, left);
+        consider(from_middle + vec2(columns_apart, 0.0), way, squared * inverse, right);
     }
-    if (part.first_feature != not_asked) {
-        for (uint row = 0u; row < rows; ++row) {
-            field.words[part.first_feature + cell + row * part.tile_width] =
-                feature_at(part, list, vec2(corner + uvec2(0u, row)) + 0.5,
-                           in_tile + uvec2(0u, row));
-        }
-    }
+    write_rows(block, 0u, x, left.rows_0, right.rows_0);
+    write_rows(block, 4u, x, left.rows_4, right.rows_4);
+    write_rows(block, 8u, x, left.rows_8, right.rows_8);
+    write_rows(block, 12u, x, left.rows_12, right.rows_12);
 }

@@ -17,7 +17,7 @@ namespace {
 using geometry::PlacedPolygon;
 using geometry::Vector;
 
-// How far outside its part, in cells, a point's reconstruction looks: a sample two cells on.
+// How far outside its block, in cells, a point's reconstruction looks: a sample two cells on.
 constexpr double points_reach = 2.5 * std::numbers::sqrt2;
 
 constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
@@ -46,6 +46,25 @@ std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
     work.mask_words += std::uint64_t{mask.words_per_row} * mask.height;
     work.masks.push_back(mask);
     return static_cast<std::uint32_t>(work.masks.size() - 1);
+}
+
+/// A block of a tile, in cells.
+struct BlockPlace {
+    std::uint32_t column = 0;
+    std::uint32_t row = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+/// Row by row, as BlockEdges numbers them.
+template <class Visit>
+void for_blocks(const Tile& tile, Visit&& visit) {
+    for (std::uint32_t row = 0; row < tile.height; row += block_side) {
+        for (std::uint32_t column = 0; column < tile.width; column += block_side) {
+            visit(BlockPlace{column, row, std::min(block_side, tile.width - column),
+                             std::min(block_side, tile.height - row)});
+        }
+    }
 }
 
 }  // namespace
@@ -93,92 +112,84 @@ void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork&
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
                                     const TileDraw& draw, SimplifiedShapes& shapes, Round& round) {
     ComputeWork& work = round.compute;
-    const double simplification = query.budget.simplification / tile.grid.cell;
     const TileBoundary boundary = boundary_of(query, tile, shapes);
     crossing_.clear();
-    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
+    crossing_edges(boundary, tile.width, tile.height, query.budget.simplification / tile.grid.cell,
+                   crossing_);
     const std::uint32_t mask = add_mask(tile, work);
     add_fill(tile, mask, work);
+    if (query.field.values) {
+        add_blocks(boundary, tile, work.masks[mask], draw.first_value, work);
+    }
+    if (query.field.features || query.field_point_count > 0) {
+        add_feature_blocks(query, boundary, tile, work.masks[mask], draw.first_feature, round);
+    }
+}
 
-    const bool with_points = query.field_point_count > 0;
-    const bool with_features = with_points || query.field.features;
-    part_edges_.find(boundary, tile.width, tile.height,
-                     (with_features ? simplification + margin_in_cells : 0.0) +
-                         (with_points ? points_reach : 0.0));
+void ComputeBuilder::add_blocks(const TileBoundary& boundary, const Tile& tile,
+                                const MaskData& mask, std::uint32_t first_value,
+                                ComputeWork& work) {
+    block_edges_.find(boundary, tile.width, tile.height, 0.0);
+    std::uint32_t index = 0;
+    for_blocks(tile, [&](const BlockPlace& place) {
+        BlockData block;
+        block.first_segment = static_cast<std::uint32_t>(work.segments.size());
+        block_edges_.append(index++, work.segments);
+        block.segments = static_cast<std::uint32_t>(work.segments.size()) - block.first_segment;
+        block.size = place.width | place.height << 16U;
+        block.tile_width = tile.width;
+        block.value = first_value + place.row * tile.width + place.column;
+        block.sign = mask.first_word + place.row * mask.words_per_row + place.column / 32;
+        block.first_sign = place.column % 32;
+        block.words_per_row = mask.words_per_row;
+        work.blocks.push_back(block);
+    });
+}
+
+void ComputeBuilder::add_feature_blocks(const PlannedQuery& query, const TileBoundary& boundary,
+                                        const Tile& tile, const MaskData& mask,
+                                        std::uint32_t first_feature, Round& round) {
+    ComputeWork& work = round.compute;
+    const double simplification = query.budget.simplification / tile.grid.cell;
+    block_edges_.find(
+        boundary, tile.width, tile.height,
+        simplification + margin_in_cells + (query.field_point_count > 0 ? points_reach : 0.0));
+    work.features = work.features || first_feature != not_asked;
+    round.lists.begin_tile(boundary);
     TileData data;
+    data.crossing = round.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
     data.tile_width = tile.width;
-    data.mask = work.masks[mask].first_word;
-    data.first_value = draw.first_value;
-    data.first_feature = draw.first_feature;
+    data.mask = mask.first_word;
+    data.first_feature = first_feature;
     data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification +
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(margin_in_cells);
+    const double extent = block_edges_.window() + tile.width + tile.height;
     std::uint32_t index = 0;
-    for (std::uint32_t row = 0; row < tile.height; row += PartEdges::side) {
-        for (std::uint32_t column = 0; column < tile.width; column += PartEdges::side) {
-            data.atlas_x = column;
-            data.atlas_y = row;
-            data.width = std::min(PartEdges::side, tile.width - column);
-            data.height = std::min(PartEdges::side, tile.height - row);
-            add_part(query, tile, index++, data, shapes, round);
-        }
-    }
-}
-
-void ComputeBuilder::add_part(const PlannedQuery& query, const Tile& tile, std::uint32_t index,
-                              TileData data, SimplifiedShapes& shapes, Round& round) {
-    const Vector corner(data.atlas_x, data.atlas_y);
-    nearest_list_.clear();
-    part_edges_.append(index, nearest_list_);
-    for (TileEdge& edge : nearest_list_) {
-        edge.a -= corner;
-        edge.b -= corner;
-    }
-    const double extent = part_edges_.window() + tile.width + tile.height;
-    if (query.field_point_count > 0 || query.field.features) {
-        Tile part = tile;
-        part.column += data.atlas_x;
-        part.row += data.atlas_y;
-        part.width = data.width;
-        part.height = data.height;
-        const TileBoundary boundary = boundary_of(query, part, shapes);
-        round.lists.begin_tile(boundary);
+    for_blocks(tile, [&](const BlockPlace& place) {
+        data.atlas_x = place.column;
+        data.atlas_y = place.row;
+        data.width = place.width;
+        data.height = place.height;
+        nearest_list_.clear();
+        block_edges_.append(index++, nearest_list_);
         data.nearest = round.lists.write(nearest_list_, extent);
-        data.crossing =
-            add_crossing(boundary, part, query.budget.simplification / tile.grid.cell, round);
-    } else {
-        data.nearest = round.lists.write_straight(nearest_list_, extent);
-    }
-    if (query.field.values || query.field.features) {
-        add_blocks(data, round.compute);
-    }
-    round.compute.parts.push_back(data);
+        work.feature_blocks.push_back(data);
+    });
 }
 
-void ComputeBuilder::add_blocks(const TileData& part, ComputeWork& work) {
-    const auto index = static_cast<std::uint32_t>(work.parts.size());
-    for (std::uint32_t row = 0; row < part.height; row += block_side) {
-        for (std::uint32_t column = 0; column < part.width; column += block_side) {
-            work.blocks.push_back(words(index, column | row << 16U));
-        }
-    }
-    work.block_words = std::uint64_t{work.blocks.size()} * (1 + block_capacity);
-}
-
-void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_part,
+void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_block,
                                      const PlannedFieldPoint& point, ComputeWork& work) {
     const Vector local = (point.position - tile.origin()) / tile.grid.cell;
     const auto place = [](double coordinate, std::uint32_t cells) {
         return static_cast<std::uint32_t>(std::clamp(std::floor(coordinate), 0.0, cells - 1.0)) /
-               PartEdges::side;
+               block_side;
     };
     const std::uint32_t column = place(local.x(), tile.width);
     const std::uint32_t row = place(local.y(), tile.height);
-    const std::uint32_t parts_along = PartEdges::along(tile.width);
-    work.points.push_back({static_cast<float>(local.x() - column * PartEdges::side),
-                           static_cast<float>(local.y() - row * PartEdges::side)});
-    work.points.push_back(
-        words(first_part + row * parts_along + column, point.column | point.row << 16U));
+    work.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y())});
+    work.points.push_back(words(first_block + row * BlockEdges::along(tile.width) + column,
+                                point.column | point.row << 16U));
 }
 
 void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,

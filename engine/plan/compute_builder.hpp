@@ -1,9 +1,9 @@
 #pragma once
 
 #include <engine/geometry/mesh.hpp>
+#include <engine/plan/block_edges.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/nearest_edges.hpp>
-#include <engine/plan/part_edges.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
@@ -25,25 +25,26 @@ public:
     /// Of a tile of boundary points: its lists.
     void add_points_tile(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes,
                          TileData& data, Round& round);
-    /// Of a field tile: the mask, and its parts with their lists and blocks. `draw` says where what
-    /// is asked for goes in the read-back.
+    /// Of a field tile: the mask, and its blocks with their lists. `draw` says where what is asked
+    /// for goes in the read-back.
     void add_field_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
                         SimplifiedShapes& shapes, Round& round);
     /// `draw` says by which part of it each shape takes part.
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
                           SimplifiedShapes& shapes, Round& round);
-    /// Of a point of a field tile that has been added; `first_part`: the tile's.
-    static void add_field_point(const Tile& tile, std::uint32_t first_part,
+    /// Of a point of a field tile that has been added; `first_block`: the tile's first one in
+    /// ComputeWork::feature_blocks.
+    static void add_field_point(const Tile& tile, std::uint32_t first_block,
                                 const PlannedFieldPoint& point, ComputeWork& work);
 
 private:
     [[nodiscard]] EdgeListData add_crossing(const TileBoundary& boundary, const Tile& tile,
                                             double slack, Round& round);
-    /// Part `index` of a tile, which lies at (data.atlas_x, data.atlas_y) in it.
-    void add_part(const PlannedQuery& query, const Tile& tile, std::uint32_t index, TileData data,
-                  SimplifiedShapes& shapes, Round& round);
-    /// Cells of a part, each with a list of its own.
-    static void add_blocks(const TileData& part, ComputeWork& work);
+    void add_blocks(const TileBoundary& boundary, const Tile& tile, const MaskData& mask,
+                    std::uint32_t first_value, ComputeWork& work);
+    void add_feature_blocks(const PlannedQuery& query, const TileBoundary& boundary,
+                            const Tile& tile, const MaskData& mask, std::uint32_t first_feature,
+                            Round& round);
     /// Fills a mask with the shape whose edges are in crossing_.
     void add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const;
     void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
@@ -51,7 +52,7 @@ private:
 
     geometry::SubpixelGrid grid_;
     NearestEdgeFinder finder_;  // of points, which lie thinly in their tile
-    PartEdges part_edges_;      // of fields
+    BlockEdges block_edges_;    // of fields
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     std::vector<TileEdge> crossing_;

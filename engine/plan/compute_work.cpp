@@ -10,10 +10,12 @@ void ComputeWork::clear() {
     polygons_b.clear();
     overlaps.clear();
     overlap_rows.clear();
-    parts.clear();
     blocks.clear();
+    segments.clear();
+    feature_blocks.clear();
+    features = false;
     points.clear();
-    mask_words = run_words = block_words = 0;
+    mask_words = run_words = 0;
 }
 
 ComputeWork::Ranges ComputeWork::ranges() const {

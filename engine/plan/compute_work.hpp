@@ -16,10 +16,9 @@ namespace nearfield::plan {
 /// A mask is a bit a cell, rows of whole words. Masks and other things that live on the device
 /// alone lie in its scratch memory, at the word that is named.
 
-/// Cells along a side of a block, and edges that a block lists at the most; where more can be
-/// nearest, its cells look through the list of their part of the tile.
-inline constexpr std::uint32_t block_side = 8;
-inline constexpr std::uint32_t block_capacity = 127;
+/// Cells along a side of a block of a field tile, but for those at its high borders. At most half a
+/// word of a mask, so that a row of a block lies in one word.
+inline constexpr std::uint32_t block_side = 16;
 
 /// Where a mask lies.
 struct MaskData {
@@ -76,6 +75,26 @@ struct WorkRange {
     std::uint32_t count = 0;
 };
 
+/// An edge that can be nearest in a block, in cells relative to the block's low corner.
+struct SegmentData {
+    float middle_x = 0.0F, middle_y = 0.0F;
+    float half_x = 0.0F, half_y = 0.0F;  ///< from the middle to an end
+};
+static_assert(sizeof(SegmentData) == 16);
+
+/// A block whose cells want their distances.
+struct BlockData {
+    std::uint32_t first_segment = 0;  ///< in ComputeWork::segments
+    std::uint32_t segments = 0;
+    std::uint32_t size = 0;        ///< width | height << 16
+    std::uint32_t tile_width = 0;  ///< from row to row in the read-back, in words
+    std::uint32_t value = 0;       ///< where its low cell's value goes in the field's read-back
+    std::uint32_t sign = 0;        ///< where the signs of its lowest row lie in the scratch memory
+    std::uint32_t first_sign = 0;  ///< in that word, its low cell's bit
+    std::uint32_t words_per_row = 0;  ///< from row to row of signs
+};
+static_assert(sizeof(BlockData) == 32);
+
 /// The work of a round.
 struct ComputeWork {
     std::vector<MaskData> masks;
@@ -86,25 +105,24 @@ struct ComputeWork {
     std::vector<OverlapData> overlaps;
     std::vector<OverlapRowData> overlap_rows;
 
-    /// Field tiles in parts (PartEdges), each with a list of the edges that can be
-    /// nearest in it.
-    std::vector<TileData> parts;
-    /// Blocks of these parts, and points at which a field is reconstructed: both stand in the
-    /// geometry array, behind the lists. A block: its part, column | row << 16 within it. A point:
-    /// its position within its part; the part, the low one of its four cells (column | row << 16,
-    /// in the tile).
-    std::vector<EdgeListWriter::Entry> blocks;
+    /// Blocks of field tiles (BlockEdges) and all their segments, block after block.
+    std::vector<BlockData> blocks;
+    std::vector<SegmentData> segments;
+    /// Blocks whose cells or points want the nearest of the shape's own edges, each with lists of
+    /// them relative to the tile; none of them has features at cells where `features` is false.
+    std::vector<TileData> feature_blocks;
+    bool features = false;
+    /// Points at which a field is reconstructed; they stand in the geometry array, behind the
+    /// lists: position in the tile; the block, the low one of the four cells around (column | row
+    /// << 16, in the tile).
     std::vector<EdgeListWriter::Entry> points;
 
-    std::uint64_t mask_words = 0;   ///< scratch memory starts with the masks, all zero at first,
-    std::uint64_t run_words = 0;    ///< then the runs of cells, all ones at first,
-    std::uint64_t block_words = 0;  ///< then the lists of blocks
+    std::uint64_t mask_words = 0;  ///< scratch memory starts with the masks, all zero at first,
+    std::uint64_t run_words = 0;   ///< then the runs of cells, all ones at first
 
     void clear();
 
-    [[nodiscard]] std::uint64_t scratch_words() const {
-        return mask_words + run_words + block_words;
-    }
+    [[nodiscard]] std::uint64_t scratch_words() const { return mask_words + run_words; }
 
     /// Where each kind stands in one array of words, one after the other.
     struct Ranges {

@@ -109,16 +109,6 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
     return write_list();
 }
 
-EdgeListData EdgeListWriter::write_straight(const std::vector<TileEdge>& edges, double extent) {
-    list_.clear();
-    for (const TileEdge& edge : edges) {
-        if (const auto part = cut(edge, extent)) {
-            list_.push_back(straight(*part));
-        }
-    }
-    return write_list();
-}
-
 EdgeListData EdgeListWriter::write_list() {
     EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());

@@ -26,8 +26,6 @@ public:
     /// that no coordinate is larger than a float can tell apart. Nothing outside may matter: edges
     /// wholly outside are left out.
     EdgeListData write(const std::vector<TileEdge>& edges, double extent);
-    /// The same of the edges alone, without the runs they stand for.
-    EdgeListData write_straight(const std::vector<TileEdge>& edges, double extent);
 
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
 

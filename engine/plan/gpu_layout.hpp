@@ -27,7 +27,7 @@ struct EdgeListData {
 inline constexpr std::uint32_t not_asked = UINT32_MAX;
 
 struct TileData {
-    std::uint32_t atlas_x = 0;  ///< of a part of a tile (ComputeWork): its column in that tile
+    std::uint32_t atlas_x = 0;  ///< of a block of a tile (ComputeWork): its column in that tile
     std::uint32_t atlas_y = 0;  ///< and its row
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -36,13 +36,12 @@ struct TileData {
     float settled = 0.0F;   ///< farther than this from B's boundary, a sample's sign is its cell's
     float margin = 0.0F;    ///< two distances closer than this count as equal
     std::uint32_t outside = 0;  ///< 1: points outside B are resolved as well
-    // Of a part of a field tile only:
+    // Of a block of a field tile only:
     std::uint32_t tile_width = 0;  ///< of that tile, in cells
     std::uint32_t mask = 0;        ///< where its fill mask starts, in words of the scratch memory
-    std::uint32_t first_value = not_asked;    ///< where its values start in the field's read-back
-    std::uint32_t first_feature = not_asked;  ///< the same of its features
+    std::uint32_t first_feature = not_asked;  ///< where its features start in the field's read-back
 };
-static_assert(sizeof(TileData) == 68);
+static_assert(sizeof(TileData) == 64);
 
 /// A straight edge, exact or standing for a run of B's edges.
 struct EdgeData {

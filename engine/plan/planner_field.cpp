@@ -1,6 +1,5 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
-#include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 
@@ -44,10 +43,6 @@ double bytes_of_points(const DistanceFieldQuery& query, const FieldParts& parts)
     return static_cast<double>(query.points.size()) *
            (sizeof(FieldPoint) + sizeof(PlannedFieldPoint) + 2.0 * sizeof(PointData) + words);
 }
-
-// A list of edges for each block of 8 x 8 cells.
-constexpr double bytes_per_cell_of_blocks =
-    (block_capacity + 1.0) * sizeof(std::uint32_t) / (block_side * block_side);
 
 void make_room(const DistanceFieldQuery& query, const Grid& grid, const FieldParts& parts,
                DistanceFieldResult& result) {
@@ -145,10 +140,9 @@ bool Planner::check_field(const Box& box, ResultSummary& result) const {
 
 void Planner::require_field_memory(const DistanceFieldQuery& query, const Grid& grid) {
     const PlannedQuery& planned = plan_->queries[query_];
-    const double masks_and_lists =
-        planned.by_compute ? bytes_of_masks(1) + bytes_per_cell_of_blocks * grid.cells() : 0.0;
     require_memory(bytes_of_cells(query, planned.field, grid, field_tile(planned.field)) +
-                       bytes_of_points(query, planned.field) + masks_and_lists,
+                       bytes_of_points(query, planned.field) +
+                       (planned.by_compute ? bytes_of_masks(1) : 0.0),
                    query.tolerance, 2.0);
 }
 

@@ -103,7 +103,7 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
     round.clear();
     round.by_compute = number >= plan.raster_rounds;
     tile_of_plan_.resize(plan.tiles.size());
-    first_part_.resize(plan.tiles.size());
+    first_block_.resize(plan.tiles.size());
     for (const std::uint32_t i : plan.tiles_by_round.of(number)) {
         const Tile& tile = plan.tiles[i];
         TileDraw draw;
@@ -113,7 +113,7 @@ void RoundBuilder::build(const Plan& plan, std::uint32_t number, Round& round) {
         draw.width = tile.width;
         draw.height = tile.height;
         tile_of_plan_[i] = draw.tile;
-        first_part_[i] = static_cast<std::uint32_t>(round.compute.parts.size());
+        first_block_[i] = static_cast<std::uint32_t>(round.compute.feature_blocks.size());
         round.tile_index.push_back(i);
         round.resident =
             round.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
@@ -369,7 +369,7 @@ void RoundBuilder::add_field_points(const Plan& plan, std::uint32_t number, Roun
             run.parts = query.field;
         }
         if (round.by_compute) {
-            ComputeBuilder::add_field_point(tile, first_part_[point.tile], point, round.compute);
+            ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, round.compute);
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;
             round.field_points.push_back({static_cast<float>(local.x()),

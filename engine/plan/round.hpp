@@ -156,7 +156,7 @@ private:
     std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its place in the round
-    std::vector<std::uint32_t> first_part_;    // by tile of the plan: its first in ComputeWork
+    std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block
     ComputeBuilder compute_;
 };
 

@@ -2,10 +2,12 @@
 #include <tests/support/nasty_polygons.hpp>
 #include <tests/support/outlines.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace nearfield::test {
@@ -117,7 +119,7 @@ TEST_F(ComputeFields, HoldForNastyPolygons) {
     EXPECT_GE(checked, 6);
 }
 
-TEST_F(ComputeFields, HoldWhereABlockCannotListAllItsEdges) {
+TEST_F(ComputeFields, HoldWhereABlockHasHundredsOfEdges) {
     // A comb of 30 teeth a cell, over all of a block's height.
     const double d = 0.5;
     const double cell = d * std::numbers::sqrt2;
@@ -129,6 +131,40 @@ TEST_F(ComputeFields, HoldWhereABlockCannotListAllItsEdges) {
     comb.push_back({0.0, -cell});
     for (const bool features : {false, true}) {
         check({comb}, d, {{-3, -3}, {16, 10}}, features);
+    }
+}
+
+TEST_F(ComputeFields, HoldForCoastLinesOfEverySize) {
+    Random random(seed);
+    for (const int vertices : {40, 600, 9000}) {
+        for (const double roughness : {0.4, 0.8}) {
+            check(coast(random, vertices, roughness), 0.013, {{-1.5, -1.4}, {1.4, 1.5}}, false);
+        }
+    }
+    // So dense that no edge but those on the outside is nearest anywhere.
+    check(star(random, 5000, 0.2), 0.02, {{-1.1, -1.2}, {1.2, 1.1}}, false);
+    for (const char* name :
+         {"/sweden_50m.geojson", "/cuba_50m.geojson", "/sri_lanka_10m.geojson"}) {
+        SCOPED_TRACE(name);
+        const Rings rings = read_outline(std::string(NEARFIELD_TEST_DATA) + name).rings;
+        const Rectangle box = oracle::ShapeOracle(rings, {}).box();
+        const double d = std::max(box.max.x - box.min.x, box.max.y - box.min.y) / 150.0;
+        check(rings, d, box, false);
+        check(rings, 4.0 * d, box, true);
+    }
+}
+
+TEST_F(ComputeFields, HoldWhateverIsLeftOfTheLastBlock) {
+    Random random(seed);
+    const Rings shape = coast(random, 300, 0.5);
+    const double d = 0.01;
+    const double cell = d * std::numbers::sqrt2;
+    for (const int columns : {1, 7, 8, 9, 16, 24, 47}) {
+        const int rows = random.whole(1, 40);
+        SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
+        const Vector2 low{random.between(-1.0, 0.5), random.between(-1.0, 0.5)};
+        check(shape, d, {low, {low.x + (columns - 0.5) * cell, low.y + (rows - 0.5) * cell}},
+              columns % 2 == 0);
     }
 }
 

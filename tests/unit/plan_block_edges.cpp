@@ -1,6 +1,6 @@
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/geometry/segment.hpp>
-#include <engine/plan/part_edges.hpp>
+#include <engine/plan/block_edges.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 
 #include <gtest/gtest.h>
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace nearfield::plan {
@@ -19,7 +20,14 @@ double distance(const Vector& point, const TileEdge& edge) {
     return std::sqrt(geometry::nearest_on_segment(point, edge.a, edge.b).squared_distance);
 }
 
-TEST(PartEdges, ListTheNearestEdgeOfEveryPlace) {
+TileEdge as_edge(const SegmentData& segment) {
+    const Vector middle(static_cast<double>(segment.middle_x),
+                        static_cast<double>(segment.middle_y));
+    const Vector half(static_cast<double>(segment.half_x), static_cast<double>(segment.half_y));
+    return {middle - half, middle + half, 0};
+}
+
+TEST(BlockEdges, ListTheNearestEdgeOfEveryPlace) {
     constexpr std::uint32_t width = 77;
     constexpr std::uint32_t height = 41;
     std::size_t listed = 0;
@@ -38,27 +46,36 @@ TEST(PartEdges, ListTheNearestEdgeOfEveryPlace) {
             const TileBoundary boundary(
                 shapes.get(polygon, 0.2, 64.0),
                 ToCells(geometry::PlacedPolygon(polygon, pose), Vector::Zero(), 1.0));
-            PartEdges parts;
-            parts.find(boundary, width, height, 0.0);
+            BlockEdges blocks;
+            blocks.find(boundary, width, height, 0.0);
             std::vector<TileEdge> edges;
-            for (std::uint32_t part = 0; part < PartEdges::along(width) * PartEdges::along(height);
-                 ++part) {
+            std::vector<SegmentData> segments;
+            for (std::uint32_t block = 0;
+                 block < BlockEdges::along(width) * BlockEdges::along(height); ++block) {
                 edges.clear();
-                parts.append(part, edges);
+                blocks.append(block, edges);
                 ASSERT_FALSE(edges.empty());
+                segments.clear();
+                blocks.append(block, segments);
+                ASSERT_EQ(segments.size(), edges.size());
                 listed += edges.size();
                 all += boundary.size();
-                const double left = part % PartEdges::along(width) * PartEdges::side;
-                const double low = part / PartEdges::along(width) * PartEdges::side;
+                const double left = block % BlockEdges::along(width) * block_side;
+                const double low = block / BlockEdges::along(width) * block_side;
                 for (int i = 0; i < 40; ++i) {
-                    const Vector p(
-                        std::min<double>(left + random.between(0.0, PartEdges::side), width),
-                        std::min<double>(low + random.between(0.0, PartEdges::side), height));
+                    const Vector p(std::min<double>(left + random.between(0.0, block_side), width),
+                                   std::min<double>(low + random.between(0.0, block_side), height));
                     double nearest = distance(p, edges.front());
                     for (const TileEdge& edge : edges) {
                         nearest = std::min(nearest, distance(p, edge));
                     }
                     ASSERT_LE(nearest, boundary.distance(p) + 1e-9) << p.transpose();
+                    double of_segments = std::numeric_limits<double>::infinity();
+                    for (const SegmentData& segment : segments) {
+                        of_segments = std::min(of_segments,
+                                               distance(p - Vector(left, low), as_edge(segment)));
+                    }
+                    ASSERT_NEAR(of_segments, nearest, 1e-6 * (blocks.window() + nearest));
                 }
             }
         }
