@@ -4,6 +4,37 @@
 find_program(NEARFIELD_GLSLANG NAMES glslangValidator glslang REQUIRED
              DOC "glslang, to compile shaders (package glslang-tools)")
 
+# nearfield_shader_sources(FOLDER SHADER...): beside what nearfield_shaders() made of them, a
+# header <FOLDER/sources.hpp> that says where each shader comes from, and what compiles it.
+function(nearfield_shader_sources folder)
+    set(includes "")
+    set(rows "")
+    foreach(shader IN LISTS ARGN)
+        string(REPLACE "." "_" symbol ${shader})
+        string(APPEND includes "#include <${folder}/${symbol}.hpp>\n")
+        string(APPEND rows "    {\"${shader}\", ${symbol}},\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/${folder}/sources.hpp @ONLY CONTENT [[
+#pragma once
+
+@includes@
+#include <cstdint>
+#include <span>
+
+namespace nearfield::shaders {
+struct Source {
+    const char* file;
+    std::span<const std::uint32_t> built;
+};
+inline constexpr Source sources[] = {
+@rows@};
+inline constexpr const char* compiler = R"(@NEARFIELD_GLSLANG@)";
+inline constexpr const char* source_folder = R"(@PROJECT_SOURCE_DIR@/@folder@)";
+inline constexpr const char* include_folder = R"(@PROJECT_SOURCE_DIR@/include)";
+}
+]])
+endfunction()
+
 # nearfield_shaders(TARGET FOLDER SHADER...): each FOLDER/NAME.STAGE of the project becomes a header
 # <FOLDER/NAME_STAGE.hpp> with the array nearfield::shaders::NAME_STAGE.
 function(nearfield_shaders target folder)

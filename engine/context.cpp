@@ -6,10 +6,13 @@
 #include <engine/gpu/headless.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/graph/format.hpp>
-#include <engine/growable.hpp>
 #include <engine/guarded.hpp>
+#include <engine/host_input.hpp>
 #include <engine/localize/broad_phase.hpp>
 #include <engine/plan/check_query.hpp>
+#ifdef NEARFIELD_SHADER_RELOAD
+#include <engine/reload/shader_reload.hpp>
+#endif
 #include <engine/renderer.hpp>
 #include <engine/shape_store.hpp>
 #include <engine/stopwatch.hpp>
@@ -17,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -49,18 +51,6 @@ CostModel costs_of(const gpu::Device& device, const Settings& settings) {
         device.is_software() ? choose::DeviceClass::software : choose::DeviceClass::hardware));
 }
 
-Settings checked(const Settings& given) {
-    const Settings settings = adopted(given, "Settings");
-    if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
-        throw Failure({StatusCode::invalid_settings, "frames_in_flight is " +
-                                                         std::to_string(settings.frames_in_flight) +
-                                                         "; it must be at least 1 and at most " +
-                                                         std::to_string(most_frames_in_flight)});
-    }
-    AnswerJobs::check(settings.jobs);
-    return settings;
-}
-
 Status lost_device() {
     return {StatusCode::device_lost,
             "the device was lost in an earlier batch; destroy this context and make another"};
@@ -70,6 +60,18 @@ const char* gradient_format(const gpu::Device& device) {
     return graph::find_format(device.gradient_format())->name;
 }
 
+/// Everything made of pipelines and of memory that they work on.
+struct Machinery {
+    Machinery(const gpu::Device& device, const Settings& settings, const CostModel& costs,
+              ShapeStore& shapes)
+        : renderer(device),
+          ring(settings.frames_in_flight, plan_limits(device, settings), costs, settings.jobs,
+               gradient_format(device), renderer, shapes) {}
+
+    Renderer renderer;
+    FrameRing ring;
+};
+
 }  // namespace
 
 class Context::Implementation {
@@ -78,10 +80,9 @@ public:
                    const Settings& settings)
         : own_device_(std::move(own)),
           device_(host),
+          settings_(settings),
           costs_(costs_of(device_, settings)),
-          renderer_(device_),
-          ring_(settings.frames_in_flight, plan_limits(device_, settings), costs_, settings.jobs,
-                gradient_format(device_), renderer_, shapes_) {
+          machinery_(make_machinery()) {
         device_.log(LogLevel::information, [&] {
             return "context on '" + device_.name() + "' made in " +
                    std::to_string(making_.milliseconds()) + " ms, for " +
@@ -101,21 +102,21 @@ public:
                       std::vector<InstancePair>& pairs);
     Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
     Expected<Ticket> record(const Batch& batch, const Recording& recording);
-    void frame_completed(std::uint64_t frame) { ring_.complete(frame); }
-    bool is_ready(Ticket ticket) { return lost_ || ring_.is_ready(ticket); }
+    void frame_completed(std::uint64_t frame) { machinery_->ring.complete(frame); }
+    bool is_ready(Ticket ticket) { return lost_ || machinery_->ring.is_ready(ticket); }
     Status collect(Ticket ticket, Results& results);
 
     template <class Resident, class Query>
     Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
         Resident result;
-        Status status = unless_lost([&] { result = ring_.resident(ticket, query); });
+        Status status = unless_lost([&] { result = machinery_->ring.resident(ticket, query); });
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
-    [[nodiscard]] const Renderer& renderer() const { return renderer_; }
+    [[nodiscard]] const Renderer& renderer() const { return machinery_->renderer; }
 
     /// Does something unless the device is lost; remembers where it gets lost.
     template <class Action>
@@ -131,17 +132,28 @@ public:
         return status;
     }
 
+#ifdef NEARFIELD_SHADER_RELOAD
+    std::uint32_t reload_shaders(const char* folder);
+#endif
+
 private:
+    [[nodiscard]] std::unique_ptr<Machinery> make_machinery() {
+        return std::make_unique<Machinery>(device_, settings_, costs_, shapes_);
+    }
+
     Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
     gpu::Device device_;
+    const Settings settings_;
     CostModel costs_;
     ShapeStore shapes_;
     localize::BroadPhase broad_phase_;
     std::vector<geometry::Box> boxes_;
     std::vector<localize::BroadPhase::Pair> box_pairs_;
-    Renderer renderer_;
-    FrameRing ring_;
+    std::unique_ptr<Machinery> machinery_;
+#ifdef NEARFIELD_SHADER_RELOAD
+    reload::ShaderReload reload_{device_};
+#endif
     const Status lost_device_ = lost_device();  // made ahead: saying it needs no memory
     bool lost_ = false;
 };
@@ -176,27 +188,45 @@ Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submi
                                                  Results* memory) {
     Ticket ticket;
     Status status = unless_lost([&] {
-        const Submission order = adopted(submission, "Submission");
+        const Submission order = adopted(submission);
         gpu::check_semaphores(device_, order);
-        ticket = ring_.submit(batch.queries(), order, memory);
+        ticket = machinery_->ring.submit(batch.queries(), order, memory);
     });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
     Ticket ticket;
-    Status status = unless_lost(
-        [&] { ticket = ring_.record(batch.queries(), adopted(recording, "Recording")); });
+    Status status =
+        unless_lost([&] { ticket = machinery_->ring.record(batch.queries(), adopted(recording)); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Status Context::Implementation::collect(Ticket ticket, Results& results) {
     if (lost_) {
-        Status status = guarded([&] { ring_.drop(ticket); });
+        Status status = guarded([&] { machinery_->ring.drop(ticket); });
         return status.ok() ? lost_device_ : status;
     }
-    return unless_lost([&] { ring_.collect(ticket, results); });
+    return unless_lost([&] { machinery_->ring.collect(ticket, results); });
 }
+
+#ifdef NEARFIELD_SHADER_RELOAD
+std::uint32_t Context::Implementation::reload_shaders(const char* folder) {
+    machinery_->ring.require_none_in_flight("reload_shaders");
+    const std::uint32_t changed = reload_.compile_changed(folder);
+    if (changed > 0) {
+        try {
+            auto other = make_machinery();
+            other->ring.count_on_from(machinery_->ring);
+            machinery_ = std::move(other);
+        } catch (...) {
+            reload_.take_back();
+            throw;
+        }
+    }
+    return changed;
+}
+#endif
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
     : implementation_(std::move(implementation)) {}
@@ -207,9 +237,8 @@ Context& Context::operator=(Context&&) noexcept = default;
 Expected<Context> Context::create(const HostDevice& host, const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        implementation = std::make_unique<Implementation>(
-            nullptr, adopted(host, "HostDevice", offsetof(HostDevice, debug_utils)),
-            checked(settings));
+        implementation =
+            std::make_unique<Implementation>(nullptr, adopted(host), adopted(settings));
     });
     if (!status.ok()) {
         return status;
@@ -221,8 +250,8 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
                                            const Settings& settings) {
     std::unique_ptr<Implementation> implementation;
     Status status = guarded([&] {
-        const Settings own_settings = checked(settings);
-        auto own = std::make_unique<gpu::HeadlessDevice>(adopted(options, "HeadlessOptions"));
+        const Settings own_settings = adopted(settings);
+        auto own = std::make_unique<gpu::HeadlessDevice>(adopted(options));
         const HostDevice host = own->host();
         implementation = std::make_unique<Implementation>(std::move(own), host, own_settings);
     });
@@ -324,11 +353,31 @@ MemoryUse Context::memory_use() const noexcept {
 
 std::string Context::describe_graph(GraphFormat format) const {
     std::string text;
-    const Status status = guarded([&] { text = implementation_->renderer().print(format); });
+    const Status status = guarded([&] {
+        if (format != GraphFormat::text && format != GraphFormat::graphviz) {
+            throw Failure(
+                {StatusCode::invalid_settings, "the format of a graph is no enumerator: " +
+                                                   std::to_string(static_cast<int>(format))});
+        }
+        text = implementation_->renderer().print(format);
+    });
     if (!status.ok()) {
         static_cast<void>(guarded([&] { text = status.text(); }));
     }
     return text;
+}
+
+Expected<std::uint32_t> Context::reload_shaders([[maybe_unused]] const char* folder) {
+#ifdef NEARFIELD_SHADER_RELOAD
+    std::uint32_t changed = 0;
+    Status status =
+        implementation_->unless_lost([&] { changed = implementation_->reload_shaders(folder); });
+    return status.ok() ? Expected<std::uint32_t>(changed) : status;
+#else
+    return Status(StatusCode::unavailable,
+                  "shaders cannot be reloaded: the library was built without the CMake option "
+                  "NEARFIELD_SHADER_RELOAD");
+#endif
 }
 
 }  // namespace nearfield

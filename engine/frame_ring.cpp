@@ -140,4 +140,17 @@ void FrameRing::drop(Ticket ticket) {
     release(require(ticket));
 }
 
+#ifdef NEARFIELD_SHADER_RELOAD
+void FrameRing::require_none_in_flight(const char* call) const {
+    for (const auto& frame : frames_) {
+        if (frame->number != 0) {
+            throw Failure(
+                {StatusCode::not_ready, std::string(call) + ": the batch of ticket " +
+                                            std::to_string(frame->number) +
+                                            " is in flight; all have to be collected first"});
+        }
+    }
+}
+#endif
+
 }  // namespace nearfield

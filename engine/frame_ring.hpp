@@ -44,6 +44,15 @@ public:
     }
     /// Gives up a batch of a device that is lost. Throws as collect() does.
     void drop(Ticket ticket);
+#ifdef NEARFIELD_SHADER_RELOAD
+    /// Throws Failure (not_ready) where a batch is; `call`: for the message.
+    void require_none_in_flight(const char* call) const;
+    /// Takes the place of another ring, none of whose batches is in flight: its tickets stay used.
+    void count_on_from(const FrameRing& former) {
+        last_number_ = former.last_number_;
+        complete_ = former.complete_;
+    }
+#endif
 
 private:
     struct Frame {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <type_traits>
 
@@ -13,11 +14,12 @@ namespace nearfield {
 
 /// A copy of a structure that a host filled in, which may be older or newer than this library: its
 /// `structure_size` says how much of it there is. What is missing has its default; what is unknown
-/// has to be zero. Throws Failure (invalid_settings) for a size that never was one: below
-/// `smallest`, or not a whole number of alignments. `name`: of the structure, for the message.
+/// has to be zero. Throws Failure (invalid_settings) for a size that never was one. `name`: of the
+/// structure, for the message. `ends`: where it may have ended before it grew to what it is here,
+/// which is in front of a member that begins a word.
 template <class Structure>
 [[nodiscard]] Structure adopted(const Structure& given, const char* name,
-                                std::size_t smallest = alignof(Structure)) {
+                                std::initializer_list<std::size_t> ends) {
     static_assert(std::is_trivially_copyable_v<Structure>);
     // More than any structure will ever have: what claims it was not initialised.
     constexpr std::size_t largest = 4096;
@@ -26,7 +28,10 @@ template <class Structure>
         return Failure({StatusCode::invalid_settings, std::string(name) + "::structure_size is " +
                                                           std::to_string(size) + ": " + reason});
     };
-    if (size < smallest || size > largest || size % alignof(Structure) != 0) {
+    const bool is_older = std::find(ends.begin(), ends.end(), size) != ends.end();
+    const bool is_newer =
+        size > sizeof(Structure) && size <= largest && size % alignof(Structure) == 0;
+    if (size != sizeof(Structure) && !is_older && !is_newer) {
         throw refuse("no version of nearfield has a " + std::string(name) +
                      " of that size; leave the member as it is (" +
                      std::to_string(sizeof(Structure)) + " here)");

@@ -158,6 +158,11 @@ Status check(std::span<const Ring> rings, Box& box, double& length) {
             return invalid(ring_name(r) + " lies on one line");
         }
     }
+    if (const double extent = box.sizes().maxCoeff(); extent < smallest_extent) {
+        return invalid("the shape spans " + number(extent) +
+                       " along its longer side; the least is " + number(smallest_extent) +
+                       ", since results that are smaller would underflow: use other units");
+    }
     return {};
 }
 

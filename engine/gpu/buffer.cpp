@@ -76,29 +76,12 @@ void MappedBuffer::allocate_memory() {
     VkMemoryRequirements needs{};
     functions.vkGetBufferMemoryRequirements(device_->handle(), buffer_.get(), &needs);
 
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = needs.size;
     const VkMemoryPropertyFlags required =
         direction_ == Direction::none ? 0 : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
-    info.memoryTypeIndex =
-        device_->memory_type(needs.memoryTypeBits, required, preferred_memory(direction_));
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkResult result =
-        functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
-        // The part of device memory that the host can see is often small; plain host memory, which
-        // comes first in the specification's order of types, is slower and still right.
-        info.memoryTypeIndex = device_->memory_type(needs.memoryTypeBits, required, 0);
-        result =
-            functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory);
-    }
-    check(result, "vkAllocateMemory", what);
-    memory_ = DeviceMemory(*device_, memory, needs.size);
-    device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_);
-    coherent_ =
-        (device_->memory_flags(info.memoryTypeIndex) & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-
+    memory_ = gpu::allocate_memory(*device_, needs, {required, preferred_memory(direction_)}, what,
+                                   name_);
+    coherent_ = (memory_.flags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+    const VkDeviceMemory memory = memory_.get();
     check(functions.vkBindBufferMemory(device_->handle(), buffer_.get(), memory, 0),
           "vkBindBufferMemory", what);
     if (direction_ == Direction::none) {

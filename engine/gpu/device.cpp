@@ -23,6 +23,15 @@ std::vector<std::string> null_handles(const HostDevice& host) {
             "queue_access.lock");
     require(host.queue_access.unlock != nullptr || host.queue_access.lock == nullptr,
             "queue_access.unlock");
+    if (const VkAllocationCallbacks* const allocator = host.allocator) {
+        require(allocator->pfnAllocation != nullptr, "allocator->pfnAllocation");
+        require(allocator->pfnReallocation != nullptr, "allocator->pfnReallocation");
+        require(allocator->pfnFree != nullptr, "allocator->pfnFree");
+        const bool tells = allocator->pfnInternalAllocation != nullptr;
+        const bool tells_the_end = allocator->pfnInternalFree != nullptr;
+        require(tells || !tells_the_end, "allocator->pfnInternalAllocation");
+        require(tells_the_end || !tells, "allocator->pfnInternalFree");
+    }
     return missing;
 }
 
@@ -37,6 +46,7 @@ void refuse_if_any(std::vector<std::string> missing, const std::string& device) 
 }  // namespace
 
 Device::Device(const HostDevice& host) : host_(host) {
+    require_vulkan_1(host.api_version, "HostDevice");
     refuse_if_any(null_handles(host), "the host's device");
     if (host.allocator != nullptr) {
         allocator_ = *host.allocator;
@@ -102,31 +112,43 @@ void Device::load_device_functions(std::vector<std::string>& missing) {
 #undef NEARFIELD_LOAD
 }
 
-std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
-                                  VkMemoryPropertyFlags preferred) const {
+bool Device::is_usable_type(std::uint32_t type, std::uint32_t allowed,
+                            VkMemoryPropertyFlags required) const {
     // Any other property (protected, the coherent and uncached ones of AMD, ...) may only be
     // allocated where a feature is enabled, and nothing is enabled.
     constexpr VkMemoryPropertyFlags usable =
         VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
         VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
-    std::uint32_t best = VK_MAX_MEMORY_TYPES;
-    int best_score = -1;
-    for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
-        const VkMemoryPropertyFlags flags = memory_flags(type);
-        const bool candidate = ((allowed >> type) & 1U) != 0 && (flags & required) == required &&
-                               (flags & ~usable) == 0;
-        const int score = std::popcount(flags & preferred);
-        if (candidate && score > best_score) {
-            best = type;
-            best_score = score;
-        }
+    const VkMemoryPropertyFlags flags = memory_flags(type);
+    return ((allowed >> type) & 1U) != 0 && (flags & required) == required &&
+           (flags & ~usable) == 0;
+}
+
+bool Device::has_memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required) const {
+    std::uint32_t type = 0;
+    while (type < memory_.memoryTypeCount && !is_usable_type(type, allowed, required)) {
+        ++type;
     }
-    if (best == VK_MAX_MEMORY_TYPES) {
+    return type < memory_.memoryTypeCount;
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred) const {
+    if (!has_memory_type(allowed, required)) {
         throw Failure(Status(StatusCode::device_error,
                              "device '" + name_ + "' has no memory type with property flags " +
                                  std::to_string(required) + " among the types " +
                                  std::to_string(allowed) + " (bit mask)"));
+    }
+    std::uint32_t best = 0;
+    int best_score = -1;
+    for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+        const int score = std::popcount(memory_flags(type) & preferred);
+        if (is_usable_type(type, allowed, required) && score > best_score) {
+            best = type;
+            best_score = score;
+        }
     }
     return best;
 }

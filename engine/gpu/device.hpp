@@ -2,6 +2,9 @@
 
 #include <engine/gpu/functions.hpp>
 #include <engine/gpu/strategies.hpp>
+#ifdef NEARFIELD_SHADER_RELOAD
+#include <engine/gpu/shader_words.hpp>
+#endif
 #include <nearfield/host.hpp>
 
 #include <algorithm>
@@ -31,7 +34,8 @@ private:
 };
 
 /// A borrowed Vulkan device with its entry points and limits, and what its host wants to be called
-/// for. Immutable after construction, but for the count of memory.
+/// for. Immutable after construction, but for the count of memory and for shaders that are
+/// reloaded.
 class Device {
 public:
     /// Looks up every entry point and checks every requirement. Throws Failure
@@ -51,27 +55,48 @@ public:
     /// vkQueueSubmit, in the way the host wants it.
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info, VkFence fence) const;
     [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }
-    [[nodiscard]] std::uint32_t queue_family() const { return host_.queue_family; }
-    [[nodiscard]] const std::string& name() const { return name_; }
+#ifdef NEARFIELD_SHADER_RELOAD
+    [[nodiscard]] ShaderWords& shader_words() const {
+        return shader_words_;
+    }
+#endif
+    [[nodiscard]] std::uint32_t queue_family() const {
+        return host_.queue_family;
+    }
+    [[nodiscard]] const std::string& name() const {
+        return name_;
+    }
     /// The processor itself does the work, as with lavapipe.
     [[nodiscard]] bool is_software() const {
         return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     }
-    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+    [[nodiscard]] const VkPhysicalDeviceLimits& limits() const {
+        return properties_.limits;
+    }
     /// A combined depth-stencil format that can be an attachment; only its stencil is used.
-    [[nodiscard]] VkFormat stencil_format() const { return stencil_format_; }
-    [[nodiscard]] const StrategySupport& strategy_support() const { return strategy_support_; }
+    [[nodiscard]] VkFormat stencil_format() const {
+        return stencil_format_;
+    }
+    [[nodiscard]] const StrategySupport& strategy_support() const {
+        return strategy_support_;
+    }
     /// A format of two floats that can be blended and sampled: of single precision where the device
     /// blends that, else of half.
-    [[nodiscard]] VkFormat gradient_format() const { return gradient_format_; }
+    [[nodiscard]] VkFormat gradient_format() const {
+        return gradient_format_;
+    }
     /// 0 where the queue family has no timestamps.
-    [[nodiscard]] std::uint32_t timestamp_bits() const { return timestamp_bits_; }
+    [[nodiscard]] std::uint32_t timestamp_bits() const {
+        return timestamp_bits_;
+    }
 
     /// The first memory type among `allowed` that has all of `required` and most of `preferred`.
     /// Types that need a feature or a protected allocation are passed over. Throws Failure where
     /// none has what is required.
     [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                             VkMemoryPropertyFlags preferred) const;
+    /// There is one.
+    [[nodiscard]] bool has_memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required) const;
     [[nodiscard]] VkMemoryPropertyFlags memory_flags(std::uint32_t type) const;
 
     /// Tells the host, if it wants to know, what `words()` returns; says nothing where there is no
@@ -99,6 +124,8 @@ public:
     void end_label(VkCommandBuffer commands) const;
 
 private:
+    [[nodiscard]] bool is_usable_type(std::uint32_t type, std::uint32_t allowed,
+                                      VkMemoryPropertyFlags required) const;
     void set_name(VkObjectType type, std::uint64_t object, const std::string& name) const;
     /// Each fills functions_ and appends the name of every entry point that is not there.
     void load_instance_functions(std::vector<std::string>& missing);
@@ -107,6 +134,9 @@ private:
     HostDevice host_;
     std::optional<VkAllocationCallbacks> allocator_;
     mutable MemoryCount memory_count_;
+#ifdef NEARFIELD_SHADER_RELOAD
+    mutable ShaderWords shader_words_;
+#endif
     Functions functions_;
     VkPhysicalDeviceProperties properties_{};
     VkPhysicalDeviceMemoryProperties memory_{};

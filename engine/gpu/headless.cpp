@@ -77,6 +77,8 @@ VkResult create_device(const Instance& instance, const Candidate& candidate, VkD
 
 HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
     const std::string wanted = options.device_name != nullptr ? options.device_name : "";
+    destroy_ = instance_.function<PFN_vkDestroyDevice>("vkDestroyDevice");
+    const auto get_queue = instance_.function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue");
     std::vector<std::string> reasons;
     for (const Candidate& candidate : ranked_candidates(instance_, wanted)) {
         if (!candidate.requirements.met()) {
@@ -96,8 +98,7 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
         host_.debug_utils = instance_.debug_utils();
         host_.log = options.log;
         host_.logic_op = candidate.support.logic_op;
-        instance_.function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(
-            host_.device, host_.queue_family, 0, &host_.queue);
+        get_queue(host_.device, host_.queue_family, 0, &host_.queue);
         return;
     }
     throw Failure(Status(StatusCode::unsupported_device,
@@ -107,7 +108,7 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
 }
 
 HeadlessDevice::~HeadlessDevice() {
-    instance_.function<PFN_vkDestroyDevice>("vkDestroyDevice")(host_.device, nullptr);
+    destroy_(host_.device, nullptr);
 }
 
 }  // namespace nearfield::gpu

@@ -20,6 +20,7 @@ public:
 private:
     Instance instance_;
     HostDevice host_;
+    PFN_vkDestroyDevice destroy_ = nullptr;
 };
 
 }  // namespace nearfield::gpu

@@ -50,17 +50,9 @@ void KeptImage::allocate_memory() {
     const Functions& functions = device_->functions();
     VkMemoryRequirements needs{};
     functions.vkGetImageMemoryRequirements(device_->handle(), image_.get(), &needs);
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = needs.size;
-    info.memoryTypeIndex =
-        device_->memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory),
-          "vkAllocateMemory", name_);
-    memory_ = DeviceMemory(*device_, memory, needs.size);
-    device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_);
-    check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory, 0),
+    memory_ = gpu::allocate_memory(*device_, needs, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, name_,
+                                   name_);
+    check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory_.get(), 0),
           "vkBindImageMemory", name_);
 }
 

@@ -34,21 +34,6 @@ void* open_loader() {
     return library;
 }
 
-bool has_debug_utils(PFN_vkGetInstanceProcAddr get) {
-    const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceExtensionProperties>(
-        get(VK_NULL_HANDLE, "vkEnumerateInstanceExtensionProperties"));
-    std::uint32_t count = 0;
-    check(enumerate(nullptr, &count, nullptr), "vkEnumerateInstanceExtensionProperties",
-          "the Vulkan loader");
-    std::vector<VkExtensionProperties> extensions(count);
-    check(enumerate(nullptr, &count, extensions.data()), "vkEnumerateInstanceExtensionProperties",
-          "the Vulkan loader");
-    extensions.resize(count);
-    return std::any_of(extensions.begin(), extensions.end(), [](const auto& extension) {
-        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
-    });
-}
-
 }  // namespace
 
 void Instance::CloseLibrary::operator()(void* library) const {
@@ -61,8 +46,31 @@ Instance::Instance() : library_(open_loader()) {
     if (get_ == nullptr) {
         fail("the Vulkan loader has no vkGetInstanceProcAddr");
     }
-    debug_utils_ = has_debug_utils(get_);
+    debug_utils_ = has_debug_utils();
     create();
+}
+
+PFN_vkVoidFunction Instance::entry_point(const char* name) const {
+    const PFN_vkVoidFunction found = get_(handle_, name);
+    if (found == nullptr) {
+        fail(std::string("the Vulkan loader does not know the entry point ") + name);
+    }
+    return found;
+}
+
+bool Instance::has_debug_utils() const {
+    const auto enumerate = function<PFN_vkEnumerateInstanceExtensionProperties>(
+        "vkEnumerateInstanceExtensionProperties");
+    std::uint32_t count = 0;
+    check(enumerate(nullptr, &count, nullptr), "vkEnumerateInstanceExtensionProperties",
+          "the Vulkan loader");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(enumerate(nullptr, &count, extensions.data()), "vkEnumerateInstanceExtensionProperties",
+          "the Vulkan loader");
+    extensions.resize(count);
+    return std::any_of(extensions.begin(), extensions.end(), [](const auto& extension) {
+        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
+    });
 }
 
 Instance::~Instance() {

@@ -35,10 +35,10 @@ public:
     /// The instance has VK_EXT_debug_utils.
     [[nodiscard]] bool debug_utils() const { return debug_utils_; }
 
-    /// The entry point of a core function; the loader has all of them.
+    /// The entry point of a core function. Throws Failure (no_device) where the loader has none.
     template <class Function>
     [[nodiscard]] Function function(const char* name) const {
-        return reinterpret_cast<Function>(get_(handle_, name));
+        return reinterpret_cast<Function>(entry_point(name));
     }
 
     /// Every device of every driver, in the loader's order.
@@ -49,6 +49,8 @@ private:
         void operator()(void* library) const;
     };
 
+    [[nodiscard]] PFN_vkVoidFunction entry_point(const char* name) const;
+    [[nodiscard]] bool has_debug_utils() const;
     void create();
 
     std::unique_ptr<void, CloseLibrary> library_;

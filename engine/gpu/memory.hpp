@@ -4,6 +4,7 @@
 #include <engine/gpu/owned.hpp>
 
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace nearfield::gpu {
@@ -39,12 +40,22 @@ private:
 struct DeviceMemory {
     Owned<VkDeviceMemory> memory;
     CountedBytes bytes;
-
-    DeviceMemory() = default;
-    DeviceMemory(const Device& device, VkDeviceMemory handle, std::uint64_t size)
-        : memory(device, handle), bytes(device, size) {}
+    VkMemoryPropertyFlags flags = 0;  ///< of its type
 
     [[nodiscard]] VkDeviceMemory get() const { return memory.get(); }
 };
+
+/// Which memory will do, and which would be best.
+struct MemoryWish {
+    VkMemoryPropertyFlags required = 0;
+    VkMemoryPropertyFlags preferred = 0;
+};
+
+/// Memory for what has these requirements, of the type that fulfils the wish best; where there is
+/// none left of that, of the next one. Throws Failure (out_of_memory) where no type has any left;
+/// `what`: for the message; `name`: of the memory, for debuggers.
+[[nodiscard]] DeviceMemory allocate_memory(const Device& device, const VkMemoryRequirements& needs,
+                                           const MemoryWish& wish, const std::string& what,
+                                           const std::string& name);
 
 }  // namespace nearfield::gpu

@@ -29,8 +29,18 @@ std::string in_words(const std::string& name) {
     return "pipeline '" + name + "'";
 }
 
-Owned<VkShaderModule> make_shader_module(const Device& device, Spirv shader,
+// What a pipeline is made of: in builds that reload shaders, what came of their sources since.
+Spirv in_use([[maybe_unused]] const Device& device, Spirv built) {
+#ifdef NEARFIELD_SHADER_RELOAD
+    return device.shader_words().in_use(built);
+#else
+    return built;
+#endif
+}
+
+Owned<VkShaderModule> make_shader_module(const Device& device, Spirv built,
                                          const std::string& name) {
+    const Spirv shader = in_use(device, built);
     VkShaderModuleCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     info.codeSize = shader.size_bytes();
@@ -209,7 +219,7 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
         fragment_module = make_shader_module(device, what.fragment_shader, what.name);
         stages.push_back(shader_stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_module));
     }
-    const auto attributes = used_attributes(what.vertex_shader);
+    const auto attributes = used_attributes(in_use(device, what.vertex_shader));
     const auto vertex_input = vertex_input_state(attributes);
     const auto input_assembly = triangle_lists();
     const auto viewport = one_viewport();

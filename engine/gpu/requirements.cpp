@@ -1,3 +1,4 @@
+#include <engine/failure.hpp>
 #include <engine/gpu/requirements.hpp>
 
 #include <algorithm>
@@ -180,6 +181,18 @@ void check_formats(PFN_vkGetPhysicalDeviceFormatProperties get_properties, VkPhy
 }
 
 }  // namespace
+
+void require_vulkan_1(std::uint32_t api_version, const char* structure) {
+    const bool of_vulkan =
+        VK_API_VERSION_VARIANT(api_version) == 0 && VK_API_VERSION_MAJOR(api_version) == 1;
+    if (api_version != 0 && !of_vulkan) {
+        throw Failure({StatusCode::invalid_settings,
+                       std::string(structure) + "::api_version is " + std::to_string(api_version) +
+                           ", which is no version of Vulkan 1 but " + version_text(api_version) +
+                           " of variant " + std::to_string(VK_API_VERSION_VARIANT(api_version)) +
+                           "; give VkApplicationInfo::apiVersion, or leave it 0"});
+    }
+}
 
 std::vector<VkQueueFamilyProperties> queue_families(
     PFN_vkGetPhysicalDeviceQueueFamilyProperties get, VkPhysicalDevice device) {

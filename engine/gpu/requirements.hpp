@@ -10,6 +10,10 @@
 
 namespace nearfield::gpu {
 
+/// Throws Failure (invalid_settings) for an api_version, of that structure, which is none of
+/// Vulkan 1: one never set, or of another interface that counts likewise.
+void require_vulkan_1(std::uint32_t api_version, const char* structure);
+
 /// Fills in what the base needs: version, queue family, limits, formats, and all that is unmet.
 /// Handles must not be null. Creates nothing.
 void survey_base(const PhysicalDevice& device, Requirements& requirements);

@@ -2,6 +2,7 @@
 #include <engine/gpu/requirements.hpp>
 #include <engine/growable.hpp>
 
+#include <cstddef>
 #include <cstring>
 #include <exception>
 
@@ -30,10 +31,11 @@ const OptionalPart* Requirements::find(const char* name) const noexcept {
 Expected<Requirements> requirements(const PhysicalDevice& device) {
     try {
         const PhysicalDevice asked =
-            adopted(device, "PhysicalDevice", offsetof(PhysicalDevice, api_version));
+            adopted(device, "PhysicalDevice", {offsetof(PhysicalDevice, api_version)});
         refuse_null(asked.instance != VK_NULL_HANDLE, "instance");
         refuse_null(asked.physical_device != VK_NULL_HANDLE, "physical_device");
         refuse_null(asked.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
+        gpu::require_vulkan_1(asked.api_version, "PhysicalDevice");
         Requirements found;
         gpu::survey_base(asked, found);
         gpu::survey_optional_parts(asked, found);

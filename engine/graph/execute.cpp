@@ -67,22 +67,6 @@ gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
     return owned;
 }
 
-gpu::DeviceMemory allocate(const gpu::Device& device, const VkMemoryRequirements& requirements,
-                           const std::string& name) {
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = requirements.size;
-    info.memoryTypeIndex =
-        device.memory_type(requirements.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkAllocateMemory(device.handle(), &info, device.allocator(), &memory),
-        "vkAllocateMemory", name);
-    gpu::DeviceMemory owned(device, memory, requirements.size);
-    device.name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
-    return owned;
-}
-
 gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPass render_pass,
                                            const std::vector<VkImageView>& views, VkExtent2D extent,
                                            const std::string& pass_name) {
@@ -142,8 +126,9 @@ void Executor::allocate_memory(const Graph& graph) {
         }
     }
     for (const VkMemoryRequirements& slot : slots) {
-        memory_.push_back(
-            allocate(*device_, slot, "nearfield image memory " + std::to_string(memory_.size())));
+        const std::string name = "nearfield image memory " + std::to_string(memory_.size());
+        memory_.push_back(gpu::allocate_memory(
+            *device_, slot, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, name, name));
         image_bytes_ += slot.size;
     }
     for (std::size_t i = 0; i < images_.size(); ++i) {

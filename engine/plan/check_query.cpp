@@ -26,6 +26,15 @@ Status no_length(double length, const char* what) {
                    number(largest_coordinate));
 }
 
+Status no_enumerator(const char* what, std::size_t value) {
+    return invalid(std::string(what) + " no enumerator: " + std::to_string(value));
+}
+
+template <class Enumeration>
+std::size_t value_of(Enumeration value) {
+    return static_cast<std::size_t>(value);
+}
+
 bool is_usable(double coordinate) {
     return std::abs(coordinate) <= largest_coordinate;  // false for NaN too
 }
@@ -74,6 +83,12 @@ Status check_pose(const Pose& pose, std::string_view whose) {
 namespace {
 
 Status check_field(const DistanceFieldQuery& query) {
+    if (value_of(query.sign) > value_of(SignEncoding::feature_bit)) {
+        return no_enumerator("the sign encoding is", value_of(query.sign));
+    }
+    if (value_of(query.gradient) > value_of(GradientMethod::blended)) {
+        return no_enumerator("the gradient method is", value_of(query.gradient));
+    }
     if (!query.rectangle && query.a.shape == ShapeHandle{}) {
         return invalid("a distance field needs a rectangle, or a shape A whose box it shares");
     }
@@ -102,8 +117,7 @@ Status check_technique(const Query& query) {
         case Technique::cpu:
             break;
         default:
-            return invalid("the technique is no enumerator: " +
-                           std::to_string(static_cast<int>(query.technique)));
+            return no_enumerator("the technique is", value_of(query.technique));
     }
     const char* const what = unanswered(query.technique, query);
     return what == nullptr
@@ -131,16 +145,26 @@ Status check_pair(const Query& query) {
 }  // namespace
 
 Status check_query(const PenetrationQuery& query) {
-    return check_pair(query);
+    Status status = check_pair(query);
+    if (status.ok() && query.points != PenetrationPoints::boundary &&
+        query.points != PenetrationPoints::vertices) {
+        return no_enumerator("the points are", value_of(query.points));
+    }
+    return status;
 }
 
 Status check_query(const IntersectionQuery& query) {
     Status status = check_pair(query);
-    const auto strategy = static_cast<std::size_t>(query.strategy);
-    if (status.ok() && strategy >= intersection_strategies) {
-        return invalid("the strategy is no enumerator: " + std::to_string(strategy));
+    if (!status.ok()) {
+        return status;
     }
-    return status;
+    if (value_of(query.kind) > value_of(IntersectionKind::volume_volume)) {
+        return no_enumerator("the kind is", value_of(query.kind));
+    }
+    if (value_of(query.strategy) >= intersection_strategies) {
+        return no_enumerator("the strategy is", value_of(query.strategy));
+    }
+    return {};
 }
 
 Status check_query(const DistanceFieldQuery& query) {
@@ -154,8 +178,7 @@ Status check_query(const ContactQuery& query) {
         return status;
     }
     if (query.normals != ContactNormals::analytic && query.normals != ContactNormals::gradient) {
-        return invalid("the normals are no enumerator: " +
-                       std::to_string(static_cast<int>(query.normals)));
+        return no_enumerator("the normals are", value_of(query.normals));
     }
     if (query.resident && query.normals == ContactNormals::gradient) {
         return invalid(

@@ -42,6 +42,10 @@ const char* to_string(StatusCode code) noexcept {
             return "device_lost";
         case StatusCode::device_error:
             return "device_error";
+        case StatusCode::unavailable:
+            return "unavailable";
+        case StatusCode::invalid_shader:
+            return "invalid_shader";
     }
     return "unknown";
 }

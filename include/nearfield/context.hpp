@@ -47,8 +47,9 @@ struct Settings {
     std::uint32_t hierarchy_height = 12;
     /// What these hierarchies are made of; docs/performance.md has the effect of both.
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
-    /// What Technique::automatic goes by, as Context::measure_costs found it on this machine. Left
-    /// out: what holds for the device's class, see docs/performance.md.
+    /// What Technique::automatic goes by, as Context::measure_costs found it on this machine; each
+    /// time finite and at least 0. Left out: what holds for the device's class, see
+    /// docs/performance.md.
     std::optional<CostModel> costs = std::nullopt;
     /// Threads of the host for what the CPU answers. What it points to is called for as long as the
     /// context lives. Left out: the thread that calls does all of it.
@@ -271,8 +272,24 @@ public:
     [[nodiscard]] MemoryUse memory_use() const noexcept;
 
     /// The render graph of the last batch submitted or recorded: passes, resources, lifetimes,
-    /// barriers. Empty before the first batch.
+    /// barriers. Empty before the first batch; for a `format` that is no enumerator, a text that
+    /// says so.
     [[nodiscard]] std::string describe_graph(GraphFormat format) const;
+
+    /// For who works on the library's shaders: compiles those anew whose sources changed since
+    /// this context had them last, and makes pipelines of what comes out otherwise than what is in
+    /// use, which later batches use. Returns how many shaders that were; 0: all stays as it was.
+    /// Waits for the compiler, the one that the library was built with, as a process of its own;
+    /// the first call compiles all shaders, which takes seconds. The device is not waited for.
+    ///
+    /// `folder`: where the sources are; null: the folder that the library was built from.
+    ///
+    /// Fails with unavailable where the library was built without it, as release builds are (CMake
+    /// option NEARFIELD_SHADER_RELOAD), which do not have a part of it; with not_ready while
+    /// batches are in flight, which have to be collected first; with invalid_shader where a source
+    /// cannot be read or compiled, with the compiler's words as reasons and in the log; as create()
+    /// does where the device refuses a pipeline. All shaders in use stay in use then.
+    [[nodiscard]] Expected<std::uint32_t> reload_shaders(const char* folder = nullptr);
 
 private:
     class NEARFIELD_HIDDEN Implementation;

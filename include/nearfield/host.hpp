@@ -10,7 +10,7 @@
 /// A structure that a host fills begins with `structure_size`: leave it as it is. It tells the
 /// library which members there were when the host was compiled. Members that are missing have their
 /// defaults; a larger structure than the library knows is accepted where all that is unknown is
-/// zero (StatusCode::invalid_settings otherwise, as for a size that never was one).
+/// zero (StatusCode::invalid_settings otherwise, as for a size at which it never ended).
 /// docs/host_integration.md shows how the parts go together.
 
 namespace nearfield {
@@ -19,7 +19,7 @@ namespace nearfield {
 enum class LogLevel {
     information,  ///< created and destroyed, the device, pipelines with the time they took
     warning,      ///< memory or images grew after start-up, which a frame may feel
-    error,        ///< the device was lost
+    error,        ///< the device was lost; a shader that is to be reloaded does not compile
 };
 
 /// Where messages go; without `write` the library says nothing. `message` is one line without a
@@ -80,10 +80,12 @@ struct HostDevice {
     /// VK_KHR_timeline_semaphore): Submission may have values of timeline semaphores.
     bool timeline_semaphore = false;
     /// VkApplicationInfo::apiVersion that the instance was created with; 0: Vulkan 1.1 or later.
+    /// What is no version of Vulkan 1 is refused (StatusCode::invalid_settings).
     std::uint32_t api_version = 0;
 
     /// Handed to every vkCreate, vkAllocate, vkDestroy and vkFree. Copied; what it points to is
-    /// called for as long as the context lives.
+    /// called for as long as the context lives. pfnAllocation, pfnReallocation and pfnFree must be
+    /// there, and of pfnInternalAllocation and pfnInternalFree both or neither.
     const VkAllocationCallbacks* allocator = nullptr;
     /// Pipelines are made with it, all of them when the context is made. Borrowed and never
     /// destroyed. The host must not have created it as externally synchronised.

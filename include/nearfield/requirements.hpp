@@ -100,8 +100,8 @@ struct Requirements {
 
 /// What nearfield needs of this physical device. Creates nothing and changes nothing; asks the
 /// driver for properties, limits, formats, queue families, features and extensions. What a device
-/// lacks is no error. Fails where there is nothing to ask (invalid_settings): a null handle, or a
-/// structure_size that never was one. Thread-safe.
+/// lacks is no error. Fails where there is nothing to ask (invalid_settings): a null handle, an
+/// api_version that is none of Vulkan 1, or a structure_size that never was one. Thread-safe.
 [[nodiscard]] NEARFIELD_EXPORT Expected<Requirements> requirements(const PhysicalDevice& device);
 
 }  // namespace nearfield

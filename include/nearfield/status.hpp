@@ -24,16 +24,18 @@ enum class StatusCode {
     invalid_submission,  ///< what came with a batch cannot be used (semaphore, frame, ...)
     unknown_ticket,      ///< a ticket that was never given out, or was collected already
     ring_full,           ///< as many batches are in flight as may be; one has to be collected first
-    not_ready,           ///< the frame that a batch was recorded for is not complete yet
-    not_executed,        ///< the commands recorded for a batch were never executed
-    not_recordable,      ///< a query takes more than one submission, and so cannot be recorded
-    too_large,           ///< the answer would need more memory than the stated limit
-    no_device,           ///< no Vulkan driver, or no device in it, that could be used
+    not_ready,       ///< the frame of a recorded batch is not complete, or batches are in flight
+    not_executed,    ///< the commands recorded for a batch were never executed
+    not_recordable,  ///< a query takes more than one submission, and so cannot be recorded
+    too_large,       ///< the answer would need more memory than the stated limit
+    no_device,       ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
     unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
     out_of_memory,         ///< host or device memory ran out
     device_lost,           ///< the device was lost; the context can only be destroyed
     device_error,          ///< any other Vulkan call failed; the message names the call and result
+    unavailable,     ///< this build of the library does not have it; the message says what would
+    invalid_shader,  ///< the source of a shader cannot be compiled; the reasons are the compiler's
 };
 
 /// The name of a code as it stands in the enumeration ("invalid_shape").

@@ -63,6 +63,35 @@ TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
     EXPECT_EQ(driver.breaches().size(), static_cast<std::size_t>(calls));
 }
 
+/// What stays on the device comes back by a copy within it. Of the mock driver's memory that which
+/// is not mapped says another edge of every point than that which is.
+TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
+    for (const Technique technique : techniques) {
+        SCOPED_TRACE(to_string(technique));
+        World world(technique);
+        world.take_all_before(World::Step::submit_first);
+        const Batch all = world.recordable(8);
+        auto query = std::get<PenetrationQuery>(all.queries()[0]);
+        const auto edges = [&](bool resident) {
+            query.resident = resident;
+            Batch batch;
+            const auto handle = batch.add(query);
+            Results results;
+            const Status status = world.context().run(batch, results);
+            EXPECT_TRUE(status.ok()) << status.text();
+            std::set<std::uint32_t> found;
+            for (const PenetrationRecord& record : results[handle].records) {
+                found.insert(record.feature.index);
+            }
+            return found;
+        };
+        // Of the edge, or of the vertices at its ends.
+        EXPECT_EQ(edges(true), (std::set<std::uint32_t>{1}));
+        EXPECT_EQ(edges(false), (std::set<std::uint32_t>{2, 3}));
+        EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
+    }
+}
+
 /// Images are shared by the batches of a context, and both are made anew for larger batches.
 TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
     for (const Technique technique : techniques) {

@@ -261,6 +261,25 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
     }
 }
 
+Batch World::overlap(double cells) const {
+    Batch batch;
+    batch.add(IntersectionQuery{here(), there(), 1.0 / cells, IntersectionKind::volume_volume, true,
+                                IntersectionStrategy::stencil, technique_});
+    return batch;
+}
+
+StatusCode code_of(VkResult error) {
+    switch (error) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return StatusCode::out_of_memory;
+        case VK_ERROR_DEVICE_LOST:
+            return StatusCode::device_lost;
+        default:
+            return StatusCode::device_error;
+    }
+}
+
 const char* to_string(World::Step step) {
     switch (step) {
         case World::Step::create:

@@ -71,6 +71,8 @@ public:
     [[nodiscard]] Batch batch(double cells) const { return batch(cells, technique_); }
     /// Without those that take a second submission.
     [[nodiscard]] Batch recordable(double cells) const;
+    /// One intersection of volumes, with samples.
+    [[nodiscard]] Batch overlap(double cells) const;
 
     /// The first batch turns the states of two semaphores around, the one without work turns them
     /// back.
@@ -111,5 +113,8 @@ private:
 };
 
 [[nodiscard]] const char* to_string(World::Step step);
+
+/// What the library says of an error of the driver.
+[[nodiscard]] StatusCode code_of(VkResult error);
 
 }  // namespace nearfield::test

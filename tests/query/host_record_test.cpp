@@ -1,11 +1,8 @@
-#include <tests/query/all_numbers.hpp>
+#include <tests/query/counted_context.hpp>
 #include <tests/query/every_query.hpp>
-#include <tests/query/query_test.hpp>
-#include <tests/support/fake_loader.hpp>
 #include <tests/support/host_frames.hpp>
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace nearfield::test {
@@ -13,129 +10,14 @@ namespace {
 
 using test_support::HostFrames;
 
-constexpr std::uint64_t seed = 7000;
-
-// What the library asks of queue and command buffers, counted on the way there.
-
-struct CallsOfRecording {
-    int submissions = 0;
-    int waits = 0;
-    int commands = 0;  ///< of every kind of recording there is one that comes first
-};
-CallsOfRecording calls_of_recording;
-
-template <class Function>
-Function below(const char* name) {
-    return reinterpret_cast<Function>(test_support::true_device_function(name));
-}
-
-VkResult VKAPI_CALL note_submission(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos,
-                                    VkFence fence) {
-    ++calls_of_recording.submissions;
-    return below<PFN_vkQueueSubmit>("vkQueueSubmit")(queue, count, infos, fence);
-}
-
-VkResult VKAPI_CALL note_wait(VkDevice device, std::uint32_t count, const VkFence* fences,
-                              VkBool32 all, std::uint64_t timeout) {
-    ++calls_of_recording.waits;
-    return below<PFN_vkWaitForFences>("vkWaitForFences")(device, count, fences, all, timeout);
-}
-
-void VKAPI_CALL note_reset(VkCommandBuffer commands, VkQueryPool pool, std::uint32_t first,
-                           std::uint32_t count) {
-    ++calls_of_recording.commands;
-    below<PFN_vkCmdResetQueryPool>("vkCmdResetQueryPool")(commands, pool, first, count);
-}
-
-void VKAPI_CALL note_label(VkCommandBuffer commands, const VkDebugUtilsLabelEXT* label) {
-    ++calls_of_recording.commands;
-    below<PFN_vkCmdBeginDebugUtilsLabelEXT>("vkCmdBeginDebugUtilsLabelEXT")(commands, label);
-}
-
-test_support::Lies noting_calls() {
-    test_support::Lies lies;
-    lies.entry_points["vkQueueSubmit"] = reinterpret_cast<PFN_vkVoidFunction>(&note_submission);
-    lies.entry_points["vkWaitForFences"] = reinterpret_cast<PFN_vkVoidFunction>(&note_wait);
-    lies.entry_points["vkCmdResetQueryPool"] = reinterpret_cast<PFN_vkVoidFunction>(&note_reset);
-    lies.entry_points["vkCmdBeginDebugUtilsLabelEXT"] =
-        reinterpret_cast<PFN_vkVoidFunction>(&note_label);
-    return lies;
-}
-
-class Recorded : public QueryTest {
+class Recorded : public CountedContext {
 protected:
-    void make(const Settings& settings) {
-        context_.reset();
-        loader_.reset();
-        loader_.emplace(host_device(), noting_calls());
-        Expected<Context> made = Context::create(loader_->host(), drawing(settings));
-        ASSERT_TRUE(made.ok()) << made.status().text();
-        context_.emplace(std::move(*made));
-        Random random(seed);
-        const Expected<ShapeHandle> a = context_->add_shape(coast(random, 100, 0.5));
-        const Expected<ShapeHandle> b = context_->add_shape(with_holes(random, 3));
-        ASSERT_TRUE(a.ok() && b.ok());
-        a_ = *a;
-        b_ = *b;
-        calls_of_recording = {};
-    }
-    void make(std::uint32_t frames) {
-        Settings settings;
-        settings.frames_in_flight = frames;
-        make(settings);
-    }
-    void TearDown() override {
-        context_.reset();
-        loader_.reset();
-        QueryTest::TearDown();
-    }
-
-    [[nodiscard]] Context& recording() { return *context_; }
-    void destroy() { context_.reset(); }
-
     [[nodiscard]] Batch batch(int number) const { return every_query(a_, b_, number, true); }
     [[nodiscard]] Batch small() const {
         Batch batch;
         batch.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.1});
         return batch;
     }
-
-    /// The answers of run(), each of which has to be one.
-    [[nodiscard]] std::vector<double> run(const Batch& batch) {
-        Results results;
-        const Status status = recording().run(batch, results);
-        EXPECT_TRUE(status.ok()) << status.text();
-        expect_all_answered(results);
-        return all_numbers(results);
-    }
-    static void expect_all_answered(const Results& results) {
-        for (std::size_t i = 0; i < results.results.size(); ++i) {
-            std::visit(
-                [&](const auto& result) {
-                    EXPECT_TRUE(result.status.ok()) << i << ": " << result.status.text();
-                },
-                results.results[i]);
-        }
-    }
-    [[nodiscard]] Ticket record(const Batch& batch, VkCommandBuffer commands, std::uint64_t frame) {
-        const Expected<Ticket> ticket =
-            recording().record(batch, {.commands = commands, .frame = frame});
-        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-        return ticket.ok() ? *ticket : Ticket{};
-    }
-    [[nodiscard]] std::vector<double> collect(Ticket ticket) {
-        Results results;
-        const Status status = recording().collect(ticket, results);
-        EXPECT_TRUE(status.ok()) << status.text();
-        return all_numbers(results);
-    }
-
-    ShapeHandle a_;
-    ShapeHandle b_;
-
-private:
-    std::optional<test_support::FakeLoader> loader_;
-    std::optional<Context> context_;
 };
 
 TEST_F(Recorded, AnswersAreThoseOfRunForEveryNumberOfFramesInFlight) {
@@ -146,14 +28,14 @@ TEST_F(Recorded, AnswersAreThoseOfRunForEveryNumberOfFramesInFlight) {
         const std::array<std::vector<double>, 2> expected{run(batch(0)), run(batch(1))};
         ASSERT_GT(expected[0].size(), 3000U);
         ASSERT_NE(expected[0], expected[1]);
-        calls_of_recording = {};
+        calls = {};
         std::vector<Ticket> tickets(frames);
         const std::uint64_t last = 2 * frames + 2;
         for (std::uint64_t frame = 0; frame < last + frames; ++frame) {
             VkCommandBuffer commands = host.begin(frame);  // so frame - frames is complete
             Ticket& ticket = tickets[frame % frames];
             if (frame >= frames) {
-                recording().frame_completed(frame - frames);
+                counted().frame_completed(frame - frames);
                 EXPECT_EQ(collect(ticket), expected[(frame - frames) % 2]) << "frame " << frame;
             }
             if (frame < last) {
@@ -161,8 +43,8 @@ TEST_F(Recorded, AnswersAreThoseOfRunForEveryNumberOfFramesInFlight) {
             }
             host.submit(frame);
         }
-        EXPECT_EQ(calls_of_recording.submissions + calls_of_recording.waits, 0);
-        EXPECT_GT(calls_of_recording.commands, 0);
+        EXPECT_EQ(calls.submissions + calls.waits, 0);
+        EXPECT_GT(calls.recordings, 0);
     }
 }
 
@@ -177,30 +59,29 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
     }
     Results results;
     for (int i = 0; i < 2; ++i) {  // and the ticket stays good
-        EXPECT_FALSE(recording().is_ready(tickets[1]));
-        const Status status = recording().collect(tickets[1], results);
+        EXPECT_FALSE(counted().is_ready(tickets[1]));
+        const Status status = counted().collect(tickets[1], results);
         EXPECT_EQ(status.code(), StatusCode::not_ready);
         EXPECT_NE(status.message().find("frame 11"), std::string::npos) << status.message();
     }
-    EXPECT_EQ(
-        recording().record(small(), {.commands = host.begin(13), .frame = 12}).status().code(),
-        StatusCode::ring_full);
+    EXPECT_EQ(counted().record(small(), {.commands = host.begin(13), .frame = 12}).status().code(),
+              StatusCode::ring_full);
     host.abandon(13);
     host.wait(12);
-    recording().frame_completed(11);
-    recording().frame_completed(3);  // no way back
-    EXPECT_TRUE(recording().is_ready(tickets[0]));
-    EXPECT_TRUE(recording().is_ready(tickets[1]));
-    EXPECT_FALSE(recording().is_ready(tickets[2]));
+    counted().frame_completed(11);
+    counted().frame_completed(3);  // no way back
+    EXPECT_TRUE(counted().is_ready(tickets[0]));
+    EXPECT_TRUE(counted().is_ready(tickets[1]));
+    EXPECT_FALSE(counted().is_ready(tickets[2]));
     EXPECT_EQ(collect(tickets[1]), expected);
     EXPECT_EQ(collect(tickets[0]), expected);
-    EXPECT_EQ(recording().collect(tickets[0], results).code(), StatusCode::unknown_ticket);
+    EXPECT_EQ(counted().collect(tickets[0], results).code(), StatusCode::unknown_ticket);
     // Recording for frame 15 implies that frame 12 is complete, whatever becomes of it.
     const Expected<Ticket> next =
-        recording().record(small(), {.commands = host.begin(15), .frame = 15});
+        counted().record(small(), {.commands = host.begin(15), .frame = 15});
     EXPECT_TRUE(next.ok()) << next.status().text();
     host.submit(15);
-    EXPECT_TRUE(recording().is_ready(tickets[2]));
+    EXPECT_TRUE(counted().is_ready(tickets[2]));
     EXPECT_EQ(collect(tickets[2]), expected);
 }
 
@@ -210,11 +91,11 @@ TEST_F(Recorded, TimesOfPassesComeBack) {
     const Ticket ticket = record(batch(0), host.begin(0), 0);
     host.submit(0);
     host.wait(0);
-    recording().frame_completed(0);
+    counted().frame_completed(0);
     Results results;
-    ASSERT_TRUE(recording().collect(ticket, results).ok());
+    ASSERT_TRUE(counted().collect(ticket, results).ok());
     Results expected;
-    ASSERT_TRUE(recording().run(batch(0), expected).ok());
+    ASSERT_TRUE(counted().run(batch(0), expected).ok());
     ASSERT_EQ(results.timings.passes.size(), expected.timings.passes.size());
     EXPECT_GT(results.timings.passes.size(), 10U);
     for (std::size_t i = 0; i < results.timings.passes.size(); ++i) {
@@ -238,16 +119,16 @@ TEST_F(Recorded, CommandsThatWereNeverSubmittedSaySo) {
             host.abandon(frame);
         }
         host.wait(frame);
-        recording().frame_completed(frame);
-        EXPECT_TRUE(recording().is_ready(ticket));
+        counted().frame_completed(frame);
+        EXPECT_TRUE(counted().is_ready(ticket));
         if (submitted) {
             EXPECT_EQ(collect(ticket), expected);
             continue;
         }
         Results results;
-        const Status status = recording().collect(ticket, results);
+        const Status status = counted().collect(ticket, results);
         EXPECT_EQ(status.code(), StatusCode::not_executed) << status.text();
-        EXPECT_EQ(recording().collect(ticket, results).code(), StatusCode::unknown_ticket);
+        EXPECT_EQ(counted().collect(ticket, results).code(), StatusCode::unknown_ticket);
     }
     EXPECT_EQ(run(batch(0)), expected);
 }
@@ -261,7 +142,7 @@ TEST_F(Recorded, BatchesAndSubmittedOnesShareImagesInAnyOrder) {
     VkCommandBuffer commands = host.begin(0);
     const Ticket first = record(batch(0), commands, 0);
     const Ticket second = record(batch(1), commands, 0);
-    const Expected<Ticket> between = recording().submit(batch(2));
+    const Expected<Ticket> between = counted().submit(batch(2));
     const Ticket third = record(batch(3), host.begin(1), 1);
     ASSERT_TRUE(between.ok()) << between.status().text();
     host.submit(1);
@@ -269,7 +150,7 @@ TEST_F(Recorded, BatchesAndSubmittedOnesShareImagesInAnyOrder) {
     EXPECT_EQ(collect(*between), expected[2]);
     host.wait(0);
     host.wait(1);
-    recording().frame_completed(1);
+    counted().frame_completed(1);
     EXPECT_EQ(collect(third), expected[3]);
     EXPECT_EQ(collect(first), expected[0]);
     EXPECT_EQ(collect(second), expected[1]);
@@ -290,9 +171,9 @@ TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
     const Ticket ticket = record(automatic, host.begin(0), 0);
     host.submit(0);
     host.wait(0);
-    recording().frame_completed(0);
+    counted().frame_completed(0);
     Results results;
-    ASSERT_TRUE(recording().collect(ticket, results).ok());
+    ASSERT_TRUE(counted().collect(ticket, results).ok());
     for (std::size_t i = 0; i < 2; ++i) {
         const auto& refused = std::get<ContactResult>(results.results[i]);
         EXPECT_EQ(refused.status.code(), StatusCode::not_recordable);
@@ -328,9 +209,9 @@ TEST_F(Recorded, SamplesHaveRoomHoweverMany) {
     const Ticket ticket = record(dense, host.begin(0), 0);
     host.submit(0);
     host.wait(0);
-    recording().frame_completed(0);
+    counted().frame_completed(0);
     const std::vector<double> numbers = collect(ticket);
-    EXPECT_EQ(calls_of_recording.submissions, 0);
+    EXPECT_EQ(calls.submissions, 0);
     EXPECT_EQ(numbers, run(dense));
     EXPECT_GT(numbers.size(), 50000U);
 }
@@ -343,7 +224,7 @@ TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
     HostFrames host(host_device(), 1);
     VkCommandBuffer commands = host.begin(5);
     const auto code = [&](const Batch& batch, const Recording& where) {
-        return recording().record(batch, where).status().code();
+        return counted().record(batch, where).status().code();
     };
     DistanceFieldQuery field;
     field.b = {b_, {}};
@@ -357,15 +238,15 @@ TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
     Recording odd{.commands = commands, .frame = 5};
     odd.structure_size = 3;
     EXPECT_EQ(code(small(), odd), StatusCode::invalid_settings);
-    recording().frame_completed(5);
+    counted().frame_completed(5);
     EXPECT_EQ(code(small(), {.commands = commands, .frame = 5}), StatusCode::invalid_submission);
     // What the CPU answers alone takes no command.
     Batch by_cpu;
     by_cpu.add(SeparationQuery{{a_, {}}, {b_, {{3.0, 0.0}, 0.0}}, 0.04, Technique::cpu});
     const Ticket ticket = record(by_cpu, commands, 6);
-    EXPECT_TRUE(recording().is_ready(ticket));
+    EXPECT_TRUE(counted().is_ready(ticket));
     EXPECT_GT(collect(ticket).size(), 5U);
-    EXPECT_EQ(calls_of_recording.commands, 0);
+    EXPECT_EQ(calls.recordings, 0);
     host.abandon(5);
 }
 
@@ -378,7 +259,7 @@ TEST_F(Recorded, BatchesDoNotKeepAContextFromGoing) {
     (void)record(batch(1), host.begin(1), 1);
     host.abandon(1);  // never begun
     destroy();
-    EXPECT_EQ(calls_of_recording.submissions + calls_of_recording.waits, 0);
+    EXPECT_EQ(calls.submissions + calls.waits, 0);
 }
 
 }  // namespace

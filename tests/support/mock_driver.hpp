@@ -26,9 +26,12 @@ struct EntryPoint {
 /// a time: entry points carry no user data. For one thread.
 class MockDriver {
 public:
-    /// What mapped memory is full of, and what submissions write: to the library each word says
-    /// that edge 1 is nearest, and that the point or cell lies inside; as a number it is tiny.
-    static constexpr std::uint32_t device_word = 0xA0000001;
+    /// What memory that is not mapped is full of: to the library each word says that edge 1 is
+    /// nearest, and that the point or cell lies inside; as a number it is tiny.
+    static constexpr std::uint32_t resident_word = 0xA0000001;
+    /// What mapped memory is full of, and what submissions write there, unless they copy: the same
+    /// of edge 2.
+    static constexpr std::uint32_t device_word = 0xA0000002;
 
     MockDriver();
     ~MockDriver();
@@ -39,11 +42,18 @@ public:
     /// every call has to pass on.
     [[nodiscard]] HostDevice host() const;
 
+    /// From now on there is no host whose allocation callbacks would be used.
+    void go_without_host();
+
     // What a host does with the driver, without the library.
 
     /// A binary semaphore.
     [[nodiscard]] VkSemaphore make_semaphore(bool signalled);
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
+    /// What host() says of timeline semaphores from now on.
+    void enable_timeline_semaphores(bool enabled = true);
+    [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);
+    [[nodiscard]] std::uint64_t value_of(VkSemaphore semaphore) const;
     /// A command buffer that is being recorded.
     [[nodiscard]] VkCommandBuffer begin_commands();
     /// Ends it and submits it.
@@ -54,6 +64,29 @@ public:
     /// The entry points called since the last forget_calls(), in order.
     [[nodiscard]] const std::vector<std::string_view>& calls() const;
     void forget_calls();
+
+    /// What came with a vkQueueSubmit that succeeded.
+    struct Submitted {
+        struct Semaphore {
+            VkSemaphore semaphore = VK_NULL_HANDLE;
+            std::uint64_t value = 0;          ///< as handed over, if at all
+            VkPipelineStageFlags stages = 0;  ///< that wait
+
+            friend bool operator==(const Semaphore&, const Semaphore&) = default;
+        };
+        std::vector<Semaphore> waits;
+        std::vector<Semaphore> signals;
+        std::uint32_t command_buffers = 0;
+    };
+    [[nodiscard]] const std::vector<Submitted>& submissions() const;
+
+    /// What shaders find from now on: where a descriptor at `binding` stands for words of which the
+    /// host set the first to 0, that becomes `count`, and what follows 0.
+    struct Finding {
+        std::uint32_t binding = 0;
+        std::uint32_t count = 0;
+    };
+    void let_shaders_find(const Finding& finding);
 
     /// How long an entry point fails.
     enum class Failing {

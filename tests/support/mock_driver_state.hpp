@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -32,12 +33,20 @@ concept VulkanHandle = std::is_pointer_v<Type> && !std::is_void_v<std::remove_po
     sizeof(std::remove_pointer_t<Type>);
 };
 
-/// vkCmdFillBuffer, until it is executed.
-struct MockFill {
+/// vkCmdFillBuffer, or a region of vkCmdCopyBuffer, until it is executed.
+struct MockWrite {
     Number buffer = 0;
     std::uint64_t first_word = 0;
     std::uint64_t words = 0;
-    std::uint32_t value = 0;
+    std::uint32_t value = 0;  // that it is filled with
+    Number from = 0;          // the buffer that it is copied from; 0: it is filled
+    std::uint64_t first_word_from = 0;
+};
+
+/// The part of a buffer that a descriptor stands for.
+struct MockRange {
+    std::uint64_t first_word = 0;
+    std::uint64_t words = 0;
 };
 
 /// Anything the library made, or the host.
@@ -54,12 +63,15 @@ struct MockObject {
     std::span<std::uint32_t> words;  // the same, aligned
     bool mapped = false;
     bool bound = false;
-    bool written = false;  // a buffer that commands write
+    bool written = false;      // a buffer that commands write
+    bool copied_from = false;  // a buffer that commands may copy from
 
     // Command buffers.
     enum class Commands { empty, recording, executable, pending };
     Commands commands = Commands::empty;
-    std::vector<MockFill> fills;
+    std::vector<MockWrite> writes;
+
+    std::map<std::uint64_t, MockRange> ranges;  // of a descriptor set, by binding
 
     void* host_memory = nullptr;  // from the host's allocation callbacks
 
@@ -67,6 +79,7 @@ struct MockObject {
     // library has not seen it done.
     bool signalled = false;
     std::set<Number> in_use;
+    std::optional<std::uint64_t> value;  // of a timeline semaphore
 };
 
 struct MockDriver::State {
@@ -88,7 +101,11 @@ struct MockDriver::State {
     Number physical_device = 0;
     Number device = 0;
     Number queue = 0;
-    Number host_fence = 0;  // of all that the host submits
+    Number host_fence = 0;             // of all that the host submits
+    bool timeline_semaphores = false;  // the host enabled them
+    bool headless = false;             // there is no host, whose allocator would be used
+    std::vector<Submitted> submissions;
+    std::optional<Finding> finding;
 
     VkAllocationCallbacks callbacks{};                 // the host's
     std::set<void*> host_blocks;                       // that they gave out
@@ -120,6 +137,8 @@ struct MockDriver::State {
     }
     void destroy(std::string_view call, Number device_of_call, Number gone,
                  const std::type_info& type);
+    /// A breach for each object that was made of this one and is still there.
+    void expect_childless(std::string_view call, Number parent);
     /// A breach where a submission that the library has not seen done uses the object.
     void expect_unused(std::string_view call, Number wanted);
     /// Everything an object refers to, itself too.
@@ -132,6 +151,11 @@ struct MockDriver::State {
     /// memory; what it uses is added to `used`.
     void execute(std::string_view call, Number commands, std::set<Number>& used);
     void write_results(Number commands, const std::set<Number>& used);
+    /// What shaders have to say of how much they found.
+    void write_counts(const std::set<Number>& used);
+    void write(const MockWrite& write);
+    /// The words of a buffer's memory, mapped or not; none where it has no memory.
+    std::span<std::uint32_t> words_of(Number buffer);
 };
 
 /// Of the driver that lives.

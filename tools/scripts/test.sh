@@ -63,9 +63,11 @@ check_sanitized() {
         'test_geometry *' 'test_localize *' 'test_exact *' 'test_graph -GraphExecute.*'
     )
     configure sanitize >/dev/null
-    build sanitize --target test_driver test_geometry test_localize test_exact test_graph
+    build sanitize --target test_driver test_geometry test_localize test_exact test_graph test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
+    # Shaders that are reloaded, which debug builds alone can; on a device, so without its leaks.
+    ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/reload/test_reload" --gtest_brief=1
 }
 
 # Contexts on several threads, with every access to memory that two of them share watched.
@@ -102,6 +104,8 @@ check_symbols() {
         "$(nm --format=just-symbols "$archive" | grep '^vk[A-Z]' || true)"
     expect_none 'libnearfield.so has Vulkan entry points of its own' \
         "$(nm --dynamic --format=just-symbols "$shared" | grep '^vk[A-Z]' || true)"
+    expect_none 'libnearfield.a has a part of what reloads shaders in debug builds' \
+        "$(nm --demangle --format=just-symbols "$archive" | grep 'nearfield::reload::\|posix_spawn' || true)"
     exported=$(nm --dynamic --defined-only --demangle "$shared" | cut --delimiter=' ' --fields=2-)
     expect_none 'libnearfield.so exports more than functions of nearfield' \
         "$(grep --invert-match '^T nearfield::' <<<"$exported" || true)"

@@ -56,9 +56,19 @@ void Viewer::handle_key(SDL_Keycode key) {
         case SDLK_r:
             wishes_.restart = true;
             break;
+        case SDLK_F5:
+            reload_shaders();
+            break;
         default:
             break;
     }
+}
+
+/// For who works on the library's shaders, and builds it for that.
+void Viewer::reload_shaders() {
+    const Expected<std::uint32_t> changed = simulation_.context().reload_shaders();
+    reading_.notice = changed.ok() ? "Shaders that changed: " + std::to_string(*changed) + "."
+                                   : changed.status().text();
 }
 
 void Viewer::handle(const SDL_Event& event) {

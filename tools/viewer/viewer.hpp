@@ -27,6 +27,7 @@ private:
     bool handle_events();
     void handle(const SDL_Event& event);
     void handle_key(SDL_Keycode key);
+    void reload_shaders();
     void advance();
     void go_back(const std::string& why);
     bool show();

@@ -1,0 +1,87 @@
+#include <engine/answer_jobs.hpp>
+#include <engine/failure.hpp>
+#include <engine/geometry/number.hpp>
+#include <engine/growable.hpp>
+#include <engine/host_input.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+[[noreturn]] void refuse_setting(const std::string& message) {
+    throw Failure({StatusCode::invalid_settings, message});
+}
+
+void check_cost(double microseconds, const std::string& what) {
+    if (!(microseconds >= 0.0 && std::isfinite(microseconds))) {
+        refuse_setting("Settings::costs." + what + " is " + geometry::number(microseconds) +
+                       "; it must be a finite number of at least 0 (microseconds)");
+    }
+}
+
+void check_cost(const WorkCost& cost, const std::string& what) {
+    check_cost(cost.query, what + ".query");
+    check_cost(cost.edge, what + ".edge");
+    check_cost(cost.sample, what + ".sample");
+}
+
+void check_cost(const TechniqueCost& cost, const std::string& technique) {
+    check_cost(cost.submission, technique + ".submission");
+    check_cost(cost.points, technique + ".points");
+    check_cost(cost.closest, technique + ".closest");
+    check_cost(cost.intersection, technique + ".intersection");
+    check_cost(cost.field, technique + ".field");
+    check_cost(cost.features, technique + ".features");
+}
+
+}  // namespace
+
+HostDevice adopted(const HostDevice& given) {
+    return adopted(given, "HostDevice",
+                   {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
+                    offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
+                    offsetof(HostDevice, log)});
+}
+
+HeadlessOptions adopted(const HeadlessOptions& given) {
+    return adopted(given, "HeadlessOptions",
+                   {offsetof(HeadlessOptions, device_name), offsetof(HeadlessOptions, log)});
+}
+
+Submission adopted(const Submission& given) {
+    return adopted(given, "Submission",
+                   {offsetof(Submission, waits), offsetof(Submission, signals)});
+}
+
+Recording adopted(const Recording& given) {
+    return adopted(given, "Recording", {offsetof(Recording, commands), offsetof(Recording, frame)});
+}
+
+Settings adopted(const Settings& given) {
+    const Settings settings =
+        adopted(given, "Settings",
+                {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
+                 offsetof(Settings, costs), offsetof(Settings, jobs)});
+    if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
+        refuse_setting("frames_in_flight is " + std::to_string(settings.frames_in_flight) +
+                       "; it must be at least 1 and at most " +
+                       std::to_string(most_frames_in_flight));
+    }
+    if (settings.bounding_volume != BoundingVolume::axis_aligned &&
+        settings.bounding_volume != BoundingVolume::oriented) {
+        refuse_setting("Settings::bounding_volume is no enumerator: " +
+                       std::to_string(static_cast<int>(settings.bounding_volume)));
+    }
+    if (settings.costs) {
+        check_cost(settings.costs->raster, "raster");
+        check_cost(settings.costs->compute, "compute");
+        check_cost(settings.costs->cpu, "cpu");
+    }
+    AnswerJobs::check(settings.jobs);
+    return settings;
+}
+
+}  // namespace nearfield

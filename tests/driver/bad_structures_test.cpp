@@ -1,0 +1,233 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/mock_driver.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Enumeration>
+Enumeration beyond(Enumeration last) {
+    return static_cast<Enumeration>(static_cast<int>(last) + 1);
+}
+
+/// What a host may hand over by mistake: refused by name, before the driver is asked for anything.
+class BadStructures : public ::testing::Test {
+protected:
+    ~BadStructures() override {
+        EXPECT_EQ(driver_.alive(), std::vector<std::string>{});
+        EXPECT_EQ(driver_.breaches(), std::vector<std::string>{});
+    }
+
+    void expect_refused(const Status& status, StatusCode code, const std::string& part) {
+        EXPECT_EQ(status.code(), code) << status.text();
+        EXPECT_NE(status.text().find(part), std::string::npos) << status.text();
+        EXPECT_TRUE(driver_.calls().empty()) << "first " << driver_.calls().front();
+        driver_.forget_calls();
+    }
+    void expect_refused(const Settings& settings, const std::string& part) {
+        SCOPED_TRACE(part);
+        expect_refused(Context::create(driver_.host(), settings).status(),
+                       StatusCode::invalid_settings, part);
+        expect_refused(Context::create_headless({}, settings).status(),
+                       StatusCode::invalid_settings, part);
+    }
+
+    test_support::MockDriver driver_;
+};
+
+TEST_F(BadStructures, VersionsThatAreNoneOfVulkan1) {
+    PhysicalDevice device;
+    device.instance = driver_.host().instance;
+    device.physical_device = driver_.host().physical_device;
+    device.get_instance_proc_addr = driver_.host().get_instance_proc_addr;
+    for (const std::uint32_t version :
+         {0xFFFFFFFFU, 1U, 11U, VK_MAKE_API_VERSION(0, 2, 0, 0), VK_MAKE_API_VERSION(1, 1, 0, 0)}) {
+        SCOPED_TRACE(version);
+        HostDevice host = driver_.host();
+        host.api_version = device.api_version = version;
+        const std::string words = "::api_version is " + std::to_string(version) + ", which is no";
+        expect_refused(Context::create(host).status(), StatusCode::invalid_settings,
+                       "HostDevice" + words);
+        expect_refused(requirements(device).status(), StatusCode::invalid_settings,
+                       "PhysicalDevice" + words);
+    }
+    for (const std::uint32_t version :
+         {VK_API_VERSION_1_1, VK_API_VERSION_1_2, VK_API_VERSION_1_3}) {
+        HostDevice host = driver_.host();
+        host.api_version = device.api_version = version;
+        EXPECT_TRUE(Context::create(host).ok());
+        EXPECT_TRUE(requirements(device)->met());
+    }
+    // A version there is, but not enough: what an instance lacks is said as what a device lacks.
+    HostDevice host = driver_.host();
+    host.api_version = device.api_version = VK_API_VERSION_1_0;
+    const Status old = Context::create(host).status();
+    EXPECT_EQ(old.code(), StatusCode::unsupported_device);
+    EXPECT_NE(old.text().find("the instance was created for Vulkan 1.0 only"), std::string::npos)
+        << old.text();
+    EXPECT_FALSE(requirements(device)->met());
+}
+
+TEST_F(BadStructures, AllocationCallbacksWithoutFunctions) {
+    const HostDevice good = driver_.host();
+    const auto try_without = [&](auto VkAllocationCallbacks::*function, const std::string& name) {
+        VkAllocationCallbacks callbacks = *good.allocator;
+        callbacks.pfnInternalAllocation = [](void*, std::size_t, VkInternalAllocationType,
+                                             VkSystemAllocationScope) {};
+        callbacks.pfnInternalFree = [](void*, std::size_t, VkInternalAllocationType,
+                                       VkSystemAllocationScope) {};
+        callbacks.*function = nullptr;
+        HostDevice host = good;
+        host.allocator = &callbacks;
+        expect_refused(Context::create(host).status(), StatusCode::unsupported_device,
+                       "HostDevice::allocator->" + name + ": it is null");
+    };
+    try_without(&VkAllocationCallbacks::pfnAllocation, "pfnAllocation");
+    try_without(&VkAllocationCallbacks::pfnReallocation, "pfnReallocation");
+    try_without(&VkAllocationCallbacks::pfnFree, "pfnFree");
+    try_without(&VkAllocationCallbacks::pfnInternalAllocation, "pfnInternalAllocation");
+    try_without(&VkAllocationCallbacks::pfnInternalFree, "pfnInternalFree");
+}
+
+TEST_F(BadStructures, CostsThatAreNoTimes) {
+    for (const double bad : {-1.0, not_a_number, infinity, -infinity}) {
+        const auto try_cost = [&](auto TechniqueCost::*kind, double WorkCost::*part,
+                                  const std::string& name) {
+            Settings settings;
+            settings.costs = CostModel{};
+            settings.costs->compute.*kind.*part = bad;
+            expect_refused(settings, "Settings::costs.compute." + name + " is ");
+        };
+        try_cost(&TechniqueCost::points, &WorkCost::query, "points.query");
+        try_cost(&TechniqueCost::closest, &WorkCost::edge, "closest.edge");
+        try_cost(&TechniqueCost::intersection, &WorkCost::sample, "intersection.sample");
+        try_cost(&TechniqueCost::field, &WorkCost::edge, "field.edge");
+        try_cost(&TechniqueCost::features, &WorkCost::query, "features.query");
+        for (TechniqueCost CostModel::*technique : {&CostModel::raster, &CostModel::cpu}) {
+            Settings settings;
+            settings.costs = CostModel{};
+            (*settings.costs.*technique).submission = bad;
+            expect_refused(settings, ".submission is ");
+        }
+    }
+    Settings settings;
+    settings.costs = CostModel{};  // free of charge, which is a choice
+    EXPECT_TRUE(Context::create(driver_.host(), settings).ok());
+}
+
+TEST_F(BadStructures, SettingsThatAreNoEnumerators) {
+    Settings settings;
+    settings.bounding_volume = beyond(BoundingVolume::oriented);
+    expect_refused(settings, "Settings::bounding_volume is no enumerator: 2");
+    settings = {};
+    settings.frames_in_flight = most_frames_in_flight + 1;
+    expect_refused(settings, "frames_in_flight is 9");
+}
+
+/// A structure never ended within a member.
+TEST_F(BadStructures, SizesThatCutAMemberInTwo) {
+    const auto expect = [&](const Status& status, const std::string& name) {
+        expect_refused(status, StatusCode::invalid_settings, name + "::structure_size is ");
+    };
+    HostDevice host = driver_.host();
+    for (const std::size_t size : {offsetof(HostDevice, device), offsetof(HostDevice, log) + 8,
+                                   offsetof(HostDevice, queue_access) + 8}) {
+        host.structure_size = static_cast<std::uint32_t>(size);
+        expect(Context::create(host).status(), "HostDevice");
+    }
+    Settings settings;
+    settings.structure_size = offsetof(Settings, costs) + 8;
+    expect(Context::create(driver_.host(), settings).status(), "Settings");
+    HeadlessOptions options;
+    options.structure_size = offsetof(HeadlessOptions, log) + 8;
+    expect(Context::create_headless(options).status(), "HeadlessOptions");
+    PhysicalDevice device;
+    device.structure_size = offsetof(PhysicalDevice, physical_device);
+    expect(requirements(device).status(), "PhysicalDevice");
+
+    Expected<Context> context = Context::create(driver_.host());
+    ASSERT_TRUE(context.ok()) << context.status().text();
+    driver_.forget_calls();
+    Submission submission;
+    submission.structure_size = offsetof(Submission, waits) + 8;
+    expect(context->submit({}, submission).status(), "Submission");
+    Recording recording;
+    recording.structure_size = 12;
+    expect(context->record({}, recording).status(), "Recording");
+}
+
+TEST_F(BadStructures, QueriesWithNumbersThatAreNoEnumerators) {
+    Expected<Context> context = Context::create(driver_.host());
+    ASSERT_TRUE(context.ok()) << context.status().text();
+    const Expected<ShapeHandle> shape = context->add_shape({{{{0, 0}, {1, 0}, {0, 1}}}});
+    ASSERT_TRUE(shape.ok());
+    const Instance here{*shape, {}};
+    driver_.forget_calls();
+    // `bend` spoils a query that is good but for it.
+    const auto try_query = [&](auto query, const auto& bend, const std::string& words) {
+        query.a = query.b = here;
+        query.tolerance = 0.1;
+        for (const Technique technique :
+             {Technique::automatic, Technique::raster, Technique::compute, Technique::cpu}) {
+            query.technique = technique;
+            bend(query);
+            Batch batch;
+            const auto handle = batch.add(query);
+            Results results;
+            const Status status = context->run(batch, results);
+            EXPECT_TRUE(status.ok()) << status.text();
+            expect_refused(results[handle].status, StatusCode::invalid_query, words);
+        }
+    };
+    try_query(
+        PenetrationQuery{}, [](auto& query) { query.points = beyond(PenetrationPoints::vertices); },
+        "the points are no enumerator: 2");
+    try_query(
+        PenetrationQuery{}, [](auto& query) { query.technique = beyond(Technique::cpu); },
+        "the technique is no enumerator: 4");
+    try_query(
+        IntersectionQuery{},
+        [](auto& query) { query.kind = beyond(IntersectionKind::volume_volume); },
+        "the kind is no enumerator: 3");
+    try_query(
+        IntersectionQuery{},
+        [](auto& query) { query.strategy = beyond(IntersectionStrategy::depth); },
+        "the strategy is no enumerator: 4");
+    try_query(
+        DistanceFieldQuery{}, [](auto& query) { query.sign = beyond(SignEncoding::feature_bit); },
+        "the sign encoding is no enumerator: 3");
+    try_query(
+        DistanceFieldQuery{}, [](auto& query) { query.gradient = beyond(GradientMethod::blended); },
+        "the gradient method is no enumerator: 3");
+    try_query(
+        ContactQuery{},
+        [](auto& query) {
+            query.contact_distance = 0.1;
+            query.normals = beyond(ContactNormals::gradient);
+        },
+        "the normals are no enumerator: 2");
+    const std::string graph = context->describe_graph(beyond(GraphFormat::graphviz));
+    EXPECT_NE(graph.find("no enumerator: 2"), std::string::npos) << graph;
+}
+
+#ifndef NEARFIELD_SHADER_RELOAD
+TEST_F(BadStructures, ShadersToReloadWhereTheLibraryWasBuiltWithoutThat) {
+    Expected<Context> context = Context::create(driver_.host());
+    ASSERT_TRUE(context.ok()) << context.status().text();
+    driver_.forget_calls();
+    expect_refused(context->reload_shaders().status(), StatusCode::unavailable,
+                   "NEARFIELD_SHADER_RELOAD");
+}
+#endif
+
+}  // namespace
+}  // namespace nearfield::test

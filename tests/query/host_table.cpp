@@ -1,0 +1,123 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/every_query.hpp>
+#include <tests/query/host_table.hpp>
+
+#include <stdexcept>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::HostFrames;
+
+constexpr std::uint64_t seed = 8000;
+
+void expect_answers(const Results& results) {
+    for (std::size_t i = 0; i < results.results.size(); ++i) {
+        std::visit(
+            [&](const auto& result) {
+                EXPECT_TRUE(result.status.ok()) << i << ": " << result.status.text();
+            },
+            results.results[i]);
+    }
+}
+
+}  // namespace
+
+Scene::Scene(Context& owner) : context(&owner) {
+    Random random(seed);
+    const Expected<ShapeHandle> first = owner.add_shape(coast(random, 100, 0.5));
+    const Expected<ShapeHandle> second = owner.add_shape(with_holes(random, 3));
+    EXPECT_TRUE(first.ok() && second.ok());
+    a = *first;
+    b = *second;
+}
+
+Batch Scene::every(bool recordable) const {
+    return every_query(a, b, 0, recordable);
+}
+
+Batch Scene::small(double tolerance) const {
+    Batch batch;
+    IntersectionQuery query{{a, {}}, {b, {}}, tolerance};
+    query.records = false;
+    batch.add(query);
+    return batch;
+}
+
+Batch Scene::on_cpu() const {
+    Batch batch;
+    batch.add(SeparationQuery{{a, {}}, {b, {{3.0, 0.0}, 0.0}}, 0.1, Technique::cpu});
+    return batch;
+}
+
+std::vector<double> Scene::run(const Batch& batch) const {
+    Results results;
+    const Status status = context->run(batch, results);
+    EXPECT_TRUE(status.ok()) << status.text();
+    expect_answers(results);
+    return all_numbers(results);
+}
+
+std::vector<double> Scene::collect(const Expected<Ticket>& ticket) const {
+    EXPECT_TRUE(ticket.ok()) << ticket.status().text();
+    if (!ticket.ok()) {
+        return {};
+    }
+    Results results;
+    const Status status = context->collect(*ticket, results);
+    EXPECT_TRUE(status.ok()) << status.text();
+    expect_answers(results);
+    return all_numbers(results);
+}
+
+std::vector<double> Scene::record(const Batch& batch, HostFrames& host, std::uint64_t frame) const {
+    const Expected<Ticket> ticket =
+        context->record(batch, {.commands = host.begin(frame), .frame = frame});
+    host.submit(frame);
+    host.wait(frame);
+    context->frame_completed(frame);
+    return collect(ticket);
+}
+
+Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
+    Settings settings;
+    settings.frames_in_flight = frames;
+    Expected<Context> made = Context::create(device, drawing(settings));
+    if (!made.ok()) {
+        throw std::runtime_error(made.status().text());
+    }
+    return std::move(*made);
+}
+
+namespace {
+
+std::set<std::string>* names_asked = nullptr;
+PFN_vkGetInstanceProcAddr true_get_instance = nullptr;
+PFN_vkGetDeviceProcAddr true_get_device = nullptr;
+
+PFN_vkVoidFunction VKAPI_CALL asked_of_device(VkDevice device, const char* name) {
+    names_asked->insert(name);
+    return true_get_device(device, name);
+}
+
+PFN_vkVoidFunction VKAPI_CALL asked_of_instance(VkInstance instance, const char* name) {
+    names_asked->insert(name);
+    if (std::string(name) == "vkGetDeviceProcAddr") {
+        return reinterpret_cast<PFN_vkVoidFunction>(&asked_of_device);
+    }
+    return true_get_instance(instance, name);
+}
+
+}  // namespace
+
+HostDevice noting_names(const HostDevice& host, std::set<std::string>& names) {
+    names_asked = &names;
+    true_get_instance = host.get_instance_proc_addr;
+    true_get_device =
+        test_support::host_function<PFN_vkGetDeviceProcAddr>(host, "vkGetDeviceProcAddr");
+    HostDevice noting = host;
+    noting.get_instance_proc_addr = &asked_of_instance;
+    return noting;
+}
+
+}  // namespace nearfield::test

@@ -1,0 +1,119 @@
+#include <tests/support/mock_entry.hpp>
+
+#include <span>
+
+namespace nearfield::test_support::mock {
+
+VkResult perform(Tag_vkAllocateCommandBuffers tag, VkDevice,
+                 const VkCommandBufferAllocateInfo* info, VkCommandBuffer* buffers) {
+    driver().find(tag.name, info->commandPool);
+    for (std::uint32_t i = 0; i < info->commandBufferCount; ++i) {
+        buffers[i] = driver().make<VkCommandBuffer>(tag.name, number(info->commandPool));
+    }
+    return VK_SUCCESS;
+}
+
+VkResult perform(Tag_vkResetCommandPool tag, VkDevice, VkCommandPool pool,
+                 VkCommandPoolResetFlags) {
+    for (auto& [child, object] : driver().objects) {
+        if (object.parent == number(pool)) {
+            driver().expect_unused(tag.name, child);
+            object.commands = MockObject::Commands::empty;
+            object.needs.clear();
+            object.writes.clear();
+        }
+    }
+    return VK_SUCCESS;
+}
+
+VkResult perform(Tag_vkBeginCommandBuffer tag, VkCommandBuffer commands,
+                 const VkCommandBufferBeginInfo*) {
+    driver().change(tag.name, number(commands), MockObject::Commands::empty,
+                    MockObject::Commands::recording);
+    return VK_SUCCESS;
+}
+
+VkResult perform(Tag_vkEndCommandBuffer tag, VkCommandBuffer commands) {
+    driver().change(tag.name, number(commands), MockObject::Commands::recording,
+                    MockObject::Commands::executable);
+    return VK_SUCCESS;
+}
+
+void perform(Tag_vkCmdBeginRenderPass tag, VkCommandBuffer commands,
+             const VkRenderPassBeginInfo* info, VkSubpassContents) {
+    use(tag.name, commands, info->renderPass);
+    use(tag.name, commands, info->framebuffer);
+}
+
+void perform(Tag_vkCmdBindDescriptorSets tag, VkCommandBuffer commands, VkPipelineBindPoint,
+             VkPipelineLayout layout, std::uint32_t, std::uint32_t count,
+             const VkDescriptorSet* sets, std::uint32_t, const std::uint32_t*) {
+    use(tag.name, commands, layout);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        use(tag.name, commands, sets[i]);
+    }
+}
+
+void perform(Tag_vkCmdBindVertexBuffers tag, VkCommandBuffer commands, std::uint32_t,
+             std::uint32_t count, const VkBuffer* buffers, const VkDeviceSize*) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+        use(tag.name, commands, buffers[i]);
+    }
+}
+
+void perform(Tag_vkCmdPipelineBarrier tag, VkCommandBuffer commands, VkPipelineStageFlags,
+             VkPipelineStageFlags, VkDependencyFlags, std::uint32_t, const VkMemoryBarrier*,
+             std::uint32_t buffer_count, const VkBufferMemoryBarrier* buffers,
+             std::uint32_t image_count, const VkImageMemoryBarrier* images) {
+    for (std::uint32_t i = 0; i < buffer_count; ++i) {
+        use(tag.name, commands, buffers[i].buffer);
+    }
+    for (std::uint32_t i = 0; i < image_count; ++i) {
+        use(tag.name, commands, images[i].image);
+    }
+}
+
+namespace {
+
+/// Notes what is to be written when the commands are executed; a breach where the words are not
+/// there.
+void note(std::string_view call, VkCommandBuffer commands, const MockWrite& write) {
+    const auto outside = [](Number buffer, std::uint64_t first, std::uint64_t words) {
+        return (first + words) * sizeof(std::uint32_t) > driver().objects[buffer].bytes;
+    };
+    if (outside(write.buffer, write.first_word, write.words) ||
+        (write.from != 0 && outside(write.from, write.first_word_from, write.words))) {
+        driver().breach(call, "words that are not in the buffer");
+    }
+    if (!driver().objects[write.buffer].written) {
+        driver().breach(call, "a buffer that is not to be written (VK_BUFFER_USAGE_TRANSFER_DST)");
+    }
+    if (MockObject* const object = driver().find(call, commands)) {
+        object->writes.push_back(write);
+    }
+}
+
+}  // namespace
+
+void perform(Tag_vkCmdFillBuffer tag, VkCommandBuffer commands, VkBuffer buffer,
+             VkDeviceSize offset, VkDeviceSize size, std::uint32_t value) {
+    use(tag.name, commands, buffer);
+    note(tag.name, commands, {number(buffer), offset / sizeof(value), size / sizeof(value), value});
+}
+
+void perform(Tag_vkCmdCopyBuffer tag, VkCommandBuffer commands, VkBuffer from, VkBuffer to,
+             std::uint32_t count, const VkBufferCopy* regions) {
+    use(tag.name, commands, from);
+    use(tag.name, commands, to);
+    if (!driver().objects[number(from)].copied_from) {
+        driver().breach(tag.name, "a buffer to copy from (VK_BUFFER_USAGE_TRANSFER_SRC)");
+    }
+    constexpr std::uint64_t word = sizeof(std::uint32_t);
+    for (const VkBufferCopy& region : std::span(regions, count)) {
+        note(tag.name, commands,
+             {number(to), region.dstOffset / word, region.size / word, 0, number(from),
+              region.srcOffset / word});
+    }
+}
+
+}  // namespace nearfield::test_support::mock

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace nearfield::test_support {
+
+/// A copy of the library's shaders, to change; gone in the end.
+class ShaderFolder {
+public:
+    /// Throws std::filesystem::filesystem_error where it cannot be made.
+    ShaderFolder();
+    ~ShaderFolder();
+    ShaderFolder(const ShaderFolder&) = delete;
+    ShaderFolder& operator=(const ShaderFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// Replaces the first place of a file with that text. Throws std::logic_error where there is
+    /// none.
+    void replace(const std::string& file, const std::string& text, const std::string& by) const;
+    /// The file as the library has it.
+    void restore(const std::string& file) const;
+
+private:
+    std::filesystem::path path_;
+};
+
+}  // namespace nearfield::test_support
