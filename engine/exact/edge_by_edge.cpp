@@ -18,8 +18,8 @@ bool is_unique(const EdgeArrays& edges, const Vector& point, const NearestPoint&
     const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin;
     std::array<std::uint32_t, padded(most_edges_one_by_one)> near;
     // What is clearly farther needs no closer look.
-    const std::uint32_t count =
-        kernels::find_edges_within(edges, point.x(), point.y(), beyond_rounding(limit), near.data());
+    const std::uint32_t count = kernels::find_edges_within(edges, point.x(), point.y(),
+                                                           beyond_rounding(limit), near.data());
     if (count <= 1) {
         return true;  // none but the nearest
     }

@@ -34,7 +34,7 @@ struct QueryRequest {
     PenetrationPoints points = PenetrationPoints::boundary;         ///< of penetration
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of intersection
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of intersection
-    bool records = true;                     ///< of penetration, intersection and contacts
+    bool records = true;  ///< of penetration, intersection and contacts
     /// Of contacts, default: tolerance; of time-of-impact, default: 0.
     std::optional<double> contact_distance;
     ContactNormals normals = ContactNormals::analytic;  ///< of contacts
