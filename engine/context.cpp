@@ -60,21 +60,21 @@ const char* gradient_format(const gpu::Device& device) {
     return graph::find_format(device.gradient_format())->name;
 }
 
-/// Everything made of pipelines and of memory that they work on.
-struct Machinery {
-    Machinery(const gpu::Device& device, const Settings& settings, const CostModel& costs,
-              ShapeStore& shapes)
-        : renderer(device),
-          ring(settings.frames_in_flight, plan_limits(device, settings), costs, settings.jobs,
-               gradient_format(device), renderer, shapes) {}
-
-    Renderer renderer;
-    FrameRing ring;
-};
-
 }  // namespace
 
 class Context::Implementation {
+    /// Everything made of pipelines and of memory that they work on.
+    struct Machinery {
+        Machinery(const gpu::Device& device, const Settings& settings, const CostModel& costs,
+                  ShapeStore& shapes)
+            : renderer(device),
+              ring(settings.frames_in_flight, plan_limits(device, settings), costs, settings.jobs,
+                   gradient_format(device), renderer, shapes) {}
+
+        Renderer renderer;
+        FrameRing ring;
+    };
+
 public:
     Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
                    const Settings& settings)
