@@ -31,10 +31,10 @@ using Ring = std::vector<Vector2>;
 /// `largest_coordinate`, all rings together are smaller than `smallest_extent`, or have more than
 /// `most_vertices` vertices.
 inline constexpr double largest_coordinate = 1e12;
-/// The least that the longer side of a shape's bounding box may be. Nothing underflows then: what is
-/// given in single precision (values of fields, what stays on the device) is a normal number down to
-/// a millionth of the smallest tolerance that double precision resolves in such a shape, and so are
-/// products of lengths in double precision.
+/// The least that the longer side of a shape's bounding box may be. Nothing underflows then: what
+/// is given in single precision (values of fields, what stays on the device) is a normal number
+/// down to a millionth of the smallest tolerance that double precision resolves in such a shape,
+/// and so are products of lengths in double precision.
 inline constexpr double smallest_extent = 1e-20;
 /// The most vertices that all rings of a shape together may have.
 inline constexpr std::uint32_t most_vertices = 1U << 28U;
