@@ -73,7 +73,7 @@ std::uint32_t ShaderReload::compile_changed(const char* folder) {
         add_text(sources, sources / source.file, added, texts[source.file]);
     }
     const std::uint32_t changed = compile(sources, texts);
-    compiled_ = std::move(texts);
+    former_texts_ = std::exchange(compiled_, std::move(texts));
     return changed;
 }
 
@@ -102,13 +102,13 @@ std::uint32_t ShaderReload::compile(const fs::path& folder, const Texts& texts) 
             });
         }
     }
-    former_ = std::exchange(device_->shader_words(), std::move(words));
+    former_words_ = std::exchange(device_->shader_words(), std::move(words));
     return changed;
 }
 
 void ShaderReload::take_back() {
-    device_->shader_words() = std::move(former_);
-    compiled_.clear();
+    device_->shader_words() = std::move(former_words_);
+    compiled_ = std::move(former_texts_);
 }
 
 }  // namespace nearfield::reload

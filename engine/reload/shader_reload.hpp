@@ -21,7 +21,7 @@ public:
     /// Failure (invalid_shader) with the compiler's words, which it logs too; nothing has changed
     /// then.
     [[nodiscard]] std::uint32_t compile_changed(const char* folder);
-    /// What came of the last compile_changed() is of no use: goes back to what was used before it.
+    /// What came of the last compile_changed() is of no use: goes back to what was before it, once.
     void take_back();
 
 private:
@@ -30,8 +30,9 @@ private:
     [[nodiscard]] std::uint32_t compile(const std::filesystem::path& folder, const Texts& texts);
 
     const gpu::Device* device_;
-    Texts compiled_;  // the text that each shader was compiled from last, with what it includes
-    gpu::ShaderWords former_;
+    Texts compiled_;      // the text that each shader was compiled from last, with what it includes
+    Texts former_texts_;  // before the last compile_changed()
+    gpu::ShaderWords former_words_;
 };
 
 }  // namespace nearfield::reload

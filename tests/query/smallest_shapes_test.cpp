@@ -88,7 +88,7 @@ TEST_F(SmallestShapes, AreAnsweredAsLargerOnes) {
     const Expected<ShapeHandle> small_b = context().add_shape(scaled(rings_b));
     ASSERT_TRUE(a.ok() && b.ok()) << "as they are";
     ASSERT_TRUE(small_a.ok() && small_b.ok()) << small_a.status().text();
-    const Batch batch = every_query(*a, *b, 1);
+    const Batch batch = every_query(*a, *b, 1, false);
     std::vector<std::vector<Vector2>> points;
     points.reserve(batch.queries().size());
     const Batch small_batch = scaled(batch, *a, *b, *small_a, *small_b, points);

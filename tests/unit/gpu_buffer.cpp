@@ -140,14 +140,15 @@ VkResult VKAPI_CALL refusing_allocate(VkDevice device, const VkMemoryAllocateInf
         test_support::true_device_function("vkAllocateMemory"))(device, info, callbacks, memory);
 }
 
-TEST_F(GpuBuffer, MakesDoWithOtherMemoryAndIsEmptyWhereThereIsNone) {
+/// That it makes do with other memory where one type has none left is tested on a driver that has
+/// several (tests/driver).
+TEST_F(GpuBuffer, IsEmptyWhereThereIsNoMemoryOfAnyType) {
     Lies lies;
     lies.entry_points["vkAllocateMemory"] =
         reinterpret_cast<PFN_vkVoidFunction>(&refusing_allocate);
     const FakeLoader fake(host_.device(), lies);
     const gpu::Device device(fake.host());
     MappedBuffer buffer(device, storage, Direction::upload, "edges");
-    refusals_left = 1;
     EXPECT_TRUE(buffer.reserve(10));
     refusals_left = 1000;
     try {
