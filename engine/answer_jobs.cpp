@@ -73,12 +73,12 @@ void AnswerJobs::divide(const plan::Plan& plan, std::size_t queries) {
 void AnswerJobs::run(Job& job, std::size_t first_part, std::size_t step, const Work& work) const {
     for (std::size_t part = first_part; part < ends_.size(); part += step) {
         const std::size_t first = part == 0 ? 0 : ends_[part - 1];
-        job.answers.write(work.plan, first, ends_[part], true, work.words, work.fields,
-                          work.results);
+        job.answered += job.answers.write(work.plan, first, ends_[part], true, work.words,
+                                          work.fields, work.results);
     }
 }
 
-void AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
+std::size_t AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
     struct Call {
         AnswerJobs& all;
         std::uint32_t jobs;
@@ -86,6 +86,7 @@ void AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
     } call{*this, jobs, work};
     for (std::uint32_t i = 0; i < jobs; ++i) {
         jobs_[i]->answers.begin_batch();
+        jobs_[i]->answered = 0;
         jobs_[i]->done = false;
     }
     const auto run_one = [](void* data, std::uint32_t number) {
@@ -106,37 +107,35 @@ void AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
                                std::to_string(jobs) + " was not done"});
         }
     }
+    std::size_t answered = 0;
     std::exception_ptr failure;
     for (std::uint32_t i = 0; i < jobs; ++i) {
+        answered += jobs_[i]->answered;
         const std::exception_ptr own = std::exchange(jobs_[i]->failure, nullptr);
         failure = failure ? failure : own;
     }
     if (failure) {
         std::rethrow_exception(failure);
     }
+    return answered;
 }
 
-void AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
-                               FieldDecoder& fields, std::vector<AnyResult>& results) {
+std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
+                                      FieldDecoder& fields, std::vector<AnyResult>& results) {
     if (system_.run != nullptr) {
         divide(plan, results.size());
         const std::size_t jobs = std::min<std::size_t>(ends_.size(), system_.count);
         if (jobs > 1) {
-            run_at_once(static_cast<std::uint32_t>(jobs), {plan, words, fields, results});
-            return;
+            return run_at_once(static_cast<std::uint32_t>(jobs), {plan, words, fields, results});
         }
     }
     QueryAnswers& answers = jobs_.front()->answers;
     answers.begin_batch();
-    answers.write(plan, 0, results.size(), true, words, fields, results);
+    return answers.write(plan, 0, results.size(), true, words, fields, results);
 }
 
 void AnswerJobs::finish(const plan::Plan& plan, std::span<std::uint32_t> words,
                         FieldDecoder& fields, std::vector<AnyResult>& results) {
-    if (std::all_of(plan.queries.begin(), plan.queries.end(),
-                    [](const plan::PlannedQuery& query) { return query.on_cpu; })) {
-        return;
-    }
     // Other batches may have been answered in between.
     QueryAnswers& answers = jobs_.front()->answers;
     answers.begin_batch();

@@ -23,9 +23,9 @@ public:
     static void check(const JobSystem& jobs);
 
     /// Writes the results of the queries that the CPU answers. Throws what a job threw, of several
-    /// what the first of them did. See QueryAnswers::write().
-    void answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words, FieldDecoder& fields,
-                       std::vector<AnyResult>& results);
+    /// what the first of them did. See QueryAnswers::write(). Returns how many there were.
+    std::size_t answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
+                              FieldDecoder& fields, std::vector<AnyResult>& results);
     /// Writes the results of the others, in the thread that calls.
     void finish(const plan::Plan& plan, std::span<std::uint32_t> words, FieldDecoder& fields,
                 std::vector<AnyResult>& results);
@@ -34,6 +34,7 @@ private:
     /// One job of a batch, and what it leaves.
     struct Job {
         QueryAnswers answers;
+        std::size_t answered = 0;
         std::exception_ptr failure;
         bool done = false;
     };
@@ -48,7 +49,7 @@ private:
     void divide(const plan::Plan& plan, std::size_t queries);
     /// Every so many parts from one on.
     void run(Job& job, std::size_t first_part, std::size_t step, const Work& work) const;
-    void run_at_once(std::uint32_t jobs, const Work& work);
+    std::size_t run_at_once(std::uint32_t jobs, const Work& work);
 
     JobSystem system_;
     std::vector<std::unique_ptr<Job>> jobs_;  // at least one, for who has no system

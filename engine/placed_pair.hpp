@@ -15,10 +15,6 @@ struct InstancePairIndex {
     static constexpr std::uint32_t none = UINT32_MAX;
     std::uint32_t a = none;
     std::uint32_t b = none;
-
-    [[nodiscard]] bool is_reverse_of(const InstancePairIndex& other) const {
-        return a == other.b && b == other.a;
-    }
 };
 
 [[nodiscard]] inline bool same(const Pose& a, const Pose& b) {

@@ -1,6 +1,7 @@
 #include <engine/exact/edge_by_edge.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/region.hpp>
 #include <engine/point_penetration.hpp>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 
 namespace nearfield {
 
-using exact::EdgeArrays;
 using exact::PlacedEdges;
 using exact::PointArrays;
 using geometry::Vector;
@@ -24,7 +24,9 @@ Vector point_of(const PointArrays& points, std::uint32_t i) {
 
 void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                               PenetrationResult& result) {
-    const InstancePairIndex pair = place_pair(query, instances);
+    const bool reversed = last_.query + 1 == &query && is_reverse(*last_.query, query);
+    const InstancePairIndex pair =
+        reversed ? InstancePairIndex{last_.index.b, last_.index.a} : place_pair(query, instances);
     const PlacedEdges& a = instances[pair.a];
     const PlacedEdges& b = instances[pair.b];
     if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
@@ -32,18 +34,20 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         return;
     }
     complete_if_near(pair, instances);
-    const bool reversed = last_.query + 1 == &query && pair.is_reverse_of(last_.index);
+    const auto& asked = std::get<PenetrationQuery>(*query.query);
+    if (asked.records && a.box.intersects(b.box)) {
+        result.regions.push_back(
+            plan::region_of(plan::Grid::covering(a.box.intersection(b.box), result.cell)));
+    }
     if (!reversed || last_.intersects) {
         margin_ = result.tolerance * plan::uniqueness_margin;
         if (a.box.intersects(b.box)) {
-            const auto& asked = std::get<PenetrationQuery>(*query.query);
             const double touching = a.rounding + b.rounding;
             if (asked.points == PenetrationPoints::vertices) {
-                find_penetrating(a.starts(), b, touching, b, result, asked.records);
+                find_penetrating(a.starts(), touching, b, result, asked.records);
             } else {
-                find_penetrating(samples_.sample(a, b.box, result.cell),
-                                 is_small(b) ? edges_beside(a, b) : EdgeArrays(b), touching, b,
-                                 result, asked.records);
+                find_penetrating(samples_.sample(a, b.box, result.cell), touching, b, result,
+                                 asked.records);
             }
         }
         // Of a ring of A that lies in B some point is found: it has a vertex that is a sample.
@@ -53,20 +57,13 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
     last_ = {&query, pair, result.intersects};
 }
 
-EdgeArrays PointPenetration::edges_beside(const PlacedEdges& a, const PlacedEdges& b) {
-    const exact::Extent common = exact::extent_of(a.box.intersection(b.box));
-    beside_.pick(b, {common.low_x - a.rounding, common.low_y - a.rounding,
-                     std::numeric_limits<double>::infinity(), common.high_y + a.rounding});
-    return beside_.empty() ? EdgeArrays(b) : beside_.edges();
-}
-
-void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArrays& beside,
-                                        double touching, const PlacedEdges& b,
-                                        PenetrationResult& result, bool keep_records) {
+void PointPenetration::find_penetrating(const PointArrays& points, double touching,
+                                        const PlacedEdges& b, PenetrationResult& result,
+                                        bool keep_records) {
     std::size_t deepest = 0;
     exact::NearestPoint way_out;
     way_out.on_edge.squared_distance = 0.0;
-    const std::span<const std::uint32_t> inside = find_inside(points, beside, b);
+    const std::span<const std::uint32_t> inside = find_inside(points, b);
     result.intersects = !inside.empty();
     for (std::size_t i = 0; i < inside.size(); ++i) {
         const Vector point = point_of(points, inside[i]);
@@ -91,7 +88,6 @@ void PointPenetration::find_penetrating(const PointArrays& points, const EdgeArr
 }
 
 std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& points,
-                                                             const EdgeArrays& beside,
                                                              const PlacedEdges& b) {
     // Each by itself: where memory ran out between the two, they differ.
     const std::size_t room = exact::padded(points.count);
@@ -104,8 +100,8 @@ std::span<const std::uint32_t> PointPenetration::find_inside(const PointArrays& 
         near_last_ = 0;
         return {inside_.data(), boundary_.keep_inside(points, std::span(inside_).first(in_box))};
     }
-    const std::uint32_t count =
-        exact::kernels::find_points_inside(points, exact::extent_of(b.box), beside, inside_.data());
+    const std::uint32_t count = exact::kernels::find_points_inside(
+        points, exact::extent_of(b.box), b, inside_.data(), beside_.data());
     const std::span<const std::uint32_t> inside(inside_.data(), count);
     near_b_.pick(points, inside, b, margin_);
     exact::kernels::find_nearest_of(points, inside_.data(), count, near_b_.edges(),

@@ -10,6 +10,7 @@
 #include <engine/point_resolver.hpp>
 #include <nearfield/result.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,17 +40,12 @@ private:
         bool intersects = false;
     };
 
-    /// The edges of B that count for which points of A in B's box lie inside: those beside them,
-    /// where a ray to the right from one may cross them.
-    [[nodiscard]] exact::EdgeArrays edges_beside(const exact::PlacedEdges& a,
-                                                 const exact::PlacedEdges& b);
     /// Of points of A. Those nearer to B's boundary than `touching` are on it.
-    void find_penetrating(const exact::PointArrays& points, const exact::EdgeArrays& beside,
-                          double touching, const exact::PlacedEdges& b, PenetrationResult& result,
+    void find_penetrating(const exact::PointArrays& points, double touching,
+                          const exact::PlacedEdges& b, PenetrationResult& result,
                           bool keep_records);
     /// Lists the points inside B, and finds what is nearest to them where B is small.
     [[nodiscard]] std::span<const std::uint32_t> find_inside(const exact::PointArrays& points,
-                                                             const exact::EdgeArrays& beside,
                                                              const exact::PlacedEdges& b);
     /// Of the point that was listed as number i; in order, so that each is near the one before.
     [[nodiscard]] exact::NearestPoint find_nearest(const exact::PlacedEdges& b, std::size_t i,
@@ -63,9 +59,10 @@ private:
 
     exact::Boundary boundary_;  // of B, where it has many edges
     exact::MeetingFinder meeting_;
-    EdgeSamples samples_;                       // of A
-    exact::PickedEdges beside_;                 // of a small B
-    EdgesNearPoints near_b_;                    // of a small B, near the points inside
+    EdgeSamples samples_;     // of A
+    EdgesNearPoints near_b_;  // of a small B, near the points inside
+    // Edges of a small B, beside the points.
+    std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> beside_{};
     std::vector<std::uint32_t> inside_;         // points of A
     std::vector<exact::NearestEdges> nearest_;  // to them, of near_b_
     std::uint32_t near_last_ = 0;               // an edge of B near the last point

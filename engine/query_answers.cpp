@@ -66,14 +66,16 @@ void QueryAnswers::finish_penetration(const plan::Plan& plan, const PlannedQuery
     result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
 }
 
-void QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end, bool on_cpu,
-                         std::span<std::uint32_t> words, FieldDecoder& fields,
-                         std::vector<AnyResult>& results) {
+std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end,
+                                bool on_cpu, std::span<std::uint32_t> words, FieldDecoder& fields,
+                                std::vector<AnyResult>& results) {
+    std::size_t count = 0;
     for (std::size_t i = first; i < end; ++i) {
         const PlannedQuery& planned = plan.queries[i];
         if (planned.on_cpu != on_cpu) {
             continue;
         }
+        ++count;
         if (on_cpu) {
             find_points(plan, planned, words);
         }
@@ -130,6 +132,7 @@ void QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t 
             }
         }
     }
+    return count;
 }
 
 }  // namespace nearfield

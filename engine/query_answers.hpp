@@ -33,10 +33,10 @@ public:
     /// Writes the results of some queries of the batch: of those from `first` on and before `end`
     /// that the CPU answers, or of the others there. `words`: by point of the plan, what the device
     /// said; of what the CPU answers they are written here. The field decoder is told how far a
-    /// field reaches.
-    void write(const plan::Plan& plan, std::size_t first, std::size_t end, bool on_cpu,
-               std::span<std::uint32_t> words, FieldDecoder& fields,
-               std::vector<AnyResult>& results);
+    /// field reaches. Returns how many there were.
+    std::size_t write(const plan::Plan& plan, std::size_t first, std::size_t end, bool on_cpu,
+                      std::span<std::uint32_t> words, FieldDecoder& fields,
+                      std::vector<AnyResult>& results);
 
 private:
     /// Whether the shapes of a query share a point.

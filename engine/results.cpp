@@ -59,12 +59,14 @@ void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
 }
 
 void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
-    answers_->answer_on_cpu(plan, words_, fields_, results);
+    left_ = results.size() - answers_->answer_on_cpu(plan, words_, fields_, results);
 }
 
 void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
     write_drawn_samples(results);
-    answers_->finish(plan, words_, fields_, results);
+    if (left_ > 0) {
+        answers_->finish(plan, words_, fields_, results);
+    }
 }
 
 }  // namespace nearfield

@@ -6,6 +6,7 @@
 #include <engine/plan/round.hpp>
 #include <nearfield/result.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,6 +55,7 @@ private:
     void write_drawn_samples(std::vector<AnyResult>& results);
 
     AnswerJobs* answers_;
+    std::size_t left_ = 0;              // queries of the batch that the CPU did not answer
     std::vector<std::uint32_t> words_;  // by point of the plan
     std::vector<FoundSample> samples_;
     FieldDecoder fields_;

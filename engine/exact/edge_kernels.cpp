@@ -55,7 +55,17 @@ bool Contain(const EdgeArrays& edges, double point_x, double point_y) {
     return (std::popcount(bits_of(are_negative(odd))) & 1) != 0;
 }
 
-/// Fewer points are quicker held against several edges at once than several points against one.
+std::uint32_t FindEdgesIn(const EdgeArrays& edges, const Extent& box, std::uint32_t* found) {
+    const Tag tag;
+    const LanesOfExtent bounds = lanes_of(box);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
+        count = append_lanes(meet(bounds, EdgeLanes(edges, i)), i, edges.count, found, count);
+    }
+    return count;
+}
+
+/// So many points are quicker held against several edges at once than several points against one.
 constexpr std::uint32_t few_points = 4;
 
 /// As many listed points as there are lanes; of fewer the last one fills the rest.
@@ -78,30 +88,43 @@ struct PointLanes {
     }
 };
 
+/// The box around listed points; at least one.
+Extent extent_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count) {
+    Extent box{points.x[listed[0]], points.y[listed[0]], points.x[listed[0]], points.y[listed[0]]};
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const double x = points.x[listed[i]];
+        const double y = points.y[listed[i]];
+        box = {std::min(box.low_x, x), std::min(box.low_y, y), std::max(box.high_x, x),
+               std::max(box.high_y, y)};
+    }
+    return box;
+}
+
 std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,
-                               const EdgeArrays& edges, std::uint32_t* found) {
+                               const EdgeArrays& edges, std::uint32_t* found,
+                               std::uint32_t* crossed) {
     const Tag tag;
     const std::uint32_t in_box = FindPointsIn(points, box, found);
+    if (in_box == 0) {
+        return 0;
+    }
+    // A ray to the right crosses no edges but those.
+    Extent rays = extent_of(points, found, in_box);
+    rays.high_x = std::numeric_limits<double>::infinity();
+    const std::uint32_t beside = FindEdgesIn(edges, rays, crossed);
     std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < in_box;) {
-        if (in_box - i <= few_points) {
-            const std::uint32_t point = found[i++];
-            found[count] = point;
-            count += Contain(edges, points.x[point], points.y[point]) ? 1U : 0U;
-            continue;
-        }
+    for (std::uint32_t i = 0; i < in_box; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
         const auto together = std::min(in_box - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
         const PointLanes lanes(points, found + i, together);
         Lanes odd = hn::Zero(tag);
-        for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, edge), lanes.x, lanes.y));
+        for (std::uint32_t k = 0; k < beside; ++k) {
+            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, crossed[k]), lanes.x, lanes.y));
         }
         const std::uint32_t inside = bits_of(are_negative(odd));
         for (std::uint32_t k = 0; k < together; ++k) {
             found[count] = found[i + k];
             count += inside >> k & 1U;
         }
-        i += together;
     }
     return count;
 }
@@ -179,12 +202,13 @@ private:
 void FindNearestOf(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
                    const EdgeArrays& edges, NearestEdges* nearest) {
     const Tag tag;
-    for (std::uint32_t i = 0; i < count;) {
-        if (count - i <= few_points) {
+    if (count <= few_points) {
+        for (std::uint32_t i = 0; i < count; ++i) {
             nearest[i] = {FindNearest(edges, points.x[listed[i]], points.y[listed[i]]).edge};
-            ++i;
-            continue;
         }
+        return;
+    }
+    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
         const auto together = std::min(count - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
         const PointLanes lanes(points, listed + i, together);
         NearestOfLanes search;
@@ -193,7 +217,6 @@ void FindNearestOf(const PointArrays& points, const std::uint32_t* listed, std::
                         hn::Set(tag, static_cast<double>(edge)));
         }
         search.Write(together, nearest + i);
-        i += together;
     }
 }
 
@@ -207,16 +230,6 @@ std::uint32_t FindEdgesWithin(const EdgeArrays& edges, double point_x, double po
     for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
         count = append_lanes(hn::Le(squared_distances(edges, i, x, y), limit), i, edges.count,
                              found, count);
-    }
-    return count;
-}
-
-std::uint32_t FindEdgesIn(const EdgeArrays& edges, const Extent& box, std::uint32_t* found) {
-    const Tag tag;
-    const LanesOfExtent bounds = lanes_of(box);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
-        count = append_lanes(meet(bounds, EdgeLanes(edges, i)), i, edges.count, found, count);
     }
     return count;
 }
@@ -303,8 +316,9 @@ std::uint32_t find_points_in(const PointArrays& points, const Extent& box, std::
 }
 
 std::uint32_t find_points_inside(const PointArrays& points, const Extent& box,
-                                 const EdgeArrays& edges, std::uint32_t* found) {
-    return HWY_DYNAMIC_DISPATCH(FindPointsInside)(points, box, edges, found);
+                                 const EdgeArrays& edges, std::uint32_t* found,
+                                 std::uint32_t* crossed) {
+    return HWY_DYNAMIC_DISPATCH(FindPointsInside)(points, box, edges, found, crossed);
 }
 
 bool contain(const EdgeArrays& edges, double x, double y) {

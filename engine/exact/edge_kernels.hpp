@@ -77,9 +77,10 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
                                            std::uint32_t* found);
 
 /// Lists the points in a closed box that lie inside the edges by the odd-even rule; for points on
-/// an edge either answer may come.
+/// an edge either answer may come. `crossed`: scratch with room for padded(edges.count) entries.
 [[nodiscard]] std::uint32_t find_points_inside(const PointArrays& points, const Extent& box,
-                                               const EdgeArrays& edges, std::uint32_t* found);
+                                               const EdgeArrays& edges, std::uint32_t* found,
+                                               std::uint32_t* crossed);
 
 /// By the odd-even rule, of one point.
 [[nodiscard]] bool contain(const EdgeArrays& edges, double x, double y);
@@ -87,8 +88,8 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 /// The edge nearest to a point, of equally near ones the first. At least one edge.
 [[nodiscard]] NearEdge find_nearest(const EdgeArrays& edges, double x, double y);
 
-/// The edges nearest to each of the `count` points that `listed` lists. Of a few points more than
-/// the nearest is not looked for.
+/// The edges nearest to each of the `count` points that `listed` lists. Where they are few, more
+/// than the nearest is not looked for.
 void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
                      const EdgeArrays& edges, NearestEdges* nearest);
 

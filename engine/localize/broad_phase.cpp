@@ -29,26 +29,46 @@ int widest_axis(std::span<const Box> boxes) {
 void BroadPhase::find(std::span<const Box> boxes, double reach, std::vector<Pair>& pairs) {
     pairs.clear();
     const int axis = widest_axis(boxes);
-    order_.resize(boxes.size());
-    std::iota(order_.begin(), order_.end(), 0U);
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return boxes[i].min()[axis] < boxes[j].min()[axis];
-    });
+    order_.clear();
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+        order_.emplace_back(boxes[i].min()[axis], i);
+    }
+    std::sort(order_.begin(), order_.end());
     // Next to each other, as they are swept over.
     sorted_.clear();
-    for (const std::uint32_t index : order_) {
+    for (const auto& [low, index] : order_) {
         sorted_.push_back(boxes[index]);
     }
+    found_.clear();
     for (std::size_t i = 0; i < sorted_.size(); ++i) {
         const Box& box = sorted_[i];
         const double end = box.max()[axis] + reach;
         for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].min()[axis] <= end; ++j) {
             if (boxes_meet(sorted_[j], box, reach)) {
-                pairs.emplace_back(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
+                found_.push_back(std::minmax(order_[i].second, order_[j].second));
             }
         }
     }
-    std::sort(pairs.begin(), pairs.end());
+    sort_found(boxes.size(), pairs);
+}
+
+void BroadPhase::sort_found(std::size_t boxes, std::vector<Pair>& pairs) {
+    // By the first box each to its place; few have the same one.
+    ends_.assign(boxes + 1, 0);
+    for (const Pair& pair : found_) {
+        ++ends_[pair.first + 1];
+    }
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    pairs.resize(found_.size());
+    for (const Pair& pair : found_) {
+        pairs[ends_[pair.first]++] = pair;
+    }
+    std::size_t first = 0;
+    for (std::size_t box = 0; box < boxes; ++box) {
+        const auto begin = pairs.begin() + static_cast<std::ptrdiff_t>(first);
+        first = ends_[box];
+        std::sort(begin, pairs.begin() + static_cast<std::ptrdiff_t>(first));
+    }
 }
 
 }  // namespace nearfield::localize

@@ -2,6 +2,7 @@
 
 #include <engine/geometry/vector.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -20,8 +21,13 @@ public:
     void find(std::span<const geometry::Box> boxes, double reach, std::vector<Pair>& pairs);
 
 private:
-    std::vector<std::uint32_t> order_;   // positions by low end along the axis
-    std::vector<geometry::Box> sorted_;  // in that order
+    /// Writes what was found in ascending order.
+    void sort_found(std::size_t boxes, std::vector<Pair>& pairs);
+
+    std::vector<std::pair<double, std::uint32_t>> order_;  // low ends along the axis, positions
+    std::vector<geometry::Box> sorted_;                    // in that order
+    std::vector<Pair> found_;                              // as they came up
+    std::vector<std::uint32_t> ends_;                      // of the pairs of each first box
 };
 
 }  // namespace nearfield::localize

@@ -3,6 +3,7 @@
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/region.hpp>
 #include <engine/plan/technique.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -199,14 +200,7 @@ void Planner::join_chain_boxes(const Box& within, double grow) {
 void Planner::add_regions(double cell, ResultSummary& result) {
     grids_.clear();
     for (const Box& box : boxes_) {
-        const Grid& grid = grids_.emplace_back(Grid::covering(box, cell));
-        const geometry::Vector max =
-            grid.origin + cell * geometry::Vector(static_cast<double>(grid.width),
-                                                  static_cast<double>(grid.height));
-        constexpr std::uint64_t most = UINT32_MAX;
-        result.regions.push_back({geometry::to_public(grid.origin), geometry::to_public(max),
-                                  static_cast<std::uint32_t>(std::min(grid.width, most)),
-                                  static_cast<std::uint32_t>(std::min(grid.height, most))});
+        result.regions.push_back(region_of(grids_.emplace_back(Grid::covering(box, cell))));
     }
 }
 

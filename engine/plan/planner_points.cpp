@@ -67,16 +67,9 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
-        // PointPenetration finds them itself; for whom keeps records, where they can be.
+        // PointPenetration finds them itself, and where they can be.
         if (query.records) {
             require_memory(sizeof(PenetrationRecord) * most_points, query.tolerance, 1.0);
-            boxes_.assign(1, PlacedPolygon(*planned.a, query.a.pose)
-                                 .box()
-                                 .intersection(PlacedPolygon(*planned.b, query.b.pose).box()));
-            if (boxes_.front().isEmpty()) {
-                boxes_.clear();
-            }
-            add_regions(result.cell, result);
         }
         return;
     }
