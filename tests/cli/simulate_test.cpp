@@ -27,6 +27,13 @@ TEST_F(Simulate, TellsObjectsLinesEnergiesTimesAndPenetration) {
     }
 }
 
+TEST_F(Simulate, PoursAsManyStarsAsAreAskedFor) {
+    const Json json = run({"pour", "--bodies", "30", "--frames", "3", "--technique", "cpu"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("objects"), 31);
+    EXPECT_EQ(json.at("lines"), 8 + 30 * 10);
+}
+
 TEST_F(Simulate, EveryRunIsTheSameButForTimes) {
     const Arguments links{"links", "--frames", "20", "--response", "backtracking"};
     const Json first = run(links);
@@ -71,6 +78,8 @@ TEST_F(Simulate, RefusesWhatItCannotDoBeforeItStarts) {
     expect_refused(simulate + Arguments{"map", "--response", "magic"}, {"--response", "magic"});
     expect_refused(simulate + Arguments{"map", "--technique", "magic"}, {"--technique", "magic"});
     expect_refused(simulate + Arguments{"map", "-d", "0"}, {"-d"});
+    expect_refused(simulate + Arguments{"map", "--bodies", "5"}, {"--bodies", "pour", "map"});
+    expect_refused(simulate + Arguments{"pour", "--bodies", "0"}, {"--bodies"});
     expect_refused(simulate + Arguments{"map", "--image", folder_.path("no/such/%d.png")},
                    {"no/such/0.png", "cannot be written"});
     expect_refused(simulate + Arguments{"map", "--image", folder_.path("%s.png")},
