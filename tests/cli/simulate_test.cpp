@@ -103,6 +103,20 @@ TEST_F(Simulate, ThePapersTablesAreNoneOfAScene) {
                    {"no/such.png", "cannot be written"});
 }
 
+TEST_F(Simulate, MakesAVideoOfAllFrames) {
+    const Outcome outcome =
+        run_program({"simulate", "wavy", "--frames", "3", "--video", folder_.path("wavy.mp4")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto files = folder_.contents();
+    ASSERT_TRUE(files.contains("wavy.mp4"));
+    // How such a file begins, and where it says how many frames there are: the start, and 3 more.
+    const std::string& video = files.at("wavy.mp4");
+    EXPECT_EQ(video.substr(4, 4), "ftyp");
+    const std::size_t sizes = video.find("stsz");
+    ASSERT_NE(sizes, std::string::npos);
+    EXPECT_EQ(static_cast<unsigned char>(video.at(sizes + 15)), 4U);
+}
+
 TEST_F(Simulate, WithoutFfmpegAVideoIsRefusedByName) {
     Surroundings surroundings;
     surroundings.environment = {{"PATH", folder_.path("")}};
