@@ -27,6 +27,13 @@ TEST_F(Simulate, TellsObjectsLinesEnergiesTimesAndPenetration) {
     }
 }
 
+TEST_F(Simulate, PoursAsManyStarsAsAreAskedFor) {
+    const Json json = run({"pour", "--bodies", "30", "--frames", "3", "--technique", "cpu"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("objects"), 31);
+    EXPECT_EQ(json.at("lines"), 8 + 30 * 10);
+}
+
 TEST_F(Simulate, EveryRunIsTheSameButForTimes) {
     const Arguments links{"links", "--frames", "20", "--response", "backtracking"};
     const Json first = run(links);
@@ -71,6 +78,8 @@ TEST_F(Simulate, RefusesWhatItCannotDoBeforeItStarts) {
     expect_refused(simulate + Arguments{"map", "--response", "magic"}, {"--response", "magic"});
     expect_refused(simulate + Arguments{"map", "--technique", "magic"}, {"--technique", "magic"});
     expect_refused(simulate + Arguments{"map", "-d", "0"}, {"-d"});
+    expect_refused(simulate + Arguments{"map", "--bodies", "5"}, {"--bodies", "pour", "map"});
+    expect_refused(simulate + Arguments{"pour", "--bodies", "0"}, {"--bodies"});
     expect_refused(simulate + Arguments{"map", "--image", folder_.path("no/such/%d.png")},
                    {"no/such/0.png", "cannot be written"});
     expect_refused(simulate + Arguments{"map", "--image", folder_.path("%s.png")},
@@ -92,6 +101,20 @@ TEST_F(Simulate, ThePapersTablesAreNoneOfAScene) {
     expect_refused({"bench", "--curves", folder_.path("curves.png")}, {"--curves", "--paper"});
     expect_refused({"bench", "--paper", "--curves", folder_.path("no/such.png")},
                    {"no/such.png", "cannot be written"});
+}
+
+TEST_F(Simulate, MakesAVideoOfAllFrames) {
+    const Outcome outcome =
+        run_program({"simulate", "wavy", "--frames", "3", "--video", folder_.path("wavy.mp4")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto files = folder_.contents();
+    ASSERT_TRUE(files.contains("wavy.mp4"));
+    // How such a file begins, and where it says how many frames there are: the start, and 3 more.
+    const std::string& video = files.at("wavy.mp4");
+    EXPECT_EQ(video.substr(4, 4), "ftyp");
+    const std::size_t sizes = video.find("stsz");
+    ASSERT_NE(sizes, std::string::npos);
+    EXPECT_EQ(static_cast<unsigned char>(video.at(sizes + 15)), 4U);
 }
 
 TEST_F(Simulate, WithoutFfmpegAVideoIsRefusedByName) {

@@ -135,6 +135,9 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
     command->add_option("--frames", arguments.frames, "How many frames; default 300")
         ->type_name("COUNT")
         ->check(CLI::Range(1U, 10'000'000U));
+    command->add_option("--bodies", arguments.bodies, "Of pour: how many stars; default 1000")
+        ->type_name("COUNT")
+        ->check(CLI::Range(1U, 1000U));
     command
         ->add_option("-d,--tolerance", arguments.tolerance,
                      "Tolerance d of the queries; default as the scene has it")
@@ -172,7 +175,7 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
 }
 
 void run_simulate(const SimulateArguments& arguments) {
-    dynamics::Scene scene = make_scene(arguments.scene, arguments.tolerance);
+    dynamics::Scene scene = make_scene(arguments.scene, arguments.tolerance, arguments.bodies);
     const dynamics::Response response = parse_response(arguments.response);
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);

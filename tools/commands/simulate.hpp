@@ -14,6 +14,7 @@ struct SimulateArguments {
     std::string scene;
     std::string response = "penalty";
     std::uint32_t frames = 300;
+    std::optional<std::uint32_t> bodies;
     std::optional<std::string> tolerance;
     std::optional<std::string> technique;
     SettingsArguments settings;

@@ -7,11 +7,15 @@
 
 namespace nearfield::tools {
 
-dynamics::Scene make_scene(const std::string& name, const std::optional<std::string>& tolerance) {
+dynamics::Scene make_scene(const std::string& name, const std::optional<std::string>& tolerance,
+                           std::optional<std::uint32_t> bodies) {
     std::string names;
     for (const scenes::NamedScene& scene : scenes::all_scenes()) {
         if (name == scene.name) {
-            dynamics::Scene made = scene.make();
+            if (bodies && name != "pour") {
+                throw InputError("--bodies: belongs to pour, not to " + name);
+            }
+            dynamics::Scene made = bodies ? scenes::pour_scene(*bodies) : scene.make();
             if (tolerance) {
                 made.tolerance = parse_positive(*tolerance, "-d");
             }

@@ -240,8 +240,8 @@ QueryRequest read_request(const JsonPlace& place) {
     if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
         place.member("reach").fail("belongs to the separation of all pairs");
     }
-    require_known_members(place, members_of(request.type));
     read_shared_members(place, request);
+    require_known_members(place, members_of(request.type));
     if (place.has("points")) {
         request.points = parse_member(place, "points", parse_points);
     }

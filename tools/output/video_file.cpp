@@ -52,8 +52,10 @@ VideoFile::VideoFile(const std::string& path, std::uint32_t width, std::uint32_t
     close(ends[0]);
     if (error != 0) {
         close(ends[1]);
-        throw InputError("--video: the program ffmpeg, which encodes videos, cannot be started: " +
-                         std::string(std::strerror(error)));
+        throw InputError(
+            "--video: the program ffmpeg, which encodes videos, cannot be started (in Debian it is "
+            "in the package ffmpeg): " +
+            std::string(std::strerror(error)));
     }
     pipe_ = ends[1];
     // Where ffmpeg ends early, writing is to fail and not to end this program.

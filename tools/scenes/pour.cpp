@@ -56,9 +56,11 @@ Scene pour_scene(std::size_t bodies) {
         scene.looks.push_back({random.between(0.0, 1.0)});
     }
     scene.surroundings.gravity = {0.0, -5.0};
-    scene.surroundings.drag = 0.5;
-    scene.touch = {2500.0, 12.0, 0.3, 0.1};
-    scene.frame_time = 1.0 / 120.0;
+    scene.surroundings.drag = 1.0;
+    scene.touch = {2500.0, 16.0, 0.3, 0.1};
+    // So short that the springs about a star, from all sides and of its neighbours as well, hold it
+    // and do not throw it: of these, frequency * time is about 1.
+    scene.frame_time = 1.0 / 240.0;
     scene.steps = 1;
     scene.view = {{-10.0, -8.5}, {10.0, 8.5}};
     return scene;

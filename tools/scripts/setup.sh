@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that are missing.
 #   setup.sh run    what building and running the command line needs
-#   setup.sh view   what building and running the live viewer needs
+#   setup.sh view   what building and running the live viewer needs, and videos of simulations
 #   setup.sh test   all that, and what the tests and checks need
 #   setup.sh bench  what building and running the benchmark beside other libraries needs
 set -euo pipefail
@@ -12,7 +12,7 @@ run_packages=(
     libvulkan-dev libvulkan1 mesa-vulkan-drivers
     libeigen3-dev libhwy-dev libcli11-dev nlohmann-json3-dev libpugixml-dev libcairo2-dev fonts-dejavu-core
 )
-viewer_packages=(libsdl2-dev libimgui-dev)
+viewer_packages=(libsdl2-dev libimgui-dev ffmpeg)
 test_packages=(
     "${viewer_packages[@]}"
     libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
