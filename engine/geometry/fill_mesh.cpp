@@ -1,5 +1,6 @@
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
+#include <engine/geometry/whole.hpp>
 
 #include <algorithm>
 #include <utility>
