@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
 const uint strip = 8u;
 
 void main() {
-    Tile tile = tiles[push.tile];
+    Tile tile = tile_at(push.tile);
     uint column = gl_GlobalInvocationID.x;
     uint first_row = gl_GlobalInvocationID.y * strip;
     if (summaries[push.tile].passed == 0u || column >= tile.width || first_row >= tile.height) {
