@@ -25,7 +25,7 @@ layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
 const uint strip = 8u;
 
 void main() {
-    Tile tile = tiles[push.tile];
+    Tile tile = tile_at(push.tile);
     uint column = gl_GlobalInvocationID.x;
     uint first_row = gl_GlobalInvocationID.y * strip;
     bool keeps = push.first_hit != not_kept;

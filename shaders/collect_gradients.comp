@@ -32,7 +32,7 @@ layout(push_constant) uniform Push {
 } push;
 
 void write(uint word, uint tile_index, ivec2 cell) {
-    Tile tile = tiles[tile_index];
+    Tile tile = tile_at(tile_index);
     vec2 gradient = texelFetch(gradient_image, ivec2(tile.atlas_x, tile.atlas_y) + cell, 0).xy;
     field.words[word] = floatBitsToUint(gradient.x);
     field.words[word + 1u] = floatBitsToUint(gradient.y);
@@ -44,7 +44,7 @@ void main() {
         return;
     }
     if (push.words_per_point == 0u) {
-        uint width = tiles[push.tile].width;
+        uint width = tile_at(push.tile).width;
         write(push.first_word + 2u * index, push.tile, ivec2(index % width, index / width));
         return;
     }

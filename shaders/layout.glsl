@@ -25,13 +25,27 @@ struct Tile {
     uint first_feature;
 };
 
+// A driver on a processor reads memory one thread after the other, each time at a price: what is read
+// together is read by fours.
 layout(std430, set = 0, binding = 0) readonly buffer Tiles {
-    Tile tiles[];
+    uvec4 tile_words[];  // four a tile
 };
 
 layout(std430, set = 0, binding = 1) readonly buffer Geometry {
     vec2 geometry[];
 };
+layout(std430, set = 0, binding = 1) readonly buffer Pairs {
+    vec4 pairs[];  // the same, two by two
+};
+
+Tile tile_at(uint index) {
+    uvec4 a = tile_words[4u * index];
+    uvec4 b = tile_words[4u * index + 1u];
+    uvec4 c = tile_words[4u * index + 2u];
+    uvec4 d = tile_words[4u * index + 3u];
+    return Tile(a.x, a.y, a.z, a.w, EdgeList(b.x, b.y, b.z), EdgeList(b.w, c.x, c.y),
+                uintBitsToFloat(c.z), uintBitsToFloat(c.w), d.x, d.y, d.z, d.w);
+}
 
 struct Edge {
     vec2 a;
@@ -43,10 +57,16 @@ struct Edge {
 };
 
 Edge edge_at(uint index) {
-    vec2 run = geometry[index + 2u];
-    vec2 rest = geometry[index + 3u];
-    return Edge(geometry[index], geometry[index + 1u], floatBitsToUint(run.x),
-                floatBitsToUint(run.y), rest.x, floatBitsToUint(rest.y));
+    vec4 ends = pairs[index / 2u];
+    vec4 rest = pairs[index / 2u + 1u];
+    return Edge(ends.xy, ends.zw, floatBitsToUint(rest.x), floatBitsToUint(rest.y), rest.z,
+                floatBitsToUint(rest.w));
+}
+
+// The box around cluster_size edges of a list from position i on, a multiple of that: its low corner,
+// its high corner.
+vec4 cluster_box(EdgeList list, uint i) {
+    return pairs[list.clusters / 2u + i / cluster_size];
 }
 
 // The edge at position i of a list.
@@ -69,6 +89,6 @@ float distance_to_segment(vec2 p, vec2 a, vec2 b) {
     return distance(p, nearest_on_segment(p, a, b));
 }
 
-float distance_to_box(vec2 p, vec2 low, vec2 high) {
-    return length(max(max(low - p, p - high), vec2(0.0)));
+float distance_to_box(vec2 p, vec4 box) {
+    return length(max(max(box.xy - p, p - box.zw), vec2(0.0)));
 }

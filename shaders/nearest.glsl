@@ -27,10 +27,8 @@ bool run_crosses(vec2 p, Edge edge) {
 bool inside_by_crossings(vec2 p, EdgeList list) {
     bool odd = false;
     for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        vec2 low = geometry[box];
-        vec2 high = geometry[box + 1u];
-        if (p.y < low.y || p.y > high.y || p.x > high.x) {
+        vec4 box = cluster_box(list, first);
+        if (p.y < box.y || p.y > box.w || p.x > box.z) {
             continue;
         }
         uint end = min(first + cluster_size, list.count);
@@ -77,8 +75,7 @@ void consider_run(vec2 p, Edge edge, inout Nearest nearest) {
 
 Nearest find_nearest(vec2 p, EdgeList list, Nearest nearest) {
     for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        if (distance_to_box(p, geometry[box], geometry[box + 1u]) > nearest.distance) {
+        if (distance_to_box(p, cluster_box(list, first)) > nearest.distance) {
             continue;
         }
         uint end = min(first + cluster_size, list.count);
@@ -120,8 +117,7 @@ bool run_has_rival(vec2 p, Edge edge, Nearest nearest, float margin) {
 bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
     float limit = nearest.distance + margin;
     for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        if (distance_to_box(p, geometry[box], geometry[box + 1u]) > limit) {
+        if (distance_to_box(p, cluster_box(list, first)) > limit) {
             continue;
         }
         uint end = min(first + cluster_size, list.count);
@@ -152,8 +148,7 @@ OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
     // The nearest point lies in the box of its edge but for rounding.
     float slack = 0.25 + nearest.distance / 65536.0;
     for (uint first = 0u; first < list.count; first += cluster_size) {
-        uint box = list.clusters + first / cluster_size * 2u;
-        if (distance_to_box(nearest.point, geometry[box], geometry[box + 1u]) > slack) {
+        if (distance_to_box(nearest.point, cluster_box(list, first)) > slack) {
             continue;
         }
         uint end = min(first + cluster_size, list.count);

@@ -24,7 +24,7 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    Tile block = tiles[index / (block_side * block_side)];
+    Tile block = tile_at(index / (block_side * block_side));
     uvec2 in_block = uvec2(index % block_side, index / block_side % block_side);
     if (block.first_feature == not_asked || in_block.x >= block.width ||
         in_block.y >= block.height) {

@@ -27,7 +27,7 @@ layout(push_constant) uniform Push {
 const uint not_asked = 0xffffffffu;
 
 void main() {
-    Tile tile = tiles[push.tile];
+    Tile tile = tile_at(push.tile);
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(tile.width, tile.height)))) {
         return;

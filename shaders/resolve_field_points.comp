@@ -43,7 +43,7 @@ void main() {
         return;
     }
     Point point = points[index];
-    Tile tile = tiles[point.tile];
+    Tile tile = tile_at(point.tile);
     ivec2 last = ivec2(tile.width, tile.height) - 1;
     ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
     uint word = push.first_word + (index - push.origin) * push.words_per_point;

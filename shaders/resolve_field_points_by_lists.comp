@@ -18,7 +18,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint points;           // where they start in the geometry array
+    uint points;           // where they start in the geometry array; even
     uint first_word;       // where the words of point `origin` start
     uint origin;
     uint words_per_point;  // plan::FieldParts
@@ -29,8 +29,7 @@ float value_at(Tile block, ivec2 cell) {
     vec2 p = vec2(cell) + 0.5;
     float nearest = infinity;
     for (uint first = 0u; first < block.nearest.count; first += cluster_size) {
-        uint box = block.nearest.clusters + first / cluster_size * 2u;
-        if (distance_to_box(p, geometry[box], geometry[box + 1u]) > nearest) {
+        if (distance_to_box(p, cluster_box(block.nearest, first)) > nearest) {
             continue;
         }
         uint end = min(first + cluster_size, block.nearest.count);
@@ -47,10 +46,10 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    vec2 p = geometry[push.points + 2u * index];
-    vec2 words = geometry[push.points + 2u * index + 1u];
-    Tile block = tiles[floatBitsToUint(words.x)];
-    uint corner = floatBitsToUint(words.y);
+    vec4 point = pairs[push.points / 2u + index];
+    vec2 p = point.xy;
+    Tile block = tile_at(floatBitsToUint(point.z));
+    uint corner = floatBitsToUint(point.w);
     ivec2 low = ivec2(corner & 0xffffu, corner >> 16);
     uint word = push.first_word + (index - push.origin) * push.words_per_point;
     Nearest nearest;

@@ -34,7 +34,7 @@ layout(push_constant) uniform Push {
 #include "details.glsl"
 
 uint resolve(uint index, Point point) {
-    Tile tile = tiles[point.tile];
+    Tile tile = tile_at(point.tile);
     vec2 p = point.position;
     ivec2 cell = clamp(ivec2(floor(p)), ivec2(0), ivec2(tile.width, tile.height) - 1);
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;

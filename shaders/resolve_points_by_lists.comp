@@ -9,14 +9,8 @@
 
 layout(local_size_x = 64) in;
 
-struct Point {
-    vec2 position;
-    uint tile;
-    uint cell;  // of a field only
-};
-
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    Point points[];
+    uvec4 points[];  // position, tile, a word that fields alone have
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Results {
     uint results[];
@@ -30,22 +24,22 @@ layout(push_constant) uniform Push {
 
 #include "details.glsl"
 
-uint resolve(uint index, Point point) {
-    Tile tile = tiles[point.tile];
-    bool inside = inside_by_crossings(point.position, tile.crossing);
+uint resolve(uint index, vec2 p, Tile tile) {
+    bool inside = inside_by_crossings(p, tile.crossing);
     if (!inside && tile.outside == 0u) {
         return 0u;
     }
-    Nearest nearest = find_nearest(point.position, tile.nearest, nothing_near);
-    write_details(index, point.position, nearest, tile);
+    Nearest nearest = find_nearest(p, tile.nearest, nothing_near);
+    write_details(index, p, nearest, tile);
     uint unique =
-        has_rival(point.position, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
+        has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
     return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
 }
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index < push.count) {
-        results[index] = resolve(index, points[index]);
+        uvec4 point = points[index];
+        results[index] = resolve(index, uintBitsToFloat(point.xy), tile_at(point.z));
     }
 }

@@ -69,7 +69,7 @@ void BlockEdges::find_candidates(const TileBoundary& boundary, double slack) {
         Vector a = edge.a - centre;
         Vector b = edge.b - centre;
         for (const int axis : {0, 1}) {
-            static_cast<void>(geometry::clip_to_slab(a, b, axis, -2.0 * window_, 2.0 * window_));
+            static_cast<void>(geometry::clip_to_slab(a, b, axis, -window_, window_));
         }
         const Vector d = b - a;
         const double squared = d.squaredNorm();

@@ -110,6 +110,9 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
 }
 
 EdgeListData EdgeListWriter::write_list() {
+    if (geometry_.size() % 2 != 0) {
+        geometry_.emplace_back();  // edges and boxes are read by fours of numbers
+    }
     EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());
     result.edges = static_cast<std::uint32_t>(geometry_.size());

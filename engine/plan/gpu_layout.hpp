@@ -16,7 +16,7 @@ inline constexpr std::uint32_t cluster_size = 8;  ///< edges under one bounding 
 
 /// A list of edges in the geometry array, in clusters: `count` edges (EdgeData) from `edges` on;
 /// from `clusters` on a box (low corner, high corner) for every cluster_size of them. Both are
-/// indices of 2-vectors.
+/// indices of 2-vectors, and even.
 struct EdgeListData {
     std::uint32_t clusters = 0;
     std::uint32_t edges = 0;
