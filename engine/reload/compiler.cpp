@@ -91,6 +91,7 @@ private:
 /// it said.
 bool run(std::vector<std::string> words, std::string& output) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) {
         arguments.push_back(word.data());
     }

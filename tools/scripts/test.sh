@@ -105,7 +105,8 @@ check_symbols() {
     expect_none 'libnearfield.so has Vulkan entry points of its own' \
         "$(nm --dynamic --format=just-symbols "$shared" | grep '^vk[A-Z]' || true)"
     expect_none 'libnearfield.a has a part of what reloads shaders in debug builds' \
-        "$(nm --demangle --format=just-symbols "$archive" | grep 'nearfield::reload::\|posix_spawn' || true)"
+        "$(nm --demangle --format=just-symbols "$archive" |
+            grep 'nearfield::reload::\|posix_spawn' || true)"
     exported=$(nm --dynamic --defined-only --demangle "$shared" | cut --delimiter=' ' --fields=2-)
     expect_none 'libnearfield.so exports more than functions of nearfield' \
         "$(grep --invert-match '^T nearfield::' <<<"$exported" || true)"
