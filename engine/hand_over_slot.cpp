@@ -220,11 +220,12 @@ passes::HandOverRecords::Item HandOverSlot::records_item(std::size_t i) const {
 passes::HandOverSamples::Item HandOverSlot::samples_item(std::size_t i) const {
     const plan::SamplesHandOver& samples = hand_over_->samples[i];
     const std::size_t first_set = hand_over_->field_parts.size() + hand_over_->point_runs.size() +
-                                  hand_over_->records.size() + 2 * samples.first_run + i;
+                                  hand_over_->records.size() + 2 * std::size_t{samples.first_run} +
+                                  i;
     return {&samples,
             std::span(hand_over_->sample_runs).subspan(samples.first_run, samples.run_count),
             hand_over_->sample_tiles,
-            std::span(sets_).subspan(first_set, 2 * samples.run_count + 1),
+            std::span(sets_).subspan(first_set, 2 * std::size_t{samples.run_count} + 1),
             summaries_,
             records_.handle()};
 }

@@ -4,7 +4,6 @@
 #include <engine/sample_hand_over_builder.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace nearfield {
@@ -44,6 +43,16 @@ void add_vertices(const plan::PlannedQuery& planned, SamplesHandOver& samples,
     for (std::uint32_t i = 0; i < planned.a->size(); ++i) {
         add_position(a.vertex(i) - samples.origin, hand_over);
     }
+}
+
+/// Where a tile's cells lie.
+void place(const plan::Tile& tile, const Vector& origin, SampleTileData& data) {
+    const Vector corner = tile.origin() - origin;
+    data.width = tile.width;
+    data.height = tile.height;
+    data.region = tile.region;
+    data.corner_x = static_cast<float>(corner.x());
+    data.corner_y = static_cast<float>(corner.y());
 }
 
 }  // namespace
@@ -148,20 +157,14 @@ void SampleHandOverBuilder::add_tiles(const plan::Plan& plan, std::span<const pl
             run.first_tile = static_cast<std::uint32_t>(hand_over.sample_tiles.size());
             ++samples.run_count;
         }
-        SampleTileData data = tile->data;
-        const plan::Tile& planned = plan.tiles[tile->index];
-        const Vector corner = planned.origin() - samples.origin;
-        data.width = planned.width;
-        data.height = planned.height;
-        data.region = planned.region;
-        data.corner_x = static_cast<float>(corner.x());
-        data.corner_y = static_cast<float>(corner.y());
+        place(plan.tiles[tile->index], samples.origin, tile->data);
         if (samples.rings.count > 0) {
-            data.run_table = run_table(rounds, tile->round, hand_over);
+            tile->data.run_table = run_table(rounds, tile->round, hand_over);
         }
-        hand_over.sample_tiles.push_back(data);
+        hand_over.sample_tiles.push_back(tile->data);
         ++hand_over.sample_runs.back().tile_count;
     }
+    // Together, behind the tables of edges that their tiles take.
     for (std::uint32_t i = 0; i < samples.run_count; ++i) {
         plan::SampleRunHandOver& run = hand_over.sample_runs[samples.first_run + i];
         run.table = static_cast<std::uint32_t>(hand_over.tables.size());

@@ -159,7 +159,7 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
         World world(technique);
         world.take_all_before(World::Step::record_last);
         // Large enough for occlusion queries to be worth their while.
-        EXPECT_TRUE(world.context().submit(world.batch(700)).ok());
+        EXPECT_TRUE(world.context().submit(world.batch(600)).ok());
         EXPECT_TRUE(world.take(World::Step::destroy).ok());
         used.insert(world.driver().calls().begin(), world.driver().calls().end());
     }

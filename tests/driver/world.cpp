@@ -225,7 +225,7 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
         batch.add(field);
         field.resident = false;
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,
-                                    true, IntersectionStrategy::stencil, technique, true});
+                                    false, IntersectionStrategy::stencil, technique, true});
     }
     for (const PenetrationPoints points :
          {PenetrationPoints::boundary, PenetrationPoints::vertices}) {

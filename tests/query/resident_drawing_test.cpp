@@ -42,7 +42,7 @@ Shown shown(const std::array<std::uint8_t, 4>& pixel) {
     if (red == 102 && green == 0 && blue == 102) {
         return Shown::arrow_outside;
     }
-    if (red == 255 && green == 204 && blue == 0) {
+    if (red == 255 && green == 255 && blue == 255) {
         return Shown::sample;
     }
     if (red < 60) {

@@ -3,5 +3,5 @@
 layout(location = 0) out vec4 color;
 
 void main() {
-    color = vec4(1.0, 0.8, 0.0, 1.0);
+    color = vec4(1.0);
 }
