@@ -66,6 +66,11 @@ void add_motion_options(CLI::App& command, QueryArguments& arguments) {
                     "Of time-of-impact: how often the shapes are looked at, at the most; an answer "
                     "that needs more says so; default 10000")
         ->type_name("N");
+    command
+        .add_option("--most-work", arguments.most_work,
+                    "Of separation-vector: how many edges are held against each other, at the "
+                    "most; lower_bound says what less of it leaves open; default 10000000")
+        ->type_name("N");
 }
 
 }  // namespace

@@ -162,17 +162,20 @@ void read_field_request(const JsonPlace& place, QueryRequest& request) {
     }
 }
 
+std::uint32_t read_count(const JsonPlace& place) {
+    const double number = place.number();
+    if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
+        place.fail("expected a whole number from 1 to 1000000000");
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
 void read_motion_request(const JsonPlace& place, QueryRequest& request) {
     if (place.has("time_bound")) {
         request.time_bound = read_above_zero(place.member("time_bound"));
     }
     if (place.has("most_steps")) {
-        const JsonPlace steps = place.member("most_steps");
-        const double number = steps.number();
-        if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
-            steps.fail("expected a whole number from 1 to 1000000000");
-        }
-        request.most_steps = static_cast<std::uint32_t>(number);
+        request.most_steps = read_count(place.member("most_steps"));
     }
 }
 
@@ -235,8 +238,14 @@ QueryRequest read_request(const JsonPlace& place) {
                                           "technique", "strategy", "records"});
             break;
         case QueryType::intersection_test:
-        case QueryType::separation_vector:
             require_known_members(place, {"query", "a", "b", "tolerance", "pairs", "technique"});
+            break;
+        case QueryType::separation_vector:
+            require_known_members(
+                place, {"query", "a", "b", "tolerance", "pairs", "technique", "most_work"});
+            if (place.has("most_work")) {
+                request.most_work = read_count(place.member("most_work"));
+            }
             break;
         case QueryType::time_of_impact:
             require_known_members(

@@ -209,6 +209,7 @@ void write_result(JsonWriter& json, const SeparationVectorResult& result) {
     json.key("vector").value(result.vector);
     json.key("length").value(result.length);
     json.key("lower_bound").value(result.lower_bound);
+    json.key("work").value(result.work);
 }
 
 }  // namespace
