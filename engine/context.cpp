@@ -110,6 +110,8 @@ public:
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
+    void list_tiles(std::vector<TileReport>& tiles) const { ring_.list_tiles(tiles); }
+
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
@@ -323,6 +325,10 @@ std::string Context::describe_graph(GraphFormat format) const {
         static_cast<void>(guarded([&] { text = status.text(); }));
     }
     return text;
+}
+
+Status Context::list_tiles(std::vector<TileReport>& tiles) const {
+    return guarded([&] { implementation_->list_tiles(tiles); });
 }
 
 }  // namespace nearfield

@@ -373,7 +373,12 @@ void run_query(const QueryArguments& arguments) {
     require(context.run(batch, results));
     require(summary_of(results.results.front()).status);
 
-    const Answer answer{request, results.results.front(), results.timings, context.device_name()};
+    std::vector<TileReport> tiles;
+    if (arguments.tiles) {
+        require(context.list_tiles(tiles));
+    }
+    const Answer answer{request, results.results.front(), results.timings, context.device_name(),
+                        arguments.tiles ? &tiles : nullptr};
     if (image) {
         image->stream() << draw_answer(context, answer, a, b);
         image->commit();

@@ -40,6 +40,7 @@ struct QueryArguments {
     std::optional<std::string> features;
     std::optional<std::string> show;
     std::vector<std::string> at;
+    bool tiles = false;
 };
 
 /// Adds the command `query` to the program; parsing fills `arguments`, which must outlive it.

@@ -166,6 +166,9 @@ CLI::App* add_query_command(CLI::App& program, QueryArguments& arguments) {
                      "Of distance-field: write the values, world units, as a NumPy array of "
                      "float32 (height, width), row 0 at the lowest y; default none")
         ->type_name("FILE.npy");
+    command->add_flag("--tiles", arguments.tiles,
+                      "Tell the tiles that the device was given, in the JSON and in the picture; "
+                      "what the CPU answers has none");
     add_field_options(*command, arguments);
     add_motion_options(*command, arguments);
     return command;
