@@ -113,6 +113,8 @@ public:
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
+    void list_tiles(std::vector<TileReport>& tiles) const { ring_.list_tiles(tiles); }
+
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
@@ -378,6 +380,10 @@ Expected<std::uint32_t> Context::reload_shaders([[maybe_unused]] const char* fol
                   "shaders cannot be reloaded: the library was built without the CMake option "
                   "NEARFIELD_SHADER_RELOAD");
 #endif
+}
+
+Status Context::list_tiles(std::vector<TileReport>& tiles) const {
+    return guarded([&] { implementation_->list_tiles(tiles); });
 }
 
 }  // namespace nearfield

@@ -1,5 +1,6 @@
 #include <engine/failure.hpp>
 #include <engine/frame_ring.hpp>
+#include <engine/plan/tile_reports.hpp>
 #include <engine/stopwatch.hpp>
 
 #include <algorithm>
@@ -58,6 +59,7 @@ void FrameRing::release(Frame& frame) {
 template <class Start>
 Ticket FrameRing::start_batch(Results* memory, const Start& start) {
     const Stopwatch stopwatch;
+    last_ = nullptr;
     Frame& frame = free_frame();
     if (memory != nullptr) {
         std::swap(*memory, frame.runner.results());
@@ -70,6 +72,7 @@ Ticket FrameRing::start_batch(Results* memory, const Start& start) {
         throw;
     }
     frame.number = ++last_number_;
+    last_ = &frame;
     frame.runner.results().timings.total = stopwatch.milliseconds();
     return {frame.number};
 }
@@ -134,6 +137,13 @@ void FrameRing::collect(Ticket ticket, Results& results) {
     std::swap(results, frame.runner.results());
     release(frame);
     results.timings.total += start.milliseconds();
+}
+
+void FrameRing::list_tiles(std::vector<TileReport>& tiles) const {
+    tiles.clear();
+    if (last_ != nullptr) {
+        plan::report_tiles(last_->runner.plan(), tiles);
+    }
 }
 
 void FrameRing::drop(Ticket ticket) {

@@ -42,6 +42,8 @@ public:
     [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
         return require(ticket).runner.resident(handle);
     }
+    /// The tiles of the batch set going last.
+    void list_tiles(std::vector<TileReport>& tiles) const;
     /// Gives up a batch of a device that is lost. Throws as collect() does.
     void drop(Ticket ticket);
 #ifdef NEARFIELD_SHADER_RELOAD
@@ -79,6 +81,7 @@ private:
     GradientNormals normals_;
     std::vector<std::unique_ptr<Frame>> frames_;
     std::uint64_t last_number_ = 0;
+    const Frame* last_ = nullptr;            // of the batch set going last; null where it failed
     std::optional<std::uint64_t> complete_;  // the last of the host's frames that is
 };
 

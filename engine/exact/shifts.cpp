@@ -7,6 +7,15 @@ namespace nearfield::exact {
 
 using geometry::Vector;
 
+namespace {
+
+// To project and to sort an edge, or to sort an interval, takes about as long as to hold so many
+// edges against each other.
+constexpr std::uint64_t work_of_level = 16;
+constexpr std::uint64_t work_of_interval = 8;
+
+}  // namespace
+
 void ShiftFinder::project(const PlacedEdges& edges, const Vector& direction,
                           std::vector<Level>& levels) {
     levels.clear();
@@ -23,7 +32,7 @@ void ShiftFinder::project(const PlacedEdges& edges, const Vector& direction,
     }
 }
 
-void ShiftFinder::add_intervals(double most, double rounding) {
+bool ShiftFinder::add_intervals(double most, double rounding, WorkMeter& work) {
     std::sort(of_b_.begin(), of_b_.end(),
               [](const Level& i, const Level& j) { return i.low < j.low; });
     double highest = 0.0;
@@ -43,14 +52,18 @@ void ShiftFinder::add_intervals(double most, double rounding) {
         return std::pair(at(low), at(high));
     };
     intervals_.clear();
-    pairs_looked_at_ = of_a_.size() + of_b_.size();
+    work.add(work_of_level * (of_a_.size() + of_b_.size()));
     for (const Level& a : of_a_) {
         const double least_a = std::min(a.along_low, a.along_high);
         const double most_a = std::max(a.along_low, a.along_high);
         auto b = std::lower_bound(of_b_.begin(), of_b_.end(), a.low - highest - rounding,
                                   [](const Level& level, double low) { return level.low < low; });
+        if (work.is_used_up()) {
+            return false;
+        }
+        std::uint64_t pairs = 0;
         for (; b != of_b_.end() && b->low <= a.high + rounding; ++b) {
-            ++pairs_looked_at_;
+            ++pairs;
             if (b->high < a.low - rounding || std::max(b->along_low, b->along_high) < least_a ||
                 std::min(b->along_low, b->along_high) - most_a > most) {
                 continue;
@@ -59,7 +72,7 @@ void ShiftFinder::add_intervals(double most, double rounding) {
             const double high = std::max(low, std::min(a.high, b->high));
             const auto on_a = range_at(a, low, high);
             const auto on_b = range_at(*b, low, high);
-            Interval interval{0.0, 0.0, a.edge, b->edge};
+            Interval interval{0.0, 0.0, {a.edge, b->edge}};
             if (a.high - a.low <= rounding || b->high - b->low <= rounding) {
                 interval.from =
                     std::min(on_b.first, on_b.second) - std::max(on_a.first, on_a.second);
@@ -73,32 +86,45 @@ void ShiftFinder::add_intervals(double most, double rounding) {
             }
             if (interval.to >= 0.0 && interval.from <= most) {
                 intervals_.push_back(interval);
+                pairs += work_of_interval;
             }
         }
+        work.add(pairs);
     }
+    return true;
 }
 
 const std::vector<ShiftGap>& ShiftFinder::find(const PlacedEdges& a, const PlacedEdges& b,
-                                               const Vector& direction, double most) {
+                                               const Vector& direction, double most,
+                                               WorkMeter& work) {
     project(a, direction, of_a_);
     project(b, direction, of_b_);
-    add_intervals(most, a.rounding + b.rounding);
+    gaps_.clear();
+    if (!add_intervals(most, a.rounding + b.rounding, work)) {
+        return gaps_;
+    }
     std::sort(intervals_.begin(), intervals_.end(),
               [](const Interval& i, const Interval& j) { return i.from < j.from; });
-    gaps_.clear();
-    ShiftGap gap{0.0, 0.0, 0, 0};
+    ShiftGap gap{0.0, 0.0, {}, {}};
     for (const Interval& interval : intervals_) {
         if (interval.from > gap.from) {
             gap.to = interval.from;
+            gap.ends_at = interval.edges;
             gaps_.push_back(gap);
         }
         if (interval.to > gap.from) {
-            gap = {interval.to, 0.0, interval.edge_a, interval.edge_b};
+            gap = {interval.to, 0.0, interval.edges, {}};
         }
     }
     gap.to = std::numeric_limits<double>::infinity();
     gaps_.push_back(gap);
     return gaps_;
+}
+
+ShiftGap ShiftFinder::find_first(const PlacedEdges& a, const PlacedEdges& b,
+                                 const Vector& direction, double most, WorkMeter& work) {
+    const std::vector<ShiftGap>& gaps = find(a, b, direction, most, work);
+    return gaps.empty() ? ShiftGap{2.0 * most, 2.0 * most, {}, {}} : gaps.front();
 }
 
 }  // namespace nearfield::exact

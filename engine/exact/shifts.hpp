@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/exact/placed_edges.hpp>
+#include <engine/exact/work_meter.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -12,9 +13,8 @@ namespace nearfield::exact {
 struct ShiftGap {
     double from = 0.0;
     double to = std::numeric_limits<double>::infinity();
-    // The edges that part where the gap begins; not for a gap that begins at 0.
-    std::uint32_t edge_a = 0;
-    std::uint32_t edge_b = 0;
+    EdgePair begins_at;  ///< the edges that part there; not for a gap that begins at 0
+    EdgePair ends_at;    ///< the edges that meet there; not for one that does not end
 };
 
 /// Finds out where, on A's way along a direction, its boundary meets that of B: an edge of A meets
@@ -22,13 +22,16 @@ struct ShiftGap {
 /// memory from pair to pair.
 class ShiftFinder {
 public:
-    /// The gaps from 0 up to `most`, in ascending order, up to rounding. The direction is a unit
-    /// vector.
+    /// The gaps from 0 up to `most`, in ascending order, up to rounding; none where to find them
+    /// would take more work than is left. The direction is a unit vector.
     [[nodiscard]] const std::vector<ShiftGap>& find(const PlacedEdges& a, const PlacedEdges& b,
-                                                    const geometry::Vector& direction, double most);
+                                                    const geometry::Vector& direction, double most,
+                                                    WorkMeter& work);
 
-    /// In the last find().
-    [[nodiscard]] std::uint64_t pairs_looked_at() const { return pairs_looked_at_; }
+    /// The first of them; one that begins beyond `most` where there is none.
+    [[nodiscard]] ShiftGap find_first(const PlacedEdges& a, const PlacedEdges& b,
+                                      const geometry::Vector& direction, double most,
+                                      WorkMeter& work);
 
 private:
     /// An edge by how far it is along the direction and across it, from its end that is lower
@@ -43,19 +46,18 @@ private:
     struct Interval {
         double from = 0.0;
         double to = 0.0;
-        std::uint32_t edge_a = 0;
-        std::uint32_t edge_b = 0;
+        EdgePair edges;
     };
 
     static void project(const PlacedEdges& edges, const geometry::Vector& direction,
                         std::vector<Level>& levels);
-    void add_intervals(double most, double rounding);
+    /// False where there was too little work left.
+    [[nodiscard]] bool add_intervals(double most, double rounding, WorkMeter& work);
 
     std::vector<Level> of_a_;
     std::vector<Level> of_b_;
     std::vector<Interval> intervals_;
     std::vector<ShiftGap> gaps_;
-    std::uint64_t pairs_looked_at_ = 0;
 };
 
 }  // namespace nearfield::exact

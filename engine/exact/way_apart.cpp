@@ -3,29 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 
 namespace nearfield::exact {
-namespace {
 
 using geometry::Vector;
 
-// Directions that are tried whatever the shapes, evenly spread.
-constexpr int even_directions = 32;
+namespace {
 
-// How often the best direction is turned, by half as much each time that does not help.
-constexpr int turns = 10;
+// Directions that are tried whatever the shapes, evenly spread, as long as they take no more than
+// a quarter of the work.
+constexpr int even_directions = 8;
+constexpr std::uint64_t part_of_directions = 4;
 
-// What the search for the lower bound may cost: edges that points are held against, and as many
-// more for each edge there is, since the search along directions takes longer too.
-constexpr double most_work = 1U << 21U;
-constexpr double work_of_edge = 1U << 13U;
-
-// A pair of edges that a direction is held against, and an edge of a shape that is tested, take
-// about as long as so many of those.
-constexpr double work_of_pair = 16.0;
-constexpr double work_of_test = 8.0;
+// How often the best is moved along a wall, from corner to corner.
+constexpr int most_slides = 16;
 
 // What is shorter by less than this part is no shorter.
 constexpr double least_gain = 1e-6;
@@ -36,21 +28,39 @@ constexpr double longer_each_time = 4.0;
 constexpr int trials_of_clearance = 10;
 constexpr double most_clearances = 262144.0;  // of the last of them
 
-bool is_farther(double nearest, double other_nearest) {
-    return nearest > other_nearest;
+// To place an edge, put it into boxes and test it takes about as long as to hold it against so
+// many others.
+constexpr std::uint64_t work_of_test = 8;
+
+Vector along(const PlacedEdges& edges, std::uint32_t edge) {
+    return edges.end(edge) - edges.start(edge);
 }
 
 }  // namespace
 
-bool WayApartFinder::separates(const Vector& shift) {
+const PlacedEdges& WayApartFinder::move_a(const Vector& shift) {
     Pose pose = pose_a_;
     pose.translation.x += shift.x();
     pose.translation.y += shift.y();
-    work_left_ -= work_of_test * (a_->count + b_->count);
     moved_.clear();
     const std::uint32_t index = moved_.place(a_->placed.polygon(), pose);
     moved_.complete(index);
-    return !meeting_.intersect(moved_[index], *b_);
+    return moved_[index];
+}
+
+bool WayApartFinder::separates(const Vector& shift) {
+    work_.add(work_of_test * (a_->count + b_->count));
+    return !meeting_.intersect(move_a(shift), *b_);
+}
+
+bool WayApartFinder::accept(const Vector& shift) {
+    const double length = shift.norm();
+    if (!(length < length_) || !separates(shift)) {
+        return false;
+    }
+    best_ = shift;
+    length_ = length;
+    return true;
 }
 
 bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, double longest) {
@@ -66,10 +76,7 @@ bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, doubl
         if (way >= std::min(longest, gap.to)) {
             return false;
         }
-        const Vector shift = way * direction;
-        if (separates(shift)) {
-            best_ = shift;
-            length_ = shift.norm();
+        if (accept(way * direction)) {
             return true;
         }
         clearance *= longer_each_time;
@@ -77,24 +84,17 @@ bool WayApartFinder::try_gap(const ShiftGap& gap, const Vector& direction, doubl
     return false;
 }
 
-bool WayApartFinder::try_direction(const Vector& direction, ShiftGap& gap) {
+bool WayApartFinder::try_direction(const Vector& direction, EdgePair& wall) {
     const double longest = (1.0 - least_gain) * length_;
-    const std::vector<ShiftGap>& gaps = shifts_.find(*a_, *b_, direction, longest);
-    work_left_ -= work_of_pair * static_cast<double>(shifts_.pairs_looked_at());
+    const std::vector<ShiftGap>& gaps = shifts_.find(*a_, *b_, direction, longest, work_);
     const auto shorter = std::find_if(gaps.begin(), gaps.end(), [&](const ShiftGap& candidate) {
-        return try_gap(candidate, direction, longest);
+        return !work_.is_used_up() && try_gap(candidate, direction, longest);
     });
     if (shorter == gaps.end()) {
         return false;
     }
-    gap = *shorter;
+    wall = shorter->begins_at;
     return true;
-}
-
-Vector WayApartFinder::normal_of(const PlacedEdges& edges, std::uint32_t edge) const {
-    const Vector along = edges.end(edge) - edges.start(edge);
-    const Vector normal(-along.y(), along.x());
-    return normal.dot(best_) < 0.0 ? Vector(-normal) : normal;
 }
 
 void WayApartFinder::go_past_box() {
@@ -114,147 +114,146 @@ void WayApartFinder::go_past_box() {
 }
 
 void WayApartFinder::descend(const Vector& direction) {
-    ShiftGap gap;
-    bool shorter = try_direction(direction, gap);
-    while (shorter) {
-        const Vector normals[] = {normal_of(*a_, gap.edge_a), normal_of(*b_, gap.edge_b)};
+    EdgePair wall;
+    bool shorter = try_direction(direction, wall);
+    if (!shorter) {
+        return;
+    }
+    while (shorter && !work_.is_used_up()) {
+        const Vector edges[] = {along(*a_, wall.first), along(*b_, wall.second)};
         shorter = false;
-        for (const Vector& normal : normals) {
-            const double length = normal.norm();
-            shorter = (length > 0.0 && try_direction(normal / length, gap)) || shorter;
+        for (const Vector& edge : edges) {
+            const double length = edge.norm();
+            const Vector normal(-edge.y(), edge.x());
+            const double side = normal.dot(best_) < 0.0 ? -1.0 : 1.0;
+            shorter = (length > 0.0 && try_direction(side / length * normal, wall)) || shorter;
+        }
+    }
+    slide_into_corner(wall);
+}
+
+bool WayApartFinder::slide(const Vector& along, EdgePair& wall) {
+    const double length = along.norm();
+    if (!(length > 0.0)) {
+        return false;
+    }
+    const Vector direction = (along.dot(best_) > 0.0 ? -1.0 : 1.0) / length * along;
+    const double most = -direction.dot(best_);
+    if (most <= least_gain * length_) {
+        return false;
+    }
+    const ShiftGap gap = shifts_.find_first(move_a(best_), *b_, direction, most, work_);
+    if (gap.from > 0.0) {
+        return false;
+    }
+    const Vector from = best_;
+    double clearance = clearance_;
+    for (int trial = 0; trial < trials_of_clearance; ++trial) {
+        const double way = std::min(most, gap.to - clearance);
+        if (way <= 0.0) {
+            return false;
+        }
+        if (accept(from + way * direction)) {
+            wall = gap.ends_at;
+            return gap.to < most;
+        }
+        clearance *= longer_each_time;
+    }
+    return false;
+}
+
+void WayApartFinder::slide_into_corner(EdgePair wall) {
+    for (int i = 0; i < most_slides && !work_.is_used_up(); ++i) {
+        const EdgePair from = wall;
+        if (!slide(along(*a_, from.first), wall) && !slide(along(*b_, from.second), wall)) {
+            return;
         }
     }
 }
 
-void WayApartFinder::turn_best() {
-    double angle = std::numbers::pi / even_directions;
-    for (int i = 0; i < turns; ++i) {
-        const double before = length_;
-        for (const double sign : {-1.0, 1.0}) {
-            descend(Eigen::Rotation2Dd(sign * angle) * best_.normalized());
-        }
-        if (length_ == before) {
-            angle /= 2.0;
-        }
+void WayApartFinder::look_around() {
+    const std::uint64_t enough = work_.left() - work_.left() / part_of_directions;
+    for (int i = 0; i < even_directions && work_.left() > enough; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / even_directions;
+        descend({std::cos(angle), std::sin(angle)});
     }
 }
 
-double WayApartFinder::depth_of(std::uint32_t witness, const Vector& shift) const {
-    const std::vector<Witness>& of_a = of_a_.all();
-    if (witness < of_a.size()) {
-        return of_a[witness].radius + depth_in(*b_, of_a[witness].centre + shift);
+void WayApartFinder::go_to_nearest(const ConvexPiece& piece) {
+    const Vector nearest = piece.nearest();
+    const Vector inwards = piece.middle() - nearest;
+    double part = clearance_ / inwards.norm();
+    for (int trial = 0; trial < trials_of_clearance && part < 1.0; ++trial) {
+        if (accept(nearest + part * inwards)) {
+            return;
+        }
+        part *= longer_each_time;
     }
-    const Witness& of_b = of_b_.all()[witness - of_a.size()];
-    return of_b.radius + depth_in(*a_, of_b.centre - shift);
+    static_cast<void>(accept(piece.middle()));
 }
 
-double WayApartFinder::crossing_depth_at(const Vector& shift) {
-    double deepest = -1.0;
-    for (const Chord& of_a : of_a_.chords()) {
-        for (const Chord& of_b : of_b_.chords()) {
-            deepest = std::max(deepest, crossing_depth(of_a, shift, of_b));
+double WayApartFinder::nearest_open() {
+    double open = length_;
+    for (const ConvexPiece& piece : cover_.pieces()) {
+        const double nearest = piece.nearest().norm();
+        if (nearest >= open) {
+            continue;
+        }
+        if (work_.is_used_up()) {
+            open = nearest;  // it may be
+        } else if (separates(piece.middle())) {
+            go_to_nearest(piece);
+            open = nearest;
         }
     }
-    work_left_ -= static_cast<double>(of_a_.chords().size() * of_b_.chords().size());
-    return deepest;
-}
-
-WayApartFinder::Word WayApartFinder::ask_witnesses(const Cell& cell, double enough) {
-    const auto of_a = static_cast<std::uint32_t>(of_a_.all().size());
-    const auto count = of_a + static_cast<std::uint32_t>(of_b_.all().size());
-    Word word{-std::numeric_limits<double>::infinity(), 0};
-    const auto ask = [&](std::uint32_t witness) {
-        const double depth = depth_of(witness, cell.centre) - clearance_;
-        if (depth > word.reach) {
-            word = {depth, witness};
-        }
-        work_left_ -= witness < of_a ? b_->count : a_->count;
-        return word.reach >= enough;
-    };
-    // The square it was cut from mostly had the same.
-    if (cell.witness < count && ask(cell.witness)) {
-        return word;
-    }
-    const double crossing = crossing_depth_at(cell.centre) - clearance_;
-    word.reach = std::max(word.reach, crossing);
-    if (crossing >= enough) {
-        return word;
-    }
-    for (std::uint32_t witness = 0; witness < count; ++witness) {
-        if (ask(witness)) {
-            break;
-        }
-    }
-    return word;
-}
-
-void WayApartFinder::push(const Vector& centre, double half, std::uint32_t witness) {
-    const Vector beside = (centre.cwiseAbs().array() - half).matrix().cwiseMax(0.0);
-    cells_.push_back({centre, half, beside.norm(), witness});
-    std::push_heap(cells_.begin(), cells_.end(),
-                   [](const Cell& i, const Cell& j) { return is_farther(i.nearest, j.nearest); });
-}
-
-WayApartFinder::Cell WayApartFinder::pop() {
-    std::pop_heap(cells_.begin(), cells_.end(),
-                  [](const Cell& i, const Cell& j) { return is_farther(i.nearest, j.nearest); });
-    Cell cell = cells_.back();
-    cells_.pop_back();
-    return cell;
+    return open;
 }
 
 double WayApartFinder::find_lower_bound(double tolerance) {
-    work_left_ = most_work + work_of_edge * (a_->count + b_->count);
-    of_a_.choose(*a_);
-    of_b_.choose(*b_);
-    cells_.clear();
-    push(Vector::Zero(), length_, 0);
-    while (!cells_.empty()) {
-        const Cell cell = pop();
-        // The best may have become shorter in between.
-        if (cell.nearest >= length_ - tolerance || work_left_ <= 0.0) {
-            return std::min(cell.nearest, length_);
+    if (work_.is_used_up()) {
+        return 0.0;
+    }
+    cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, work_);
+    double open = length_;  // how near one is that may separate the shapes, of those looked at
+    while (!cover_.is_empty()) {
+        const ShiftSquare square = cover_.take_nearest();
+        if (square.nearest >= std::min(open, length_ - tolerance) || work_.is_used_up()) {
+            return std::min({square.nearest, open, length_});
         }
-        const double radius = std::numbers::sqrt2 * cell.half;
-        // None can say it of a square that reaches as far as the best way.
-        const bool may_be_done = radius < (best_ - cell.centre).norm();
-        const Word word = may_be_done ? ask_witnesses(cell, radius) : Word{0.0, cell.witness};
-        if (word.reach >= radius) {
+        const ShiftWord word = cover_.ask(square);
+        if (word == ShiftWord::meet) {
             continue;
         }
-        if (word.reach <= 0.0 && cell.centre.norm() > 0.0) {
-            descend(cell.centre.normalized());
+        if (word == ShiftWord::alike) {
+            open = std::min(open, nearest_open());
+            continue;
         }
-        const double half = 0.5 * cell.half;
-        for (const double x : {-half, half}) {
-            for (const double y : {-half, half}) {
-                push(cell.centre + Vector(x, y), half, word.witness);
-            }
+        if (word == ShiftWord::nothing && accept(cover_.rest().middle())) {
+            descend(best_.normalized());
         }
+        cover_.cut(square);
     }
-    return length_;
+    return std::min(open, length_);
 }
 
 WayApart WayApartFinder::find(const PlacedEdges& a, const PlacedEdges& b, const Pose& pose_a,
-                              double tolerance) {
+                              const WayApartLimits& limits) {
     a_ = &a;
     b_ = &b;
     pose_a_ = pose_a;
     clearance_ = 4.0 * (a.rounding + b.rounding);
     best_ = Vector::Zero();
+    work_ = WorkMeter(limits.most_work);
     WayApart way;
     way.intersect = meeting_.intersect(a, b);
     if (!way.intersect) {
         return way;
     }
     go_past_box();
-    for (int i = 0; i < even_directions; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / even_directions;
-        descend({std::cos(angle), std::sin(angle)});
-    }
-    turn_best();
-    way.lower_bound = find_lower_bound(tolerance);
+    look_around();
+    way.lower_bound = find_lower_bound(limits.tolerance);
     way.vector = best_;
+    way.work = work_.used();
     return way;
 }
 

@@ -9,59 +9,17 @@ namespace {
 
 using geometry::Vector;
 
-// So many vertices and so many edges of a shape are looked at; every so many of more.
-constexpr std::uint32_t most_of_each = 48;
+// Discs at so many edges; at every so many of more.
+constexpr std::uint32_t most_discs = 64;
 
-// Chords between so many vertices, every so many of more, are tried, and so many kept.
-constexpr std::uint32_t most_ends = 24;
-constexpr std::size_t most_chords = 12;
+// So many vertices, or groups of them, make up a group.
+constexpr std::uint32_t group = 8;
 
 // Discs shrink until nothing is in them; mostly three times suffice.
 constexpr int most_shrinks = 12;
 
-Chord chord_between(const Vector& start, const Vector& end) {
-    const Vector along = end - start;
-    return {start, end, Vector(-along.y(), along.x()).normalized()};
-}
-
-/// Whether what is between two vertices lies inside. False where it touches the boundary.
-bool is_inside(const PlacedEdges& edges, std::uint32_t first, std::uint32_t second) {
-    const Vector start = edges.start(first);
-    const Vector end = edges.start(second);
-    const Vector middle = 0.5 * (start + end);
-    if (!contains(edges, middle)) {
-        return false;
-    }
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        const Vector from = edges.start(i);
-        const Vector to = edges.end(i);
-        const bool at_an_end = i == first || i == second || to == start || to == end;
-        if (!at_an_end && geometry::segments_meet(start, end, from, to, edges.rounding)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-}  // namespace
-
-double crossing_depth(const Chord& a, const Vector& shift_of_a, const Chord& b) {
-    const auto depth = [](double start, double end) {
-        return (start < 0.0) == (end < 0.0) ? -1.0 : std::min(std::abs(start), std::abs(end));
-    };
-    const Vector between = a.start + shift_of_a - b.start;
-    const double of_a = b.normal.dot(between);
-    const double of_b = -a.normal.dot(between);
-    return std::min(depth(of_a, of_a + b.normal.dot(a.end - a.start)),
-                    depth(of_b, of_b + a.normal.dot(b.end - b.start)));
-}
-
-double depth_in(const PlacedEdges& edges, const Vector& point) {
-    const double distance = std::sqrt(find_nearest(edges, point).squared);
-    return contains(edges, point) ? distance : -distance;
-}
-
-void Witnesses::add_largest_disc(const PlacedEdges& edges, std::uint32_t edge) {
+void add_largest_disc(const PlacedEdges& edges, std::uint32_t edge, WorkMeter& work,
+                      std::vector<Witness>& witnesses) {
     const Vector start = edges.start(edge);
     const Vector end = edges.end(edge);
     const Vector along = end - start;
@@ -81,6 +39,7 @@ void Witnesses::add_largest_disc(const PlacedEdges& edges, std::uint32_t edge) {
     for (int i = 0; i < most_shrinks; ++i) {
         const Vector centre = middle + radius * inward;
         const NearEdge near = find_nearest(edges, centre);
+        work.add(work_of_search(edges.count));
         if (near.squared >= radius * radius * (1.0 - 1e-9)) {
             break;
         }
@@ -97,46 +56,69 @@ void Witnesses::add_largest_disc(const PlacedEdges& edges, std::uint32_t edge) {
     }
     const Vector centre = middle + radius * inward;
     const double depth = depth_in(edges, centre);
+    work.add(2 * work_of_search(edges.count));
     if (depth > 0.0) {
-        all_.push_back({centre, depth});
+        Witness disc;
+        disc.centre = centre;
+        disc.radius = depth;
+        witnesses.push_back(disc);
     }
 }
 
-void Witnesses::choose_chords(const PlacedEdges& edges) {
-    const auto is_longer = [](const Chord& i, const Chord& j) {
-        return (i.end - i.start).squaredNorm() > (j.end - j.start).squaredNorm();
-    };
-    chords_.clear();
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        chords_.push_back(chord_between(edges.start(i), edges.end(i)));
+Witness group_of(const std::vector<Witness>& witnesses, std::uint32_t first, std::uint32_t parts) {
+    geometry::Box box;
+    for (std::uint32_t i = first; i < first + parts; ++i) {
+        box.extend(witnesses[i].centre);
     }
-    const std::uint32_t stride = (edges.count + most_ends - 1) / most_ends;
-    for (std::uint32_t i = 0; i < edges.count; i += stride) {
-        for (std::uint32_t j = i + stride; j < edges.count; j += stride) {
-            if (is_inside(edges, i, j)) {
-                chords_.push_back(chord_between(edges.start(i), edges.start(j)));
-            }
-        }
+    Witness whole;
+    whole.centre = box.center();
+    whole.first = first;
+    whole.parts = parts;
+    for (std::uint32_t i = first; i < first + parts; ++i) {
+        whole.spread = std::max(whole.spread,
+                                (witnesses[i].centre - whole.centre).norm() + witnesses[i].spread);
     }
-    const std::size_t kept = std::min(most_chords, chords_.size());
-    std::partial_sort(chords_.begin(), chords_.begin() + static_cast<std::ptrdiff_t>(kept),
-                      chords_.end(), is_longer);
-    chords_.resize(kept);
+    return whole;
 }
 
-void Witnesses::choose(const PlacedEdges& edges) {
-    all_.clear();
-    const std::uint32_t stride = (edges.count + most_of_each - 1) / most_of_each;
+}  // namespace
+
+double depth_in(const PlacedEdges& edges, const Vector& point) {
+    const double distance = std::sqrt(find_nearest(edges, point).squared);
+    return contains(edges, point) ? distance : -distance;
+}
+
+void add_witnesses(const PlacedEdges& edges, WorkMeter& work, std::vector<Witness>& witnesses,
+                   std::vector<std::uint32_t>& top) {
+    auto first = static_cast<std::uint32_t>(witnesses.size());
+    const std::uint32_t stride = (edges.count + most_discs - 1) / most_discs;
     for (std::uint32_t i = 0; i < edges.count; i += stride) {
-        add_largest_disc(edges, i);
+        add_largest_disc(edges, i, work, witnesses);
     }
-    // The largest first: they say most.
-    std::sort(all_.begin(), all_.end(),
+    // They say most.
+    std::sort(witnesses.begin() + first, witnesses.end(),
               [](const Witness& i, const Witness& j) { return i.radius > j.radius; });
-    for (std::uint32_t i = 0; i < edges.count; i += stride) {
-        all_.push_back({edges.start(i), 0.0});
+    auto end = static_cast<std::uint32_t>(witnesses.size());
+    for (; first < end; ++first) {
+        top.push_back(first);
     }
-    choose_chords(edges);
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        Witness vertex;
+        vertex.centre = edges.start(i);
+        vertex.is_vertex = true;
+        witnesses.push_back(vertex);
+    }
+    end = static_cast<std::uint32_t>(witnesses.size());
+    while (end - first > group) {
+        for (std::uint32_t i = first; i < end; i += group) {
+            witnesses.push_back(group_of(witnesses, i, std::min(group, end - i)));
+        }
+        first = end;
+        end = static_cast<std::uint32_t>(witnesses.size());
+    }
+    for (; first < end; ++first) {
+        top.push_back(first);
+    }
 }
 
 }  // namespace nearfield::exact

@@ -12,6 +12,7 @@
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
 #include <nearfield/submission.hpp>
+#include <nearfield/tile.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -275,6 +276,14 @@ public:
     /// barriers. Empty before the first batch; for a `format` that is no enumerator, a text that
     /// says so.
     [[nodiscard]] std::string describe_graph(GraphFormat format) const;
+
+    /// The tiles that the last batch submitted or recorded was cut into, collected or not. Replaces
+    /// `tiles`: in order of queries, and of a query in order of its points or row by row. Empty
+    /// before the first batch, after one that failed as a whole, and where the CPU answered all.
+    /// The field around contacts with gradient normals, a submission of its own, is left out.
+    /// Batches that nobody asks about pay nothing for it. Fails with out_of_memory alone, where the
+    /// host has no memory for the list.
+    Status list_tiles(std::vector<TileReport>& tiles) const;
 
     /// For who works on the library's shaders: compiles those anew whose sources changed since
     /// this context had them last, and makes pipelines of what comes out otherwise than what is in

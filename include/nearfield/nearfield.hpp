@@ -15,4 +15,5 @@
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
 #include <nearfield/submission.hpp>
+#include <nearfield/tile.hpp>
 #include <nearfield/version.hpp>

@@ -260,9 +260,14 @@ struct SeparationVectorQuery {
     Instance a;  ///< moves
     Instance b;  ///< stands still
     /// d, world units, > 0: the search ends where the translation is known to be no more than this
-    /// longer than the shortest one; or before, after a fixed number of trials, for shapes that
-    /// need more (SeparationVectorResult::lower_bound says what is known).
+    /// longer than the shortest one, or when it has used up most_work;
+    /// SeparationVectorResult::lower_bound says what is known then.
     double tolerance = 0.0;
+    /// How much may be looked at: an edge held against an edge, a point or a line is one, a few
+    /// nanoseconds. It bounds the whole search, but for the first way out, past the other shape's
+    /// box, and the step at hand: both take no more than a few hundred for each edge of the shapes.
+    /// With less of it the vector is longer and the lower bound smaller; both hold all the same.
+    std::uint64_t most_work = 10'000'000;
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 

@@ -281,8 +281,9 @@ struct TimeOfImpactResult : ResultSummary {
 struct SeparationVectorResult : ResultSummary {
     Vector2 vector;       ///< to be added to the translation of A's pose
     double length = 0.0;  ///< of the vector
-    /// No translation of A that is shorter than this separates the shapes.
+    /// No translation of A shorter than this takes the shapes farther apart than `error_bound`.
     double lower_bound = 0.0;
+    std::uint64_t work = 0;  ///< what was looked at, as SeparationVectorQuery::most_work counts it
 };
 
 /// Time one pass took on the device.

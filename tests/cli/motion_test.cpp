@@ -69,7 +69,8 @@ TEST_F(TimeOfImpactCommand, MovesTheInstancesOfAScene) {
         "instances": {"A": {"shape": "square", "end_pose": [8, 0, 0]},
                       "B": {"shape": "square", "pose": [3, 0.5, 0]}},
         "queries": [{"query": "time-of-impact", "a": "A", "b": "B", "tolerance": 1e-6},
-                    {"query": "separation-vector", "pairs": "all", "tolerance": 0.1}]})");
+                    {"query": "separation-vector", "pairs": "all", "tolerance": 0.1,
+                     "most_work": 1000}]})");
     const Json json = answer({"scene", scene});
     ASSERT_TRUE(json.is_object());
     ASSERT_EQ(json.at("results").size(), 1U);
@@ -125,6 +126,13 @@ TEST_F(SeparationVectorCommand, SaysHowFarToGo) {
     json = answer(query + Arguments{"1.75,0.1,0"});
     EXPECT_EQ(json.at("length"), 0.0);
     EXPECT_EQ(json.at("intersects"), false);
+    json = answer(query + Arguments{"0.75,0.1,0", "--most-work", "1"});
+    EXPECT_NEAR(json.at("length").get<double>(), 0.25, 1e-9);
+    EXPECT_EQ(json.at("lower_bound"), 0.0);
+    EXPECT_LT(json.at("work").get<double>(), 10'000.0);
+    expect_refused(query + Arguments{"0,0,0", "--most-work", "0"}, {"--most-work", "whole"});
+    expect_refused(squares("separation", "cpu") + Arguments{"-d", "1", "--most-work", "5"},
+                   {"--most-work", "separation-vector"});
     expect_refused(squares("separation-vector", "compute") + Arguments{"-d", "0.1"},
                    {"compute", "separation vectors"});
 }

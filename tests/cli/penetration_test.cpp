@@ -157,6 +157,29 @@ TEST_F(Penetration, SquaresApartHaveNothingInCommon) {
     EXPECT_TRUE(json.at("regions").empty());
 }
 
+TEST_F(Penetration, TellsItsTilesOnRequest) {
+    const Arguments query = squares("penetration", "raster") +
+                            Arguments{"-d", "0.002", "--pose-b", "0.6,0.3,0"};
+    EXPECT_FALSE(answer(query).contains("tiles"));
+    const Json json = answer(query + Arguments{"--tiles"});
+    ASSERT_TRUE(json.is_object());
+    ASSERT_GT(json.at("tiles").size(), 1U);
+    const Json& region = json.at("regions").at(0);
+    for (const Json& tile : json.at("tiles")) {
+        EXPECT_EQ(tile.at("technique"), "raster");
+        EXPECT_EQ(tile.at("side"), "a");
+        EXPECT_EQ(tile.at("round"), 0);
+        for (const int axis : {0, 1}) {
+            EXPECT_GE(tile.at("min").at(axis), region.at("min").at(axis));
+            EXPECT_LE(tile.at("max").at(axis).get<double>(),
+                      region.at("max").at(axis).get<double>() + 1e-9);
+        }
+    }
+    EXPECT_TRUE(answer(squares("penetration", "cpu") + Arguments{"-d", "0.05", "--tiles"})
+                    .at("tiles")
+                    .empty());
+}
+
 TEST_F(Penetration, AllVerticesOfAContainedShapePenetrate) {
     const std::string large = folder_.write("large.wkt", "POLYGON ((-1 -2, 5 -2, 5 6, -1 6))");
     const Json json =

@@ -74,7 +74,9 @@ public:
                 r.least_distance, r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b,
                 r.steps);
     }
-    void add_rest(const SeparationVectorResult& r) { add_all(r.vector, r.length, r.lower_bound); }
+    void add_rest(const SeparationVectorResult& r) {
+        add_all(r.vector, r.length, r.lower_bound, r.work);
+    }
 
 private:
     template <class... Parts>

@@ -110,6 +110,7 @@ TEST_F(Viewer, EachOverlayChangesThePicture) {
         {"--show=depths"},
         {"--show=contacts"},
         {"--show=regions", "--technique=raster"},
+        {"--show=tiles", "--technique=raster"},
         {"--show=samples", "--technique=raster", "--strategy=logic-op"},
         {"--show=none", "--field=distance"},
         {"--show=none", "--field=voronoi"},

@@ -74,7 +74,7 @@ void parse_field_request(const QueryArguments& arguments, QueryRequest& request)
                      (!request.features && !request.gradients && request.at.empty());
 }
 
-/// What only a time of impact has.
+/// What only a time of impact or a separation vector has.
 void parse_motion_request(const QueryArguments& arguments, QueryRequest& request) {
     if (arguments.end_pose_a) {
         request.end_a = parse_end_pose(*arguments.end_pose_a, arguments.pose_a, "--end-pose-a");
@@ -87,6 +87,9 @@ void parse_motion_request(const QueryArguments& arguments, QueryRequest& request
     }
     if (arguments.most_steps) {
         request.most_steps = parse_count(*arguments.most_steps, "--most-steps");
+    }
+    if (arguments.most_work) {
+        request.most_work = parse_count(*arguments.most_work, "--most-work");
     }
 }
 
@@ -111,6 +114,7 @@ QueryRequest parse_request(const QueryArguments& arguments) {
     refuse_option(arguments.end_pose_b, "--end-pose-b", request, QueryType::time_of_impact);
     refuse_option(arguments.time_bound, "--time-bound", request, QueryType::time_of_impact);
     refuse_option(arguments.most_steps, "--most-steps", request, QueryType::time_of_impact);
+    refuse_option(arguments.most_work, "--most-work", request, QueryType::separation_vector);
     if (!arguments.at.empty()) {
         refuse_option(arguments.at.front(), "--at", request, QueryType::distance_field);
     }
@@ -372,7 +376,12 @@ void run_query(const QueryArguments& arguments) {
     require(context.run(batch, results));
     require(summary_of(results.results.front()).status);
 
-    const Answer answer{request, results.results.front(), results.timings, context.device_name()};
+    std::vector<TileReport> tiles;
+    if (arguments.tiles) {
+        require(context.list_tiles(tiles));
+    }
+    const Answer answer{request, results.results.front(), results.timings, context.device_name(),
+                        arguments.tiles ? &tiles : nullptr};
     if (image) {
         image->stream() << draw_answer(context, answer, a, b);
         image->commit();

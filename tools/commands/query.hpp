@@ -22,6 +22,7 @@ struct QueryArguments {
     std::optional<std::string> end_pose_b;
     std::optional<std::string> time_bound;
     std::optional<std::string> most_steps;
+    std::optional<std::string> most_work;
     std::optional<std::string> technique;
     std::optional<std::string> strategy;
     std::optional<std::string> kind;
@@ -39,6 +40,7 @@ struct QueryArguments {
     std::optional<std::string> features;
     std::optional<std::string> show;
     std::vector<std::string> at;
+    bool tiles = false;
 };
 
 /// Adds the command `query` to the program; parsing fills `arguments`, which must outlive it.

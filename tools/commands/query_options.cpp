@@ -66,6 +66,11 @@ void add_motion_options(CLI::App& command, QueryArguments& arguments) {
                     "Of time-of-impact: how often the shapes are looked at, at the most; an answer "
                     "that needs more says so; default 10000")
         ->type_name("N");
+    command
+        .add_option("--most-work", arguments.most_work,
+                    "Of separation-vector: how many edges are held against each other, at the "
+                    "most; lower_bound says what less of it leaves open; default 10000000")
+        ->type_name("N");
 }
 
 /// What is asked, of which outlines, and where they stand.
@@ -164,6 +169,9 @@ void add_output_options(CLI::App& command, QueryArguments& arguments) {
                     "Of distance-field: write the values, world units, as a NumPy array of "
                     "float32 (height, width), row 0 at the lowest y; default none")
         ->type_name("FILE.npy");
+    command.add_flag("--tiles", arguments.tiles,
+                     "Tell the tiles that the device was given, in the JSON and in the picture; "
+                     "what the CPU answers has none");
 }
 
 }  // namespace

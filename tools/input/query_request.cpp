@@ -185,7 +185,8 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             batch.add(IntersectionTestQuery{a, b, request.technique});
             break;
         case QueryType::separation_vector:
-            batch.add(SeparationVectorQuery{a, b, request.tolerance, request.technique});
+            batch.add(SeparationVectorQuery{a, b, request.tolerance, request.most_work,
+                                            request.technique});
             break;
         case QueryType::time_of_impact:
             batch.add(TimeOfImpactQuery{a, b, request.end_a.value_or(a.pose),

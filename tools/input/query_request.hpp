@@ -52,6 +52,7 @@ struct QueryRequest {
     std::optional<Pose> end_b;
     double time_bound = 1.0;
     std::uint32_t most_steps = TimeOfImpactQuery().most_steps;
+    std::uint64_t most_work = SeparationVectorQuery().most_work;  ///< of separation-vector
 };
 
 /// True of a query that the device may answer, by sampling on a grid.

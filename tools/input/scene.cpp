@@ -162,17 +162,20 @@ void read_field_request(const JsonPlace& place, QueryRequest& request) {
     }
 }
 
+std::uint32_t read_count(const JsonPlace& place) {
+    const double number = place.number();
+    if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
+        place.fail("expected a whole number from 1 to 1000000000");
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
 void read_motion_request(const JsonPlace& place, QueryRequest& request) {
     if (place.has("time_bound")) {
         request.time_bound = read_above_zero(place.member("time_bound"));
     }
     if (place.has("most_steps")) {
-        const JsonPlace steps = place.member("most_steps");
-        const double number = steps.number();
-        if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
-            steps.fail("expected a whole number from 1 to 1000000000");
-        }
-        request.most_steps = static_cast<std::uint32_t>(number);
+        request.most_steps = read_count(place.member("most_steps"));
     }
 }
 
@@ -204,7 +207,9 @@ std::vector<std::string_view> members_of(QueryType type) {
         case QueryType::closest_point:
         case QueryType::separation:
         case QueryType::intersection_test:
+            break;
         case QueryType::separation_vector:
+            add({"most_work"});
             break;
     }
     return members;
@@ -256,6 +261,9 @@ QueryRequest read_request(const JsonPlace& place) {
     }
     if (request.type == QueryType::time_of_impact) {
         read_motion_request(place, request);
+    }
+    if (place.has("most_work")) {
+        request.most_work = read_count(place.member("most_work"));
     }
     return request;
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <nearfield/result.hpp>
+#include <nearfield/tile.hpp>
 
 #include <tools/input/query_request.hpp>
 
 #include <string>
+#include <vector>
 
 namespace nearfield::tools {
 
@@ -14,6 +16,7 @@ struct Answer {
     const AnyResult& result;
     const Timings& timings;
     const std::string& device;
+    const std::vector<TileReport>* tiles = nullptr;  ///< where they are asked for
 };
 
 /// One query of a scene and its answer. Refers to what the caller keeps.

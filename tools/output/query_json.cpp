@@ -26,6 +26,22 @@ void write_regions(JsonWriter& json, const ResultSummary& summary) {
     json.end_array();
 }
 
+void write_tiles(JsonWriter& json, const std::vector<TileReport>& tiles) {
+    json.key("tiles").begin_array(JsonWriter::Layout::lines);
+    for (const TileReport& tile : tiles) {
+        json.begin_object();
+        json.key("technique").value(to_string(tile.technique));
+        json.key("side").value(tile.side == Side::a ? "a" : "b");
+        json.key("min").value(tile.min).key("max").value(tile.max);
+        json.key("width").value(std::uint64_t{tile.width});
+        json.key("height").value(std::uint64_t{tile.height});
+        json.key("round").value(std::uint64_t{tile.round});
+        json.key("x").value(std::uint64_t{tile.x}).key("y").value(std::uint64_t{tile.y});
+        json.end_object();
+    }
+    json.end_array();
+}
+
 void write_result(JsonWriter& json, const PenetrationResult& result) {
     json.key("count").value(std::uint64_t{result.count});
     json.key("deepest");
@@ -209,6 +225,7 @@ void write_result(JsonWriter& json, const SeparationVectorResult& result) {
     json.key("vector").value(result.vector);
     json.key("length").value(result.length);
     json.key("lower_bound").value(result.lower_bound);
+    json.key("work").value(result.work);
 }
 
 }  // namespace
@@ -263,6 +280,9 @@ void write_query_json(std::ostream& stream, const Answer& answer) {
     json.key("device").value(std::string_view(answer.device));
     write_timings(json, answer.timings);
     write_answer(json, answer.request, answer.result);
+    if (answer.tiles != nullptr) {
+        write_tiles(json, *answer.tiles);
+    }
     json.end_object();
     stream << '\n';
 }

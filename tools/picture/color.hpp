@@ -33,6 +33,7 @@ inline constexpr Color frame = rgb(0xC3CAD3);
 inline constexpr Color shape_a = rgb(0xC2185B);
 inline constexpr Color shape_b = rgb(0x14467C);
 inline constexpr Color region = rgb(0x1B2430);
+inline constexpr Color tile = rgb(0x00796B);
 inline constexpr Color arrow = rgb(0x1B2430);
 inline constexpr Color sample = rgb(0x7B3FA0).with_alpha(0.62);
 inline constexpr Color highlight = rgb(0xFFD21F);

@@ -163,11 +163,12 @@ void draw_header(Canvas& canvas, const Figure& figure) {
     canvas.text({margin, 132.0}, canvas.shortened(line, 24.0, width), 24.0, palette::quiet_text);
 }
 
-void draw_regions(Canvas& canvas, const std::vector<Region>& regions, const View& view,
-                  const Pen& pen) {
-    for (const Region& region : regions) {
-        const std::vector<Vector2> corners = view.to_page(Ring{
-            region.min, {region.max.x, region.min.y}, region.max, {region.min.x, region.max.y}});
+/// The outlines of regions or of tiles.
+template <class Boxes>
+void draw_boxes(Canvas& canvas, const Boxes& boxes, const View& view, const Pen& pen) {
+    for (const auto& box : boxes) {
+        const std::vector<Vector2> corners =
+            view.to_page(Ring{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}});
         canvas.stroke(std::span(&corners, 1), pen);
     }
 }
@@ -220,8 +221,8 @@ void draw_overview(Canvas& canvas, const Figure& figure) {
     canvas.stroke(b, {palette::shape_b, 1.4});
     canvas.stroke(a, {palette::shape_a, 1.4});
     draw_traces(canvas, figure, view, 1.2);
-    draw_regions(canvas, summary_of(figure.answer.result).regions, view,
-                 {palette::region, 2.0, {7.0, 5.0}});
+    draw_boxes(canvas, summary_of(figure.answer.result).regions, view,
+               {palette::region, 2.0, {7.0, 5.0}});
     canvas.unclip();
     canvas.stroke(overview_panel, {palette::frame, 1.5});
 }
@@ -248,8 +249,11 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
     if (const auto* result = std::get_if<IntersectionResult>(&figure.answer.result)) {
         draw_samples(canvas, *result, view);
     }
-    draw_regions(canvas, summary_of(figure.answer.result).regions, view,
-                 {palette::region.with_alpha(0.75), 1.8, {9.0, 8.0}});
+    if (figure.answer.tiles != nullptr) {
+        draw_boxes(canvas, *figure.answer.tiles, view, {palette::tile, 1.4});
+    }
+    draw_boxes(canvas, summary_of(figure.answer.result).regions, view,
+               {palette::region.with_alpha(0.75), 1.8, {9.0, 8.0}});
     draw_traces(canvas, figure, view, 2.2);
     canvas.stroke(b, {palette::shape_b, 3.0});
     canvas.stroke(a, {palette::page.with_alpha(0.8), 5.0});

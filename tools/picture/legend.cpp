@@ -164,6 +164,9 @@ std::vector<LegendEntry> legend_of(const Figure& figure, const FieldScale* field
         entries.push_back({line({palette::region, 2.0, {9.0, 7.0}}),
                            meaning_of_regions(figure.answer.request.type)});
     }
+    if (figure.answer.tiles != nullptr && !figure.answer.tiles->empty()) {
+        entries.push_back({line({palette::tile, 1.8}), "tile"});
+    }
     std::visit([&entries](const auto& result) { add_entries(entries, result); },
                figure.answer.result);
     add_picture_entries(entries, figure.answer.request.picture);

@@ -1,5 +1,6 @@
 #include <tools/commands/library_error.hpp>
 #include <tools/dynamics/plane.hpp>
+#include <tools/picture/color.hpp>
 #include <tools/viewer/findings.hpp>
 
 #include <type_traits>
@@ -12,6 +13,7 @@ using dynamics::operator+;
 using dynamics::operator-;
 
 constexpr tools::Color region_color = tools::rgb(0x0B5CAD);
+constexpr tools::Color tile_color = tools::palette::tile;
 constexpr tools::Color sample_color = tools::rgb(0x7B3FA0);
 constexpr tools::Color drag_color = tools::rgb(0xD9480F);
 
@@ -49,10 +51,20 @@ void append(std::vector<Record>& to, const std::vector<Record>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-void draw_rectangle(tools::Drawing& drawing, const tools::View& view, const Region& region) {
-    const Vector2 low = view.to_page(region.min);
-    const Vector2 high = view.to_page(region.max);
-    drawing.line({low, {high.x, low.y}, high, {low.x, high.y}}, region_color, 1.2, true);
+/// Around a region or a tile.
+template <class Box>
+void draw_rectangle(tools::Drawing& drawing, const tools::View& view, const Box& box,
+                    const tools::Color& color) {
+    const Vector2 low = view.to_page(box.min);
+    const Vector2 high = view.to_page(box.max);
+    drawing.line({low, {high.x, low.y}, high, {low.x, high.y}}, color, 1.2, true);
+}
+
+void draw_tile(tools::Drawing& drawing, const tools::View& view, const TileReport& tile) {
+    const Vector2 low = view.to_page(tile.min);
+    const Vector2 high = view.to_page(tile.max);
+    drawing.fill({{low, {high.x, low.y}, high, {low.x, high.y}}}, tile_color.with_alpha(0.15));
+    draw_rectangle(drawing, view, tile, tile_color);
 }
 
 /// The cells of a region's grid, where they are large enough to be told apart.
@@ -91,6 +103,9 @@ Findings find(Simulation& simulation, const Overlays& overlays) {
     tools::require(simulation.context().run(batch, results));
     Findings findings;
     findings.timings = results.timings;
+    if (overlays.tiles) {
+        tools::require(simulation.context().list_tiles(findings.tiles));
+    }
     for (const AnyResult& any : results.results) {
         std::visit(
             [&findings](const auto& result) {
@@ -127,8 +142,11 @@ void draw(tools::Drawing& drawing, Simulation& simulation, const Overlays& overl
     if (overlays.regions) {
         for (const Region& region : findings.regions) {
             draw_grid(drawing, view, region);
-            draw_rectangle(drawing, view, region);
+            draw_rectangle(drawing, view, region, region_color);
         }
+    }
+    for (const TileReport& tile : findings.tiles) {
+        draw_tile(drawing, view, tile);
     }
     tools::Observations shown;
     if (overlays.contacts) {

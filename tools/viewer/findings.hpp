@@ -16,6 +16,7 @@ struct Overlays {
     bool contacts = true;
     bool depths = true;
     bool regions = false;
+    bool tiles = false;
     bool samples = false;  ///< of what both bodies of a pair cover
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< how these are found
 
@@ -26,6 +27,7 @@ struct Overlays {
 struct Findings {
     tools::Observations observations;
     std::vector<Region> regions;
+    std::vector<TileReport> tiles;  ///< where the overlays show them
     std::vector<IntersectionSample> samples;
     double sample_cell = 0.0;
     Timings timings;      ///< of the one batch that all of it is

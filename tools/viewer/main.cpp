@@ -52,7 +52,7 @@ void add_options(CLI::App& program, Arguments& arguments) {
     program
         .add_option("--show", arguments.show,
                     "What is drawn over them, separated by commas: contacts, depths, regions, "
-                    "samples; none of them: nothing")
+                    "tiles, samples; none of them: nothing")
         ->delimiter(',');
     const auto group = "For tests, which have no user";
     CLI::Option* const frames =
@@ -98,11 +98,14 @@ void parse_show(const std::vector<std::string>& names, viewer::Overlays& overlay
             overlays.depths = true;
         } else if (name == "regions") {
             overlays.regions = true;
+        } else if (name == "tiles") {
+            overlays.tiles = true;
         } else if (name == "samples") {
             overlays.samples = true;
         } else if (name != "none") {
-            throw tools::InputError("--show: \"" + name +
-                                    "\" is none of contacts, depths, regions, samples, none");
+            throw tools::InputError(
+                "--show: \"" + name +
+                "\" is none of contacts, depths, regions, tiles, samples, none");
         }
     }
 }

@@ -104,6 +104,8 @@ void add_overlays(Overlays& overlays) {
     ImGui::Checkbox("depths", &overlays.depths);
     ImGui::SameLine();
     ImGui::Checkbox("regions", &overlays.regions);
+    ImGui::SameLine();
+    ImGui::Checkbox("tiles", &overlays.tiles);
     ImGui::Checkbox("samples of intersections", &overlays.samples);
     static const auto strategies =
         named({IntersectionStrategy::stencil, IntersectionStrategy::blend,
@@ -169,6 +171,46 @@ void add_times(const Timings& timings) {
     }
 }
 
+/// Where the tiles of the first filling of the atlas stand in the image, and how many more there
+/// are.
+void add_atlas(const std::vector<TileReport>& tiles) {
+    constexpr float side = 110.0F;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::size_t shown = 0;
+    const auto is_shown = [](const TileReport& tile) {
+        return tile.technique == Technique::raster && tile.round == 0;
+    };
+    for (const TileReport& tile : tiles) {
+        if (is_shown(tile)) {
+            width = std::max(width, tile.x + tile.width);
+            height = std::max(height, tile.y + tile.height);
+            ++shown;
+        }
+    }
+    ImGui::Separator();
+    ImGui::Text("%zu tiles, %zu of them in one atlas image", tiles.size(), shown);
+    if (shown == 0) {
+        return;
+    }
+    const float scale = side / static_cast<float>(std::max(width, height));
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const auto at = [&](std::uint32_t x, std::uint32_t y) {
+        return ImVec2(corner.x + scale * static_cast<float>(x),
+                      corner.y + scale * static_cast<float>(y));
+    };
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(corner, at(width, height), IM_COL32(255, 255, 255, 255));
+    for (const TileReport& tile : tiles) {
+        if (is_shown(tile)) {
+            const ImVec2 high = at(tile.x + tile.width, tile.y + tile.height);
+            list.AddRectFilled(at(tile.x, tile.y), high, IM_COL32(0, 121, 107, 40));
+            list.AddRect(at(tile.x, tile.y), high, IM_COL32(0, 121, 107, 255));
+        }
+    }
+    ImGui::Dummy({scale * static_cast<float>(width), scale * static_cast<float>(height)});
+}
+
 void add_notice(const std::string& notice) {
     if (!notice.empty()) {
         ImGui::Separator();
@@ -191,6 +233,9 @@ void add_panel(Wishes& wishes, const Reading& reading, float height) {
     add_overlays(wishes.overlays);
     add_notice(reading.notice);
     add_notice(reading.findings.refusal);
+    if (wishes.overlays.tiles) {
+        add_atlas(reading.findings.tiles);
+    }
     add_frame(reading);
     add_times(reading.findings.timings);
     ImGui::PopItemWidth();

@@ -1,0 +1,28 @@
+#include <engine/plan/tile_reports.hpp>
+
+namespace nearfield::plan {
+
+void report_tiles(const Plan& plan, std::vector<TileReport>& reports) {
+    reports.reserve(reports.size() + plan.tiles.size());
+    for (const Tile& tile : plan.tiles) {
+        const PlannedQuery& planned = plan.queries[tile.query];
+        // The other direction of a query stands behind all queries of the batch.
+        const auto query = static_cast<std::uint32_t>(planned.query - plan.queries.front().query);
+        const geometry::Vector low = tile.origin();
+        const geometry::Vector high =
+            low + tile.grid.cell * geometry::Vector(tile.width, tile.height);
+        TileReport& report = reports.emplace_back();
+        report.query = query;
+        report.technique = planned.by_compute ? Technique::compute : Technique::raster;
+        report.side = query == tile.query ? Side::a : Side::b;
+        report.min = geometry::to_public(low);
+        report.max = geometry::to_public(high);
+        report.width = tile.width;
+        report.height = tile.height;
+        report.round = tile.place.round;
+        report.x = tile.place.x;
+        report.y = tile.place.y;
+    }
+}
+
+}  // namespace nearfield::plan

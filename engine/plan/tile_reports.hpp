@@ -1,0 +1,13 @@
+#pragma once
+
+#include <engine/plan/plan.hpp>
+#include <nearfield/tile.hpp>
+
+#include <vector>
+
+namespace nearfield::plan {
+
+/// Appends what there is to say about the tiles of a plan to `reports`.
+void report_tiles(const Plan& plan, std::vector<TileReport>& reports);
+
+}  // namespace nearfield::plan
