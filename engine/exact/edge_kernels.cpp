@@ -105,14 +105,19 @@ std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,
                                std::uint32_t* crossed) {
     const Tag tag;
     const std::uint32_t in_box = FindPointsIn(points, box, found);
-    if (in_box == 0) {
-        return 0;
+    std::uint32_t count = 0;
+    if (in_box <= few_points) {
+        for (std::uint32_t i = 0; i < in_box; ++i) {
+            const std::uint32_t point = found[i];
+            found[count] = point;
+            count += Contain(edges, points.x[point], points.y[point]) ? 1U : 0U;
+        }
+        return count;
     }
     // A ray to the right crosses no edges but those.
     Extent rays = extent_of(points, found, in_box);
     rays.high_x = std::numeric_limits<double>::infinity();
     const std::uint32_t beside = FindEdgesIn(edges, rays, crossed);
-    std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < in_box; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
         const auto together = std::min(in_box - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
         const PointLanes lanes(points, found + i, together);
