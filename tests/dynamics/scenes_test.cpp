@@ -228,23 +228,23 @@ TEST(Scenes, CountriesDoNotFlyApartNorMerge) {
 }
 
 TEST(Scenes, WhatIsPouredComesToRestInTheContainer) {
-    constexpr std::size_t stars = 100;
+    constexpr std::size_t stars = 60;
     World world(simulation_context(), scenes::pour_scene(stars), Response::penalty, Technique::cpu);
     const Scene& scene = world.scene();
     FrameReport report;
     double worst = 0.0;
-    for (int frame = 0; frame < 900; ++frame) {
+    for (int frame = 0; frame < 1500; ++frame) {
         report = world.advance();
         EXPECT_EQ(report.queries.batches, 1U);
         worst = std::max(worst, report.worst_penetration);
     }
-    // 5 rows of 20 stars of at most 0.64 in a container that is 16 wide: however they come to
+    // 3 rows of 20 stars of at most 0.64 in a container that is 16 wide: however they come to
     // lie, no higher than all of them upright.
     for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
         const Vector2 center = scene.bodies[i]->center();
         EXPECT_LT(std::abs(center.x), 8.0) << i;
         EXPECT_GT(center.y, -7.0) << i;
-        EXPECT_LT(center.y, -7.0 + 5.0 * 0.64) << i;
+        EXPECT_LT(center.y, -7.0 + 3.0 * 0.64) << i;
     }
     // A star is nowhere thicker than the circle in its middle, 0.55 of its size: not so deep that
     // the way out could be on its other side.

@@ -19,7 +19,7 @@ namespace nearfield::scenes {
 /// A chain of 15 links, 440 lines, each with a ball in the socket of the next; its ends are held
 /// and swayed.
 [[nodiscard]] dynamics::Scene links_scene();
-/// 18 cars, 266 lines, convex, each after a goal of its own that moves about.
+/// 18 cars, 266 lines, convex, in three lanes round a course, where they pass and bump each other.
 [[nodiscard]] dynamics::Scene cars_scene();
 /// 2 deformable bars, 200 lines, side by side and held at their backs; waves run up the right one
 /// and are handed to the left one.
