@@ -19,56 +19,43 @@ bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
            (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
 }
 
-template <class Query>
-bool is_open(const Query& query) {
-    return query.technique == Technique::automatic;
-}
-
 }  // namespace
 
-template <class Query>
-double Chooser::most_saved(const AnyQuery& any, const Query& query,
-                           const plan::QueryShapes& shapes) const {
-    if (plan::unanswered(Technique::cpu, query) != nullptr) {
-        return never;
-    }
-    if (!are_known(any, shapes)) {
-        return 0.0;
-    }
-    const WorkBounds bounds = work_bounds(any, shapes.a, *shapes.b);
-    double by_device = never;
-    for (const std::uint32_t device : {raster, compute}) {
-        if (plan::unanswered(by_position[device], query) == nullptr) {
-            by_device = std::min(by_device, bounds.least.time(costs_[device]));
+Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
+                                     std::span<const plan::QueryShapes> shapes) {
+    candidates_.clear();
+    Set others = 0;
+    for (std::size_t index = 0; index < queries.size(); ++index) {
+        const Technique asked =
+            std::visit([](const auto& query) { return query.technique; }, queries[index]);
+        if (asked == Technique::automatic) {
+            add_candidate(queries[index], shapes[index]);
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            others |= asked == by_position[i] ? 1U << i : 0U;
         }
     }
-    return std::max(0.0, bounds.most.time(costs_[cpu]) - by_device);
-}
-
-Chooser::Outlook Chooser::look(std::span<const AnyQuery> queries,
-                               std::span<const plan::QueryShapes> shapes) const {
-    Outlook outlook;
-    for (std::size_t index = 0; index < queries.size(); ++index) {
-        std::visit(
-            [&](const auto& query) {
-                if (is_open(query)) {
-                    outlook.open = true;
-                    outlook.most_saved += most_saved(queries[index], query, shapes[index]);
-                } else {
-                    for (std::uint32_t i = 0; i < count; ++i) {
-                        outlook.paid |= query.technique == by_position[i] ? 1U << i : 0U;
-                    }
-                }
-            },
-            queries[index]);
-    }
-    return outlook;
+    return others;
 }
 
 void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
-    const Work work = are_known(query, shapes) ? work_of(query, shapes.a, *shapes.b) : Work{};
     Candidate& candidate = candidates_.emplace_back();
     candidate.query = &query;
+    candidate.shapes = shapes;
+    if (!plan::answers(Technique::cpu, query)) {
+        candidate.most_saved.fill(never);
+    } else if (are_known(query, shapes)) {
+        const WorkBounds bounds = work_bounds(query, shapes.a, *shapes.b);
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            candidate.most_saved[device] = bounds.most_saved(costs_[cpu], costs_[device]);
+        }
+    }
+}
+
+void Chooser::estimate(Candidate& candidate) const {
+    const AnyQuery& query = *candidate.query;
+    const plan::QueryShapes& shapes = candidate.shapes;
+    const Work work = are_known(query, shapes) ? work_of(query, shapes.a, *shapes.b) : Work{};
     for (std::uint32_t i = 0; i < count; ++i) {
         // Of numbers that are none, which a bad query may bring, no time comes.
         const double time = work.time(costs_[i]);
@@ -77,14 +64,30 @@ void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
     }
 }
 
-void Chooser::add_candidates(std::span<AnyQuery> queries,
-                             std::span<const plan::QueryShapes> shapes) {
-    candidates_.clear();
-    for (std::size_t index = 0; index < queries.size(); ++index) {
-        if (std::visit([](const auto& query) { return is_open(query); }, queries[index])) {
-            add_candidate(queries[index], shapes[index]);
+bool Chooser::cpu_is_best(Set paid) {
+    Savings saved{};
+    for (const Candidate& candidate : candidates_) {
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            saved[device] += candidate.most_saved[device];
         }
     }
+    // What no device can make up for its submission with needs no closer look, which would take as
+    // long as the answers to small pairs. Two devices save no more than the sum of what each does.
+    const auto no_device_pays = [&] {
+        return submission(cpu, paid) + saved[raster] <= submission(raster, paid) &&
+               submission(cpu, paid) + saved[compute] <= submission(compute, paid);
+    };
+    for (Candidate& candidate : candidates_) {
+        if (no_device_pays()) {
+            return true;
+        }
+        estimate(candidate);
+        for (std::uint32_t device = 0; device < cpu; ++device) {
+            saved[device] += std::max(0.0, candidate.times[cpu] - candidate.times[device]) -
+                             candidate.most_saved[device];
+        }
+    }
+    return no_device_pays();
 }
 
 std::uint32_t Chooser::fastest(const Candidate& candidate, Set allowed) {
@@ -113,19 +116,8 @@ double Chooser::time_by(Set allowed, Set paid) const {
 }
 
 Chooser::Set Chooser::best_set(Set paid) const {
-    double by_cpu = submission(cpu, paid);
-    double at_best = std::min(submission(raster, paid), submission(compute, paid));
-    for (const Candidate& candidate : candidates_) {
-        by_cpu += candidate.times[cpu];
-        at_best += *std::min_element(candidate.times.begin(), candidate.times.end());
-    }
     Set best = 1U << cpu;
-    // With a device in it nothing takes less than each query at its best and a submission. Mostly
-    // that settles it where there is little work, and picking is a part of it that counts.
-    if (by_cpu <= at_best) {
-        return best;
-    }
-    double least = by_cpu;
+    double least = never;
     for (Set allowed = 1; allowed < every_set; ++allowed) {
         const double time = time_by(allowed, paid);
         if (time < least) {
@@ -137,27 +129,11 @@ Chooser::Set Chooser::best_set(Set paid) const {
 }
 
 void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
-    const Outlook outlook = look(queries, shapes);
-    if (!outlook.open) {
-        return;
-    }
-    // What no device can make up for its submission with needs no closer look, which would take as
-    // long as the answers to small pairs.
-    if (submission(cpu, outlook.paid) + outlook.most_saved <=
-        std::min(submission(raster, outlook.paid), submission(compute, outlook.paid))) {
-        for (AnyQuery& query : queries) {
-            std::visit(
-                [](auto& asked) {
-                    asked.technique = is_open(asked) ? Technique::cpu : asked.technique;
-                },
-                query);
-        }
-        return;
-    }
-    add_candidates(queries, shapes);
-    const Set best = best_set(outlook.paid);
+    const Set others = add_candidates(queries, shapes);
+    const Set best = cpu_is_best(others) ? 1U << cpu : best_set(others);
     for (const Candidate& candidate : candidates_) {
-        const Technique technique = by_position[fastest(candidate, best)];
+        const Technique technique =
+            best == 1U << cpu ? Technique::cpu : by_position[fastest(candidate, best)];
         std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);
     }
 }

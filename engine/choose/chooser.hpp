@@ -28,31 +28,28 @@ private:
     using Set = std::uint32_t;
     static constexpr Set every_set = 1U << count;
 
-    /// A query that leaves the technique open: what it takes by each that has an answer, infinite
-    /// for the others.
+    /// By device, that is raster and compute: microseconds that it may take less than the CPU.
+    using Savings = std::array<double, cpu>;
+
+    /// A query that leaves the technique open.
     struct Candidate {
         AnyQuery* query = nullptr;
+        plan::QueryShapes shapes;
+        /// No more than this, as far as can be told without a look at a vertex.
+        Savings most_saved{};
+        /// What it takes by each technique that has an answer, infinite for the others. Not known
+        /// before estimate().
         std::array<double, count> times{};
     };
 
-    /// What can be said of a batch without a look at a vertex.
-    struct Outlook {
-        bool open = false;  ///< some query leaves the technique open
-        Set paid = 0;       ///< techniques that others ask for
-        /// Microseconds that devices could take less than the CPU for what is open, submissions
-        /// left out: no more than this.
-        double most_saved = 0.0;
-    };
-    [[nodiscard]] Outlook look(std::span<const AnyQuery> queries,
-                               std::span<const plan::QueryShapes> shapes) const;
-    /// What a device could save of one query.
-    template <class Query>
-    [[nodiscard]] double most_saved(const AnyQuery& any, const Query& query,
-                                    const plan::QueryShapes& shapes) const;
-
-    /// Notes the queries that leave the technique open.
-    void add_candidates(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
+    /// Notes the queries that leave the technique open. Returns the techniques that others ask for.
+    [[nodiscard]] Set add_candidates(std::span<AnyQuery> queries,
+                                     std::span<const plan::QueryShapes> shapes);
     void add_candidate(AnyQuery& query, const plan::QueryShapes& shapes);
+    void estimate(Candidate& candidate) const;
+    /// True where the CPU alone takes the least time. Estimates candidates only until that is
+    /// settled; where it is false all are.
+    [[nodiscard]] bool cpu_is_best(Set paid);
     /// The techniques that may be used for the batch to take the least time.
     [[nodiscard]] Set best_set(Set paid) const;
     /// Microseconds of a technique's submission, where it is not paid.

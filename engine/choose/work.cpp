@@ -80,9 +80,25 @@ Box common_box(const PlacedPolygon& a, const PlacedPolygon& b, double grow) {
 }
 
 /// How many cells a rectangle has at the most in which both shapes can be, each grown.
-double most_common_cells(const Polygon& a, const Polygon& b, double grow, double cell) {
-    const double side = 2.0 * (std::min(a.radius(), b.radius()) + grow);
-    return cells_of(Box(geometry::Vector::Zero(), geometry::Vector::Constant(side)), cell);
+double most_common_cells(const PlacedPolygon& a, const PlacedPolygon& b, double grow, double cell) {
+    const auto around = [grow](const PlacedPolygon& placed) {
+        return grown(Box(placed.translation()), placed.polygon().radius() + grow);
+    };
+    return cells_of(around(a).intersection(around(b)), cell);
+}
+
+/// Edges of which nothing but the box is looked at count as so many.
+constexpr double far_edge = 1.0 / 16.0;
+
+/// How many edges of a shape an intersection works on.
+double edges_in(const PlacedPolygon& placed, const Box& box) {
+    const Polygon& polygon = placed.polygon();
+    const std::uint32_t stride = stride_of(polygon);
+    double near = 0.0;
+    for (std::uint32_t i = 0; i < polygon.size() && !box.isEmpty(); i += stride) {
+        near += box.contains(placed.vertex(i)) ? stride : 0.0;
+    }
+    return std::min<double>(near + far_edge * polygon.size(), polygon.size());
 }
 
 /// How many samples a cell apart a boundary has at the most, as boundary_samples() counts.
@@ -121,8 +137,12 @@ struct Bounds {
     }
 
     WorkBounds operator()(const IntersectionQuery& query) const {
-        return of(&TechniqueCost::intersection, 0.0,
-                  most_common_cells(*a, b, 0.0, cell_of(query.tolerance)));
+        const double most =
+            most_common_cells(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose), 0.0,
+                              cell_of(query.tolerance));
+        WorkBounds bounds = of(&TechniqueCost::intersection, 0.0, most);
+        bounds.least.edges *= far_edge;
+        return bounds;
     }
 
     WorkBounds operator()(const DistanceFieldQuery& query) const {
@@ -137,7 +157,8 @@ struct Bounds {
                                         geometry::to_vector(query.rectangle->max)),
                                     cell);
         } else if (a != nullptr) {
-            most = most_common_cells(*a, b, query.tolerance, cell);
+            most = most_common_cells(PlacedPolygon(*a, query.a.pose),
+                                     PlacedPolygon(b, query.b.pose), query.tolerance, cell);
         }
         // Of A nothing but its box is used.
         const Work work{parts.features ? &TechniqueCost::features : &TechniqueCost::field,
@@ -152,48 +173,66 @@ struct Bounds {
     }
 };
 
-/// How many samples a query has whose bounds leave that open.
-struct Samples {
+/// What a query comes to whose bounds leave that open.
+struct Estimate {
     const Polygon* a;
     const Polygon& b;
+    Work work;  // at the most
 
-    double operator()(const PenetrationQuery& query) const {
+    Work operator()(const PenetrationQuery& query) {
         const PlacedPolygon placed(*a, query.a.pose);
         const Box within = rough_box(PlacedPolygon(b, query.b.pose));
-        return boundary_samples(placed, rough_box(placed), within, cell_of(query.tolerance));
+        return with_samples(
+            boundary_samples(placed, rough_box(placed), within, cell_of(query.tolerance)));
     }
 
-    double operator()(const ContactQuery& query) const {
+    Work operator()(const ContactQuery& query) {
         const PlacedPolygon placed_a(*a, query.a.pose);
         const PlacedPolygon placed_b(b, query.b.pose);
         const double cell = cell_of(query.tolerance);
         const Box box_a = rough_box(placed_a);
         const Box box_b = rough_box(placed_b);
         const double reach = query.contact_distance;
-        return boundary_samples(placed_a, box_a, grown(box_b, reach), cell) +
-               boundary_samples(placed_b, box_b, grown(box_a, reach), cell);
+        return with_samples(boundary_samples(placed_a, box_a, grown(box_b, reach), cell) +
+                            boundary_samples(placed_b, box_b, grown(box_a, reach), cell));
     }
 
-    double operator()(const IntersectionQuery& query) const { return common_cells(query, 0.0); }
-    double operator()(const DistanceFieldQuery& query) const {
-        return common_cells(query, query.tolerance);
+    Work operator()(const IntersectionQuery& query) {
+        const PlacedPolygon placed_a(*a, query.a.pose);
+        const PlacedPolygon placed_b(b, query.b.pose);
+        const Box box = common_box(placed_a, placed_b, 0.0);
+        work.edges = edges_in(placed_a, box) + edges_in(placed_b, box);
+        return with_samples(cells_of(box, cell_of(query.tolerance)));
+    }
+
+    Work operator()(const DistanceFieldQuery& query) {
+        const Box box = common_box(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose),
+                                   query.tolerance);
+        return with_samples(cells_of(box, cell_of(query.tolerance)));
     }
 
     template <class Query>
-    double operator()(const Query& /*query*/) const {
-        return 0.0;  // it has none
+    Work operator()(const Query& /*query*/) {
+        return work;  // its bounds say it all
     }
 
 private:
-    template <class Query>
-    [[nodiscard]] double common_cells(const Query& query, double grow) const {
-        const Box box =
-            common_box(PlacedPolygon(*a, query.a.pose), PlacedPolygon(b, query.b.pose), grow);
-        return cells_of(box, cell_of(query.tolerance));
+    Work with_samples(double samples) {
+        work.samples = std::min(samples, work.samples);
+        return work;
     }
 };
 
 }  // namespace
+
+double WorkBounds::most_saved(const TechniqueCost& cpu, const TechniqueCost& device) const {
+    Work by_cpu = most;
+    Work by_device = least;
+    // Whatever their number, edges are the same for both.
+    const bool edges_save = (cpu.*most.kind).edge > (device.*most.kind).edge;
+    by_cpu.edges = by_device.edges = edges_save ? most.edges : least.edges;
+    return std::max(0.0, by_cpu.time(cpu) - by_device.time(device));
+}
 
 WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b) {
     return std::visit(Bounds{a, b}, query);
@@ -201,11 +240,9 @@ WorkBounds work_bounds(const AnyQuery& query, const Polygon* a, const Polygon& b
 
 Work work_of(const AnyQuery& query, const Polygon* a, const Polygon& b) {
     const WorkBounds bounds = work_bounds(query, a, b);
-    Work work = bounds.most;
-    if (bounds.least.samples < bounds.most.samples) {
-        work.samples = std::min(std::visit(Samples{a, b}, query), bounds.most.samples);
-    }
-    return work;
+    const bool open =
+        bounds.least.samples < bounds.most.samples || bounds.least.edges < bounds.most.edges;
+    return open ? std::visit(Estimate{a, b, bounds.most}, query) : bounds.most;
 }
 
 }  // namespace nearfield::choose

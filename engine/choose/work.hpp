@@ -23,6 +23,9 @@ struct Work {
 struct WorkBounds {
     Work least;
     Work most;
+
+    /// How many microseconds less it can take by a device than by the CPU, submissions left out.
+    [[nodiscard]] double most_saved(const TechniqueCost& cpu, const TechniqueCost& device) const;
 };
 
 // `a` is null where the query has none. The query's numbers need not be good: of a query that will
