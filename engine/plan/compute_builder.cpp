@@ -26,8 +26,9 @@ std::uint32_t words_for(std::uint32_t cells) {
     return (cells + 31) / 32;
 }
 
+/// A snapped coordinate in steps: a whole number, since steps are a power of two.
 std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
-    return static_cast<std::int32_t>(std::llround(coordinate * grid.steps));
+    return static_cast<std::int32_t>(coordinate * grid.steps);
 }
 
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
