@@ -113,7 +113,7 @@ public:
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
-    void list_tiles(std::vector<TileReport>& tiles) const { ring_.list_tiles(tiles); }
+    void list_tiles(std::vector<TileReport>& tiles) const { machinery_->ring.list_tiles(tiles); }
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
     [[nodiscard]] const gpu::Device& device() const { return device_; }

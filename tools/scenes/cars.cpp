@@ -16,12 +16,12 @@ using namespace dynamics;
 constexpr std::size_t cars = 18;
 constexpr std::size_t lanes = 3;
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr Vector2 middle{0.0, 0.2};
+constexpr Vector2 course_middle{0.0, 0.2};
 
 /// A car's way round the course: a lane that it leaves a little, to and fro, and where on it the
 /// car is to be. Inner lanes are the faster ones, so cars pass each other all the time.
 struct Driver {
-    double lane = 0.0;   // beside the middle lane, outwards
+    double lane = 0.0;   // beside the course_middle lane, outwards
     double start = 0.0;  // angle on the course
     double pace = 0.0;   // radians a second
     double mood = 0.0;   // of its waywardness, a phase
@@ -36,7 +36,7 @@ struct Driver {
     }
     [[nodiscard]] Vector2 place(double angle, double time) const {
         const Vector2 around = radii(time);
-        return middle + Vector2{around.x * std::cos(angle), around.y * std::sin(angle)};
+        return course_middle + Vector2{around.x * std::cos(angle), around.y * std::sin(angle)};
     }
 };
 
@@ -60,7 +60,7 @@ void drive(RigidBody& car, const Driver& driver, double time) {
     constexpr double settling = 6.0;   // and by spin
     constexpr double look_ahead = 0.3;
     const Vector2 around = driver.radii(time);
-    const Vector2 arm = car.center() - middle;
+    const Vector2 arm = car.center() - course_middle;
     const double angle = std::atan2(arm.y / around.y, arm.x / around.x);
     const Vector2 way = driver.place(angle + look_ahead, time) - car.center();
     const Vector2 ahead = polar(1.0, car.angle());
