@@ -21,7 +21,7 @@ constexpr Vector2 course_middle{0.0, 0.2};
 /// A car's way round the course: a lane that it leaves a little, to and fro, and where on it the
 /// car is to be. Inner lanes are the faster ones, so cars pass each other all the time.
 struct Driver {
-    double lane = 0.0;   // beside the course_middle lane, outwards
+    double lane = 0.0;   // beside the middle lane, outwards
     double start = 0.0;  // angle on the course
     double pace = 0.0;   // radians a second
     double mood = 0.0;   // of its waywardness, a phase
