@@ -163,7 +163,6 @@ bool ShiftCover::cut_off_walls(const ShiftSquare& square, double radius) {
 }
 
 bool ShiftCover::split_rest(const ShiftSquare& square, double radius) {
-    pieces_.assign(1, rest_);
     std::size_t lines = 0;
     for (const Asked& asked : left_) {
         const Witness& witness = witnesses_[asked.witness];
@@ -190,16 +189,23 @@ bool ShiftCover::split_rest(const ShiftSquare& square, double radius) {
     return true;
 }
 
+void ShiftCover::add_piece(const ConvexPiece& piece) {
+    if (piece_count_ == pieces_.size()) {
+        pieces_.emplace_back();
+    }
+    pieces_[piece_count_++] = piece;
+}
+
 void ShiftCover::split(const Vector& direction, double at) {
-    const std::size_t count = pieces_.size();
+    const std::size_t count = piece_count_;
     for (std::size_t i = 0; i < count; ++i) {
-        ConvexPiece beyond = pieces_[i];
-        beyond.keep(direction, at);
-        ConvexPiece before = pieces_[i];
-        before.keep(-direction, -at);
-        if (!beyond.is_empty() && !before.is_empty()) {
-            pieces_[i] = beyond;
-            pieces_.push_back(before);
+        beyond_ = pieces_[i];
+        beyond_.keep(direction, at);
+        before_ = pieces_[i];
+        before_.keep(-direction, -at);
+        if (!beyond_.is_empty() && !before_.is_empty()) {
+            pieces_[i] = beyond_;
+            add_piece(before_);
         }
     }
 }
@@ -230,8 +236,9 @@ ShiftWord ShiftCover::ask(const ShiftSquare& square) {
     if (rest_.is_empty()) {
         return ShiftWord::meet;
     }
+    piece_count_ = 0;
+    add_piece(rest_);
     if (is_alike) {
-        pieces_.assign(1, rest_);
         return ShiftWord::alike;
     }
     if (split_rest(square, radius)) {

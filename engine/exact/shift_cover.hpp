@@ -5,7 +5,9 @@
 #include <engine/exact/witnesses.hpp>
 #include <engine/exact/work_meter.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::exact {
@@ -49,7 +51,9 @@ public:
     /// What is left of the square asked about last. Not empty, unless the word was that they meet.
     [[nodiscard]] const ConvexPiece& rest() const { return rest_; }
     /// And the pieces it is in, after the word that they are alike.
-    [[nodiscard]] const std::vector<ConvexPiece>& pieces() const { return pieces_; }
+    [[nodiscard]] std::span<const ConvexPiece> pieces() const {
+        return std::span(pieces_).first(piece_count_);
+    }
     /// Puts back the quarters of that square.
     void cut(const ShiftSquare& square);
 
@@ -81,6 +85,7 @@ private:
     /// places.
     [[nodiscard]] bool split_rest(const ShiftSquare& square, double radius);
     void split(const geometry::Vector& direction, double at);
+    void add_piece(const ConvexPiece& piece);
     /// Appends a witness to the last list, by parts where it is a group too wide for the parts of
     /// such a square.
     void list_parts(const Asked& asked, double half);
@@ -96,9 +101,12 @@ private:
     std::vector<ShiftSquare> squares_;  // a heap
     std::vector<Asked> asked_;
     std::vector<List> lists_;
-    std::vector<Asked> left_;  // of the square asked about last
-    ConvexPiece rest_;         // likewise
-    std::vector<ConvexPiece> pieces_;
+    std::vector<Asked> left_;          // of the square asked about last
+    ConvexPiece rest_;                 // likewise
+    std::vector<ConvexPiece> pieces_;  // the first piece_count_ of them; the others keep memory
+    std::size_t piece_count_ = 0;
+    ConvexPiece beyond_;  // scratch
+    ConvexPiece before_;
     std::vector<std::uint32_t> edges_;  // near one vertex; the rest is room
 };
 

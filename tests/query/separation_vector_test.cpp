@@ -126,7 +126,7 @@ TEST_F(SeparationVectorTest, ConvexShapesGoTheirExactDepth) {
             {"B", convex(random, random.whole(6, 20))},
             {{random.between(-0.6, 0.6), random.between(-0.6, 0.6)}, random.between(-3.0, 3.0)},
             {},
-            1e-3};
+            1e-6};
         const SeparationVectorResult result = check(pair, random, 20);
         if (result.intersects) {
             const double depth = convex_depth(ShapeOracle(pair.a.rings, pair.pose_a),
