@@ -19,7 +19,7 @@ using geometry::Polygon;
 constexpr std::uint32_t looked_at = 256;
 
 std::uint32_t stride_of(const Polygon& polygon) {
-    return std::max(1U, polygon.size() / looked_at);
+    return (polygon.size() + looked_at - 1) / looked_at;
 }
 
 // So many vertices are boxed sooner than some of them are picked out.
@@ -54,9 +54,14 @@ double boundary_samples(const PlacedPolygon& placed, const Box& own, const Box& 
     const Polygon& polygon = placed.polygon();
     const std::uint32_t stride = stride_of(polygon);
     double samples = 0.0;
+    std::uint32_t ring = 0;
     for (std::uint32_t i = 0; i < polygon.size(); i += stride) {
+        while (i >= polygon.ring_end(ring)) {
+            ++ring;
+        }
+        const bool is_last = i + 1 == polygon.ring_end(ring);
         const geometry::Vector from = placed.vertex(i);
-        const geometry::Vector to = placed.vertex(polygon.next(i));
+        const geometry::Vector to = placed.vertex(is_last ? polygon.ring_begin(ring) : i + 1);
         const Box edge(from.cwiseMin(to), from.cwiseMax(to));
         const Box inside = edge.intersection(within);
         if (!inside.isEmpty()) {
