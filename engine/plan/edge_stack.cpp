@@ -61,7 +61,7 @@ HWY_INLINE WayFrom way_from(const NearEdges& edges, float x, float y) {
 
 /// The edges nearest to the corners and to the centre, each once.
 struct Rivals {
-    std::array<std::size_t, places> edges;
+    std::array<std::size_t, places> edges{};
     std::size_t count = 0;
 
     void add(std::size_t edge) {
@@ -71,87 +71,93 @@ struct Rivals {
     }
 };
 
+/// A place, and by lane the nearest edge so far.
+struct SeenFrom {
+    float x;
+    float y;
+    Vector squared;
+    hn::Vec<Words> start_of_vector;
+
+    HWY_INLINE void consider(const NearEdges& some, Mask valid, std::size_t i) {
+        const Words words;
+        const Vector distance = way_from(some, x, y).squared();
+        const Mask nearer = hn::And(valid, hn::Lt(distance, squared));
+        squared = hn::IfThenElse(nearer, distance, squared);
+        start_of_vector =
+            hn::IfThenElse(hn::RebindMask(words, nearer),
+                           hn::Set(words, static_cast<std::uint32_t>(i)), start_of_vector);
+    }
+
+    [[nodiscard]] HWY_INLINE std::size_t nearest() const {
+        const Floats d;
+        alignas(64) float distances[16];
+        alignas(64) std::uint32_t starts[16];
+        hn::Store(squared, d, distances);
+        hn::Store(start_of_vector, Words(), starts);
+        const float* const best = std::min_element(distances, distances + hn::Lanes(d));
+        const std::ptrdiff_t lane = best - distances;
+        return starts[lane] + static_cast<std::size_t>(lane);
+    }
+};
+
+HWY_INLINE SeenFrom seen_from(float x, float y) {
+    return {x, y, hn::Set(Floats(), std::numeric_limits<float>::infinity()), hn::Zero(Words())};
+}
+
 HWY_INLINE Rivals find_rivals(const EdgeStack& edges, std::size_t first, std::size_t end,
                               const EdgeNode& node) {
     const Floats d;
-    const Words words;
-    const Vector infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-    float x[places];
-    float y[places];
-    alignas(64) float least[places][16];
-    alignas(64) std::uint32_t nearest[places][16];
-    for (std::size_t place = 0; place < places; ++place) {
-        x[place] = node.x + (place < corners ? corner_x[place] * node.half_width : 0.0F);
-        y[place] = node.y + (place < corners ? corner_y[place] * node.half_height : 0.0F);
-    }
-    Vector least0 = infinity, least1 = infinity, least2 = infinity, least3 = infinity,
-           least4 = infinity;
-    auto nearest0 = hn::Zero(words);
-    auto nearest1 = nearest0, nearest2 = nearest0, nearest3 = nearest0, nearest4 = nearest0;
+    const float low_x = node.x - node.half_width;
+    const float low_y = node.y - node.half_height;
+    const float high_x = node.x + node.half_width;
+    const float high_y = node.y + node.half_height;
+    SeenFrom centre = seen_from(node.x, node.y);
+    SeenFrom low_left = seen_from(low_x, low_y);
+    SeenFrom low_right = seen_from(high_x, low_y);
+    SeenFrom high_left = seen_from(low_x, high_y);
+    SeenFrom high_right = seen_from(high_x, high_y);
     for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
         const NearEdges some = load(edges, i);
         const Mask valid = hn::FirstN(d, end - i);
-        const auto here = hn::Set(words, static_cast<std::uint32_t>(i));
-        const auto consider = [&](std::size_t place, Vector& so_far, auto& where) HWY_ATTR {
-            const Vector squared = way_from(some, x[place], y[place]).squared();
-            const Mask nearer = hn::And(valid, hn::Lt(squared, so_far));
-            so_far = hn::IfThenElse(nearer, squared, so_far);
-            where = hn::IfThenElse(hn::RebindMask(words, nearer), here, where);
-        };
-        consider(0, least0, nearest0);
-        consider(1, least1, nearest1);
-        consider(2, least2, nearest2);
-        consider(3, least3, nearest3);
-        consider(4, least4, nearest4);
+        centre.consider(some, valid, i);
+        low_left.consider(some, valid, i);
+        low_right.consider(some, valid, i);
+        high_left.consider(some, valid, i);
+        high_right.consider(some, valid, i);
     }
-    const auto store = [&](std::size_t place, Vector distance, auto where) HWY_ATTR {
-        hn::Store(distance, d, least[place]);
-        hn::Store(where, words, nearest[place]);
-    };
-    store(0, least0, nearest0);
-    store(1, least1, nearest1);
-    store(2, least2, nearest2);
-    store(3, least3, nearest3);
-    store(4, least4, nearest4);
     Rivals rivals;
-    for (std::size_t place = 0; place < places; ++place) {
-        std::size_t best = 0;
-        for (std::size_t lane = 1; lane < hn::Lanes(d); ++lane) {
-            best = least[place][lane] < least[place][best] ? lane : best;
-        }
-        rivals.add(nearest[place][best] + best);
-    }
+    rivals.add(centre.nearest());
+    rivals.add(low_left.nearest());
+    rivals.add(low_right.nearest());
+    rivals.add(high_left.nearest());
+    rivals.add(high_right.nearest());
     return rivals;
 }
 
-void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
-               float slack) {
-    const Floats d;
-    const Words words;
-    const Rivals rivals = find_rivals(edges, first, end, node);
-    // From the corners to each rival, and the slack more.
-    float bounds[places][corners];
-    for (std::size_t rival = 0; rival < rivals.count; ++rival) {
-        const std::size_t i = rivals.edges[rival];
-        const float along_x = edges.number(EdgeStack::along_x)[i];
-        const float along_y = edges.number(EdgeStack::along_y)[i];
-        for (std::size_t corner = 0; corner < corners; ++corner) {
-            const float x =
-                node.x + corner_x[corner] * node.half_width - edges.number(EdgeStack::start_x)[i];
-            const float y =
-                node.y + corner_y[corner] * node.half_height - edges.number(EdgeStack::start_y)[i];
-            const float t = std::min(
-                std::max((x * along_x + y * along_y) * edges.number(EdgeStack::inverse)[i], 0.0F),
-                1.0F);
-            const float away_x = x - t * along_x;
-            const float away_y = y - t * along_y;
-            bounds[rival][corner] = std::sqrt(away_x * away_x + away_y * away_y) + slack;
-        }
+/// From the corners to a rival, and the slack more.
+HWY_INLINE void measure(const EdgeStack& edges, std::size_t rival, const EdgeNode& node,
+                        float slack, float* bounds) {
+    const float along_x = edges.number(EdgeStack::along_x)[rival];
+    const float along_y = edges.number(EdgeStack::along_y)[rival];
+    const float inverse = edges.number(EdgeStack::inverse)[rival];
+    const float to_x = node.x - edges.number(EdgeStack::start_x)[rival];
+    const float to_y = node.y - edges.number(EdgeStack::start_y)[rival];
+    for (std::size_t corner = 0; corner < corners; ++corner) {
+        const float x = to_x + corner_x[corner] * node.half_width;
+        const float y = to_y + corner_y[corner] * node.half_height;
+        const float t = std::clamp((x * along_x + y * along_y) * inverse, 0.0F, 1.0F);
+        const float away_x = x - t * along_x;
+        const float away_y = y - t * along_y;
+        bounds[corner] = std::sqrt(away_x * away_x + away_y * away_y) + slack;
     }
-    std::size_t pushed = edges.size();
-    for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
-        const NearEdges some = load(edges, i);
-        const WayFrom way = way_from(some, node.x, node.y);
+}
+
+/// Of distances from a node's centre the tangents there, at its corners.
+struct Tangents {
+    Vector at[corners];
+
+    HWY_INLINE Tangents(const WayFrom& way, const EdgeNode& node) {
+        const Floats d;
         const Vector distance = hn::Sqrt(way.squared());
         const Vector inverse =
             hn::IfThenElseZero(hn::Gt(distance, hn::Zero(d)), hn::Div(hn::Set(d, 1.0F), distance));
@@ -159,24 +165,49 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         const Vector slope_y = hn::Mul(hn::Mul(way.y, inverse), hn::Set(d, node.half_height));
         const Vector left = hn::Sub(distance, slope_x);
         const Vector right = hn::Add(distance, slope_x);
-        const Vector tangents[corners] = {hn::Sub(left, slope_y), hn::Sub(right, slope_y),
-                                          hn::Add(left, slope_y), hn::Add(right, slope_y)};
+        at[0] = hn::Sub(left, slope_y);
+        at[1] = hn::Sub(right, slope_y);
+        at[2] = hn::Add(left, slope_y);
+        at[3] = hn::Add(right, slope_y);
+    }
+
+    /// Where an edge may be nearer somewhere than a rival with these bounds.
+    [[nodiscard]] HWY_INLINE Mask any_within(const float* bounds) const {
+        const Floats d;
+        return hn::Or(
+            hn::Or(hn::Le(at[0], hn::Set(d, bounds[0])), hn::Le(at[1], hn::Set(d, bounds[1]))),
+            hn::Or(hn::Le(at[2], hn::Set(d, bounds[2])), hn::Le(at[3], hn::Set(d, bounds[3]))));
+    }
+};
+
+void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
+               float slack) {
+    const Floats d;
+    const Words words;
+    const Rivals rivals = find_rivals(edges, first, end, node);
+    float bounds[places][corners];
+    for (std::size_t i = 0; i < rivals.count; ++i) {
+        measure(edges, rivals.edges[i], node, slack, bounds[i]);
+    }
+    std::size_t pushed = edges.size();
+    for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+        const NearEdges some = load(edges, i);
+        const Tangents tangents(way_from(some, node.x, node.y), node);
         Mask near = hn::FirstN(d, end - i);
         for (std::size_t rival = 0; rival < rivals.count; ++rival) {
-            const float* bound = bounds[rival];
-            near = hn::And(near, hn::Or(hn::Or(hn::Le(tangents[0], hn::Set(d, bound[0])),
-                                               hn::Le(tangents[1], hn::Set(d, bound[1]))),
-                                        hn::Or(hn::Le(tangents[2], hn::Set(d, bound[2])),
-                                               hn::Le(tangents[3], hn::Set(d, bound[3])))));
+            near = hn::And(near, tangents.any_within(bounds[rival]));
         }
         if (hn::AllFalse(d, near)) {
             continue;
         }
-        hn::CompressStore(some.start_x, near, d, edges.number(EdgeStack::start_x) + pushed);
-        hn::CompressStore(some.start_y, near, d, edges.number(EdgeStack::start_y) + pushed);
-        hn::CompressStore(some.along_x, near, d, edges.number(EdgeStack::along_x) + pushed);
-        hn::CompressStore(some.along_y, near, d, edges.number(EdgeStack::along_y) + pushed);
-        hn::CompressStore(some.inverse, near, d, edges.number(EdgeStack::inverse) + pushed);
+        const auto keep = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
+            hn::CompressStore(numbers, near, d, edges.number(number) + pushed);
+        };
+        keep(EdgeStack::start_x, some.start_x);
+        keep(EdgeStack::start_y, some.start_y);
+        keep(EdgeStack::along_x, some.along_x);
+        keep(EdgeStack::along_y, some.along_y);
+        keep(EdgeStack::inverse, some.inverse);
         pushed += hn::CompressStore(hn::LoadU(words, edges.indices() + i),
                                     hn::RebindMask(words, near), words, edges.indices() + pushed);
     }
