@@ -158,8 +158,8 @@ TEST_F(Penetration, SquaresApartHaveNothingInCommon) {
 }
 
 TEST_F(Penetration, TellsItsTilesOnRequest) {
-    const Arguments query = squares("penetration", "raster") +
-                            Arguments{"-d", "0.002", "--pose-b", "0.6,0.3,0"};
+    const Arguments query =
+        squares("penetration", "raster") + Arguments{"-d", "0.002", "--pose-b", "0.6,0.3,0"};
     EXPECT_FALSE(answer(query).contains("tiles"));
     const Json json = answer(query + Arguments{"--tiles"});
     ASSERT_TRUE(json.is_object());
@@ -169,8 +169,9 @@ TEST_F(Penetration, TellsItsTilesOnRequest) {
         EXPECT_EQ(tile.at("technique"), "raster");
         EXPECT_EQ(tile.at("side"), "a");
         EXPECT_EQ(tile.at("round"), 0);
-        for (const int axis : {0, 1}) {
-            EXPECT_GE(tile.at("min").at(axis), region.at("min").at(axis));
+        for (const std::size_t axis : {0U, 1U}) {
+            EXPECT_GE(tile.at("min").at(axis).get<double>(),
+                      region.at("min").at(axis).get<double>() - 1e-9);
             EXPECT_LE(tile.at("max").at(axis).get<double>(),
                       region.at("max").at(axis).get<double>() + 1e-9);
         }
