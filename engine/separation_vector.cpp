@@ -14,8 +14,7 @@ void SeparationVector::answer(const plan::PlannedQuery& planned, exact::PlacedIn
     complete(pair, instances);
     result.error_bound = a.rounding + b.rounding + planned.deviations.a + planned.deviations.b;
     const std::uint64_t most_work = std::get<SeparationVectorQuery>(*planned.query).most_work;
-    const exact::WayApart way =
-        finder_.find(a, b, planned.pose_a, {result.tolerance, most_work});
+    const exact::WayApart way = finder_.find(a, b, planned.pose_a, {result.tolerance, most_work});
     result.intersects = way.intersect;
     result.vector = geometry::to_public(way.vector);
     result.length = way.vector.norm();
