@@ -77,7 +77,7 @@ void ShiftCover::push(const ShiftSquare& square) {
 
 ShiftSquare ShiftCover::take_nearest() {
     std::pop_heap(squares_.begin(), squares_.end(), is_farther);
-    const ShiftSquare square = squares_.back();
+    ShiftSquare square = squares_.back();
     squares_.pop_back();
     return square;
 }

@@ -42,11 +42,12 @@ struct Driver {
 
 Driver driver_of(std::size_t car) {
     constexpr double lane_width = 0.85;
-    constexpr double per_lane = static_cast<double>(cars / lanes);
-    const double lane = static_cast<double>(car % lanes);
-    const double slot = static_cast<double>(car / lanes);
-    return {lane_width * (lane - 1.0), turn * (slot + lane / 3.0) / per_lane, 0.62 - 0.13 * lane,
-            2.4 * static_cast<double>(car)};
+    constexpr std::size_t per_lane = cars / lanes;
+    const std::size_t row = car / lanes;
+    const auto lane = static_cast<double>(car % lanes);
+    const double slot = static_cast<double>(row) + lane / 3.0;
+    return {lane_width * (lane - 1.0), turn * slot / static_cast<double>(per_lane),
+            0.62 - 0.13 * lane, 2.4 * static_cast<double>(car)};
 }
 
 /// Wheels roll along the car and hardly slip sideways. It steers for a point of its lane a little
