@@ -221,11 +221,14 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
         const double open = std::min(aim.time, motion_.time(aim.motion));
         if (step < std::min(open, left)) {
             // Where they touch and part again before that, they meet soon after the step.
-            const double ahead = time < looked_until ? std::min(open, 2.0 * step) : open;
-            if (touch_soon(aim, ahead, contact)) {
+            // All of it is looked ahead once that has passed by, not before.
+            const bool looked = time < looked_until;
+            if (touch_soon(aim, looked ? std::min(open, 2.0 * step) : open, contact)) {
                 return;
             }
-            looked_until = std::max(looked_until, std::min(time + ahead, 1.0));
+            if (!looked) {
+                looked_until = std::min(time + open, 1.0);
+            }
         }
         if (contact.steps >= aim.most_steps) {
             contact.kind = FirstContact::Kind::unknown;

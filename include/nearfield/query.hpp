@@ -244,7 +244,8 @@ struct TimeOfImpactQuery {
     double time_bound = 1.0;
     /// How often the shapes may be looked at, at least 1. Mostly about ten times suffice; shapes
     /// that graze each other, or turn many times close to each other, take more. Where as many are
-    /// not enough, the result says so (ImpactState::bound_not_reached).
+    /// not enough, the result says so (ImpactState::bound_not_reached), for which they are looked
+    /// at twice more at the most.
     std::uint32_t most_steps = 10000;
     /// How close counts as touching, world units, >= 0: the time is sought at which the shapes
     /// first come as close as this. For what has to keep a gap: a simulation that goes back to just

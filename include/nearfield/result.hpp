@@ -59,9 +59,9 @@ struct PenetrationRecord {
     Vector2 direction;   ///< unit vector from `point` to `nearest`: the way out
     Vector2 nearest;     ///< the point of B's boundary nearest to `point`
     Feature feature;     ///< of B: where `nearest` lies
-    /// False where the direction is one of several: B's boundary holds another point no farther
-    /// than `depth` + d/1000 that is not just a little way along the same wall, which is to say
-    /// farther from `nearest` than twice what a straight wall would explain, 2 * sqrt((depth +
+    /// False where the direction is one of several: the nearest point of another edge of B is no
+    /// farther than `depth` + d/1000 and is not just a little way along the same wall, which is to
+    /// say farther from `nearest` than twice what a straight wall would explain, 2 * sqrt((depth +
     /// d/1000)^2 - depth^2).
     bool unique = true;
 };
@@ -75,9 +75,11 @@ struct PenetrationRecord {
 /// it bounds too how much less deep any boundary point of the shapes themselves can have to be, and
 /// a record's depth is off by at most the deviation of B at a point that is off by that of A.
 struct PenetrationResult : ResultSummary {
-    std::uint32_t count = 0;                 ///< penetrating points found
-    PenetrationRecord deepest;               ///< meaningful where count > 0
-    std::vector<PenetrationRecord> records;  ///< in order along A's rings
+    std::uint32_t count = 0;    ///< penetrating points found
+    PenetrationRecord deepest;  ///< meaningful where count > 0
+    /// In order along A's rings; a stretch that goes on past a ring's first vertex may stand as
+    /// one, at the ring's beginning, which differs between techniques.
+    std::vector<PenetrationRecord> records;
 };
 
 /// One grid sample that lies in both shapes.
@@ -190,7 +192,8 @@ struct ContactCluster {
 struct ContactResult : ResultSummary {
     std::uint32_t count = 0;               ///< contacts found, on both boundaries
     std::vector<ContactCluster> manifold;  ///< in order along A's rings, then those of B alone
-    std::vector<ContactRecord> records;    ///< A's in order along its rings, then B's
+    /// A's, then B's, each in order along the rings as PenetrationResult::records are.
+    std::vector<ContactRecord> records;
 };
 
 /// Answer to a ClosestPointQuery. `error_bound` bounds the error of `distance`: the rounding of
@@ -247,7 +250,8 @@ enum class ImpactState : std::uint8_t {
 ///
 /// `error_bound`: shapes no farther apart than this, or than this more than the contact distance,
 /// may be said to touch; the rounding of placed vertices and the shapes' deviations. `intersects`:
-/// the shapes were seen to touch, at time + time_error_bound or before.
+/// the shapes were seen to touch, at time + time_error_bound or before. Of a hit it is false where
+/// they were only seen so close that rounding cannot tell.
 struct TimeOfImpactResult : ResultSummary {
     ImpactState state = ImpactState::separated;  ///< what there is to say of the motion
     /// The shapes do not touch from 0 up to it: 0 where they do at the start, 1 where they never
