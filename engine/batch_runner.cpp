@@ -63,8 +63,6 @@ void BatchRunner::begin_timings() {
 }
 
 void BatchRunner::make_rounds() {
-    Timings& timings = results_.timings;
-    const Stopwatch start;
     plan::RoundBuilder& builder = planning_->builder;
     builder.begin_batch();
     rounds_.resize(std::max<std::size_t>(rounds_.size(), plan_.rounds));
@@ -73,7 +71,6 @@ void BatchRunner::make_rounds() {
     }
     hand_over_builder_.build(plan_, std::span(rounds_).first(plan_.rounds), results_.results,
                              hand_over_);
-    timings.plan += start.milliseconds();
 }
 
 /// A query that cannot be recorded as it is, but may be answered by the CPU, is.
@@ -108,9 +105,9 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     plan::Planner& planner = planning_->planner;
     planner.plan(queries_, shapes_, plan_, results_.results, submissions);
     timings.localize += planner.localize_milliseconds();
-    timings.plan += start.milliseconds() - planner.localize_milliseconds();
     decoder_.begin_batch(plan_);
     make_rounds();
+    timings.plan += start.milliseconds() - planner.localize_milliseconds();
     if (has_device_work()) {
         const SampleRoom room =
             submissions == plan::Submissions::one ? SampleRoom::all : SampleRoom::likely;

@@ -52,9 +52,8 @@ void HandOverBuilder::build(const plan::Plan& plan, std::span<const plan::Round>
     samples_.begin();
     for (std::uint32_t query = 0; query < results.size(); ++query) {
         const PlannedQuery& planned = plan.queries[query];
-        const bool usable =
-            std::visit([](const auto& result) { return result.status.ok(); }, results[query]);
-        if (!planned.resident || !usable) {
+        const auto is_usable = [](const auto& result) { return result.status.ok(); };
+        if (!planned.resident || !std::visit(is_usable, results[query])) {
             continue;
         }
         if (const auto* const field = std::get_if<DistanceFieldResult>(&results[query])) {

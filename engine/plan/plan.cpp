@@ -3,7 +3,7 @@
 namespace nearfield::plan {
 
 void Plan::clear() {
-    queries.clear();
+    // But for the queries: the planner writes each anew, and thousands would be written twice.
     tiles.clear();
     cpu_tiles.clear();
     points.clear();

@@ -96,9 +96,10 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
     plan.subpixel = limits_.subpixel;
     localize_milliseconds_ = 0.0;
     results.resize(queries.size());
-    plan.queries.assign(queries.size(), PlannedQuery());
+    plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         PlannedQuery& planned = plan.queries[query_];
+        planned = {};
         query_bytes_ = 0.0;
         planned.query = &queries[query_];
         std::visit(
