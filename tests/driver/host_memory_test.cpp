@@ -10,8 +10,12 @@ namespace {
 using test_support::FailingAllocations;
 
 /// How many of a step's allocations are let fail: all of them where it makes few, else these many,
-/// spread over all.
+/// spread over all; fewer where every access to memory is watched.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::uint64_t most_tries = 40;
+#else
 constexpr std::uint64_t most_tries = 120;
+#endif
 
 bool is_submission(World::Step step) {
     return step == World::Step::submit_first || step == World::Step::submit_larger ||
