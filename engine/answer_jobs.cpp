@@ -36,22 +36,6 @@ AnswerJobs::AnswerJobs(const JobSystem& jobs) : system_(jobs) {
     }
 }
 
-void AnswerJobs::check(const JobSystem& jobs) {
-    if (jobs.run == nullptr && jobs.count == 0) {
-        return;
-    }
-    const auto refuse = [](const std::string& why) {
-        throw Failure({StatusCode::invalid_settings, "Settings::jobs: " + why});
-    };
-    if (jobs.run == nullptr) {
-        refuse("run is null, and count is " + std::to_string(jobs.count));
-    }
-    if (jobs.count < 1 || jobs.count > most_jobs) {
-        refuse("count is " + std::to_string(jobs.count) + "; it must be at least 1 and at most " +
-               std::to_string(most_jobs));
-    }
-}
-
 /// Into parts worth handing over, by what the batch is alone: where a part ends nothing is told
 /// from the query before.
 void AnswerJobs::divide(const plan::Plan& plan, std::size_t queries) {

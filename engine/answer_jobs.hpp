@@ -19,9 +19,6 @@ class AnswerJobs {
 public:
     explicit AnswerJobs(const JobSystem& jobs);
 
-    /// What can be used of a host's jobs. Throws Failure (invalid_settings).
-    static void check(const JobSystem& jobs);
-
     /// Writes the results of the queries that the CPU answers. Throws what a job threw, of several
     /// what the first of them did. See QueryAnswers::write(). Returns how many there were.
     std::size_t answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,

@@ -1,4 +1,3 @@
-#include <engine/answer_jobs.hpp>
 #include <engine/failure.hpp>
 #include <engine/geometry/number.hpp>
 #include <engine/growable.hpp>
@@ -35,6 +34,16 @@ void check_cost(const TechniqueCost& cost, const std::string& technique) {
     check_cost(cost.intersection, technique + ".intersection");
     check_cost(cost.field, technique + ".field");
     check_cost(cost.features, technique + ".features");
+}
+
+void check_jobs(const JobSystem& jobs) {
+    const std::string count = "Settings::jobs.count is " + std::to_string(jobs.count);
+    if (jobs.run == nullptr && jobs.count > 0) {
+        refuse_setting(count + ", and run is null");
+    }
+    if (jobs.run != nullptr && (jobs.count < 1 || jobs.count > most_jobs)) {
+        refuse_setting(count + "; it must be at least 1 and at most " + std::to_string(most_jobs));
+    }
 }
 
 }  // namespace
@@ -80,7 +89,7 @@ Settings adopted(const Settings& given) {
         check_cost(settings.costs->compute, "compute");
         check_cost(settings.costs->cpu, "cpu");
     }
-    AnswerJobs::check(settings.jobs);
+    check_jobs(settings.jobs);
     return settings;
 }
 

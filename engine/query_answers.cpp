@@ -8,15 +8,15 @@ using geometry::PlacedPolygon;
 using plan::PlannedQuery;
 
 /// Counts what it takes among the result's statistics, where hierarchies take it.
-bool QueryAnswers::shapes_intersect(const plan::Plan& plan, const PlannedQuery& query,
-                                    ResultSummary& result) {
+bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
+    const PlannedQuery& query = asked.planned();
     if (query.on_cpu) {
         return intersection_test_.intersect(query, instances_);
     }
     localize::Effort effort;
-    const bool answer =
-        localize::intersects(PlacedPolygon(*query.a, query.pose_a),
-                             PlacedPolygon(*query.b, query.pose_b), plan.bounding_volume, &effort);
+    const bool answer = localize::intersects(PlacedPolygon(*query.a, query.pose_a),
+                                             PlacedPolygon(*query.b, query.pose_b),
+                                             asked.plan.bounding_volume, &effort);
     result.localization.nodes_evaluated += effort.nodes_evaluated;
     result.localization.pairs_rejected += effort.pairs_rejected;
     return answer;
@@ -28,29 +28,29 @@ void QueryAnswers::begin_batch() {
     penetration_.begin_batch();
 }
 
-void QueryAnswers::find_points(const plan::Plan& plan, const PlannedQuery& planned,
-                               std::span<std::uint32_t> words) {
-    exact_points_.answer(plan, planned, instances_, words);
+void QueryAnswers::find_points(const Asked& asked) {
+    const PlannedQuery& planned = asked.planned();
+    exact_points_.answer(asked.plan, planned, instances_, asked.words);
     if (planned.reverse != PlannedQuery::none) {
-        exact_points_.answer(plan, plan.queries[planned.reverse], instances_, words);
+        exact_points_.answer(asked.plan, asked.plan.queries[planned.reverse], instances_,
+                             asked.words);
     }
 }
 
-void QueryAnswers::finish_penetration(const plan::Plan& plan, const PlannedQuery& planned,
-                                      std::span<const std::uint32_t> words,
-                                      PenetrationResult& result) {
-    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
+    const PlannedQuery& planned = asked.planned();
     if (planned.edge_by_edge) {
         penetration_.answer(planned, instances_, result);
         return;
     }
-    resolver_.begin(plan, planned);
+    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+    resolver_.begin(asked.plan, planned);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
-        if ((words[i] & plan::point_inside) == 0) {
+        if ((asked.words[i] & plan::point_inside) == 0) {
             continue;
         }
-        const ResolvedPoint resolved = resolver_.resolve(plan.points[i], words[i]);
+        const ResolvedPoint resolved = resolver_.resolve(asked.plan.points[i], asked.words[i]);
         if (!resolved.inside) {
             continue;  // it touches the boundary
         }
@@ -63,7 +63,55 @@ void QueryAnswers::finish_penetration(const plan::Plan& plan, const PlannedQuery
             result.records.push_back(record);
         }
     }
-    result.intersects = result.count > 0 || shapes_intersect(plan, planned, result);
+    result.intersects = result.count > 0 || shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (planned.on_cpu) {
+        overlaps_.answer(asked.plan, planned, simplified_, result);
+    }
+    result.area = static_cast<double>(result.count) * result.cell * result.cell;
+    result.intersects = shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    result.intersects = planned.a != nullptr && shapes_intersect(asked, result);
+    if (planned.on_cpu) {
+        asked.fields.set_largest(asked.query,
+                                 exact_fields_.answer(asked.plan, planned, simplified_, result));
+    }
+    asked.fields.finish(planned, asked.query, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, ContactResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (std::get<ContactQuery>(*planned.query).normals == ContactNormals::analytic) {
+        contacts_.find(asked.plan, planned, asked.words, result.cell);
+        contacts_.write(planned, result);
+    }
+    result.intersects = shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, ClosestPointResult& result) {
+    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, SeparationResult& result) {
+    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, IntersectionTestResult& result) {
+    intersection_test_.answer(asked.planned(), instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, TimeOfImpactResult& result) {
+    time_of_impact_.answer(asked.planned(), result);
+}
+
+void QueryAnswers::answer(const Asked& asked, SeparationVectorResult& result) {
+    separation_vector_.answer(asked.planned(), instances_, result);
 }
 
 std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end,
@@ -71,66 +119,21 @@ std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::
                                 std::vector<AnyResult>& results) {
     std::size_t count = 0;
     for (std::size_t i = first; i < end; ++i) {
-        const PlannedQuery& planned = plan.queries[i];
-        if (planned.on_cpu != on_cpu) {
+        if (plan.queries[i].on_cpu != on_cpu) {
             continue;
         }
         ++count;
+        const Asked asked{plan, static_cast<std::uint32_t>(i), words, fields};
         if (on_cpu) {
-            find_points(plan, planned, words);
+            find_points(asked);
         }
-        if (auto* penetration = std::get_if<PenetrationResult>(&results[i])) {
-            if (penetration->status.ok()) {
-                finish_penetration(plan, planned, words, *penetration);
-            }
-        } else if (auto* intersection = std::get_if<IntersectionResult>(&results[i])) {
-            if (intersection->status.ok()) {
-                if (planned.on_cpu) {
-                    overlaps_.answer(plan, planned, simplified_, *intersection);
+        std::visit(
+            [&](auto& result) {
+                if (result.status.ok()) {
+                    answer(asked, result);
                 }
-                intersection->area = static_cast<double>(intersection->count) * intersection->cell *
-                                     intersection->cell;
-                intersection->intersects = shapes_intersect(plan, planned, *intersection);
-            }
-        } else if (auto* field = std::get_if<DistanceFieldResult>(&results[i])) {
-            if (field->status.ok()) {
-                field->intersects = planned.a != nullptr && shapes_intersect(plan, planned, *field);
-                const auto query = static_cast<std::uint32_t>(i);
-                if (planned.on_cpu) {
-                    fields.set_largest(query,
-                                       exact_fields_.answer(plan, planned, simplified_, *field));
-                }
-                fields.finish(planned, query, *field);
-            }
-        } else if (auto* contact = std::get_if<ContactResult>(&results[i])) {
-            if (contact->status.ok()) {
-                if (std::get<ContactQuery>(*planned.query).normals == ContactNormals::analytic) {
-                    contacts_.find(plan, planned, words, contact->cell);
-                    contacts_.write(planned, *contact);
-                }
-                contact->intersects = shapes_intersect(plan, planned, *contact);
-            }
-        } else if (auto* closest = std::get_if<ClosestPointResult>(&results[i])) {
-            if (closest->status.ok()) {
-                closest_.decode(plan, planned, words, instances_, *closest);
-            }
-        } else if (auto* separation = std::get_if<SeparationResult>(&results[i])) {
-            if (separation->status.ok()) {
-                closest_.decode(plan, planned, words, instances_, *separation);
-            }
-        } else if (auto* test = std::get_if<IntersectionTestResult>(&results[i])) {
-            if (test->status.ok()) {
-                intersection_test_.answer(planned, instances_, *test);
-            }
-        } else if (auto* impact = std::get_if<TimeOfImpactResult>(&results[i])) {
-            if (impact->status.ok()) {
-                time_of_impact_.answer(planned, *impact);
-            }
-        } else if (auto* vector = std::get_if<SeparationVectorResult>(&results[i])) {
-            if (vector->status.ok()) {
-                separation_vector_.answer(planned, instances_, *vector);
-            }
-        }
+            },
+            results[i]);
     }
     return count;
 }

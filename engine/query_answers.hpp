@@ -39,13 +39,28 @@ public:
                       std::vector<AnyResult>& results);
 
 private:
+    /// A query, and what its answer is made of.
+    struct Asked {
+        const plan::Plan& plan;
+        std::uint32_t query;
+        std::span<std::uint32_t> words;
+        FieldDecoder& fields;
+
+        [[nodiscard]] const plan::PlannedQuery& planned() const { return plan.queries[query]; }
+    };
+
     /// Whether the shapes of a query share a point.
-    [[nodiscard]] bool shapes_intersect(const plan::Plan& plan, const plan::PlannedQuery& query,
-                                        ResultSummary& result);
-    void find_points(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                     std::span<std::uint32_t> words);
-    void finish_penetration(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                            std::span<const std::uint32_t> words, PenetrationResult& result);
+    [[nodiscard]] bool shapes_intersect(const Asked& asked, ResultSummary& result);
+    void find_points(const Asked& asked);
+    void answer(const Asked& asked, PenetrationResult& result);
+    void answer(const Asked& asked, IntersectionResult& result);
+    void answer(const Asked& asked, DistanceFieldResult& result);
+    void answer(const Asked& asked, ContactResult& result);
+    void answer(const Asked& asked, ClosestPointResult& result);
+    void answer(const Asked& asked, SeparationResult& result);
+    void answer(const Asked& asked, IntersectionTestResult& result);
+    void answer(const Asked& asked, TimeOfImpactResult& result);
+    void answer(const Asked& asked, SeparationVectorResult& result);
 
     exact::PlacedInstances instances_;   // of the batch, as far as they came up
     plan::SimplifiedShapes simplified_;  // likewise
