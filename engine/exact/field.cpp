@@ -32,10 +32,10 @@ void add_edge(const Vector& start, const Vector& end, std::uint32_t index, EdgeL
     const bool is_point = squared < shortest_edge * shortest_edge;
     const double inverse = is_point ? 0.0 : 1.0 / squared;
     const double length = is_point ? 0.0 : 1.0;
-    list.add({static_cast<float>(start.x()), static_cast<float>(start.y()),
-              static_cast<float>(length * along.x()), static_cast<float>(length * along.y()),
-              static_cast<float>(along.x() * inverse), static_cast<float>(along.y() * inverse)},
-             index);
+    list.push({static_cast<float>(start.x()), static_cast<float>(start.y()),
+               static_cast<float>(length * along.x()), static_cast<float>(length * along.y()),
+               static_cast<float>(along.x() * inverse), static_cast<float>(along.y() * inverse)},
+              index);
 }
 
 /// Calls `use(start, end)` for every edge, with the indices of its vertices.
@@ -134,13 +134,13 @@ void FieldSolver::make_far_list() {
     levels_.resize(std::max(levels_.size(), depths));
     far_origin_ = 0.5 * Vector(grid_.width, grid_.height);
     EdgeList& all = levels_[0];
-    all.reserve(edges_.size());
     all.clear();
+    all.reserve(edges_.size());
     double farthest = far_origin_.maxCoeff();
     for (const Ends& edge : edges_) {
         const Vector start = edge.start - far_origin_;
         farthest = std::max(farthest, start.cwiseAbs().maxCoeff());
-        add_edge(start, edge.end - far_origin_, all.size(), all);
+        add_edge(start, edge.end - far_origin_, static_cast<std::uint32_t>(all.size()), all);
     }
     far_slack_ = std::ldexp(farthest, -18);
 }
@@ -206,8 +206,8 @@ void FieldSolver::make_near_list(const Square& square, const EdgeList& far, doub
                          output_.margin + 1.0;
     const double across = 0.5 * size.width + reach;
     const double up = 0.5 * size.height + reach;
-    near.reserve(far.size());
     near.clear();
+    near.reserve(far.size());
     for (std::uint32_t i = 0; i < far.size(); ++i) {
         const std::uint32_t edge = far.indices()[i];
         Vector start = edges_[edge].start - near_origin_;

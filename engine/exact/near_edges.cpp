@@ -93,7 +93,7 @@ float select_near(const EdgeList& from, const Disc& disc, float slack, float* sq
         count += hn::CompressStore(hn::LoadU(words, from.indices() + i),
                                    hn::RebindMask(words, near), words, to.indices() + count);
     }
-    to.resize(static_cast<std::uint32_t>(count));
+    to.resize(count);
     return least;
 }
 
@@ -242,27 +242,9 @@ namespace nearfield::exact {
 HWY_EXPORT(select_near);
 HWY_EXPORT(solve_block);
 
-void EdgeList::reserve(std::size_t count) {
-    constexpr std::size_t longest_vector = 16;
-    if (count + longest_vector > capacity_) {
-        const std::size_t capacity = count + count / 2 + longest_vector;
-        count_ = 0;
-        numbers_.resize(numbers * capacity);
-        indices_.resize(capacity);
-        capacity_ = capacity;
-    }
-}
-
-void EdgeList::add(const std::array<float, numbers>& edge, std::uint32_t index) {
-    for (std::size_t i = 0; i < numbers; ++i) {
-        number(i)[count_] = edge[i];
-    }
-    indices_[count_] = index;
-    ++count_;
-}
-
 float select_near(const EdgeList& from, const Disc& disc, float slack, std::vector<float>& squared,
                   EdgeList& to) {
+    to.clear();
     to.reserve(from.size());
     if (squared.size() < from.capacity()) {
         squared.resize(from.capacity());

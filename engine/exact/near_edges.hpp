@@ -1,6 +1,7 @@
 #pragma once
 
-#include <array>
+#include <engine/geometry/float_arrays.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,8 +12,8 @@
 
 namespace nearfield::exact {
 
-/// Edges, an array for each number. Keeps its memory.
-class EdgeList {
+/// Edges that may be near.
+class EdgeList : public geometry::FloatArrays<6> {
 public:
     enum Number : std::uint8_t {
         start_x,
@@ -22,30 +23,6 @@ public:
         inverse_x,  ///< the same divided by its squared length; 0 for an edge of no length
         inverse_y,
     };
-    static constexpr std::size_t numbers = 6;
-
-    /// Room for so many edges; what was in it is lost where it has to grow.
-    void reserve(std::size_t count);
-    void clear() { count_ = 0; }
-    /// `edge`: by Number.
-    void add(const std::array<float, numbers>& edge, std::uint32_t index);
-
-    [[nodiscard]] std::uint32_t size() const { return count_; }
-    void resize(std::uint32_t count) { count_ = count; }
-    [[nodiscard]] std::size_t capacity() const { return capacity_; }
-
-    [[nodiscard]] const float* number(std::size_t number) const {
-        return numbers_.data() + number * capacity_;
-    }
-    [[nodiscard]] float* number(std::size_t number) { return numbers_.data() + number * capacity_; }
-    [[nodiscard]] const std::uint32_t* indices() const { return indices_.data(); }
-    [[nodiscard]] std::uint32_t* indices() { return indices_.data(); }
-
-private:
-    std::vector<float> numbers_;
-    std::vector<std::uint32_t> indices_;
-    std::size_t capacity_ = 0;  // of each array; there is room for a whole vector behind the last
-    std::uint32_t count_ = 0;
 };
 
 /// A disc around the centres of some cells.
@@ -56,9 +33,9 @@ struct Disc {
 };
 
 /// Puts into `to` the edges that can be nearest to a point of the disc, or as near as the nearest
-/// up to `slack` and what single precision loses; `to` needs room for as many as there are in
-/// `from`. Returns the distance of the nearest from the disc's centre. `squared`: scratch for as
-/// many numbers as `from` has room for.
+/// up to `slack` and what single precision loses; what was in it is lost. Returns the distance of
+/// the nearest from the disc's centre. `squared`: scratch for as many numbers as `from` has room
+/// for.
 float select_near(const EdgeList& from, const Disc& disc, float slack, std::vector<float>& squared,
                   EdgeList& to);
 

@@ -114,7 +114,7 @@ void BlockEdges::visit(std::uint32_t column, std::uint32_t row, std::uint32_t co
             }
         }
     }
-    candidates_.shrink(before);
+    candidates_.resize(before);
 }
 
 }  // namespace nearfield::plan

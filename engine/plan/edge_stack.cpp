@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 // Compiled once for each instruction set.
@@ -211,7 +210,7 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         pushed += hn::CompressStore(hn::LoadU(words, edges.indices() + i),
                                     hn::RebindMask(words, near), words, edges.indices() + pushed);
     }
-    edges.shrink(pushed);
+    edges.resize(pushed);
 }
 
 }  // namespace
@@ -222,37 +221,6 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::plan {
 
 HWY_EXPORT(push_near);
-
-void EdgeStack::push(const std::array<float, numbers>& edge, std::uint32_t index) {
-    reserve(1);
-    for (std::size_t i = 0; i < numbers; ++i) {
-        numbers_[i][count_] = edge[i];
-    }
-    indices_[count_] = index;
-    ++count_;
-}
-
-void EdgeStack::append(const EdgeStack& other, std::size_t first, std::size_t end) {
-    const std::size_t count = end - first;
-    reserve(count);
-    for (std::size_t i = 0; i < numbers; ++i) {
-        std::memcpy(number(i) + count_, other.number(i) + first, count * sizeof(float));
-    }
-    std::memcpy(indices() + count_, other.indices() + first, count * sizeof(std::uint32_t));
-    count_ += count;
-}
-
-void EdgeStack::reserve(std::size_t more) {
-    constexpr std::size_t longest_vector = 16;
-    const std::size_t wanted = count_ + more + longest_vector;
-    if (wanted > indices_.size()) {
-        const std::size_t capacity = wanted + wanted / 2;
-        for (std::vector<float>& number : numbers_) {
-            number.resize(capacity);
-        }
-        indices_.resize(capacity);
-    }
-}
 
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack) {

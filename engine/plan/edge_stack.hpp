@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
+#include <engine/geometry/float_arrays.hpp>
+
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 /// \file
 /// What can be nearest in a box, sorted out with vectors: compiled for several instruction sets of
@@ -12,8 +12,8 @@
 
 namespace nearfield::plan {
 
-/// Edges on a stack, an array for each number. Keeps its memory.
-class EdgeStack {
+/// Edges that may be near, list upon list.
+class EdgeStack : public geometry::FloatArrays<5> {
 public:
     enum Number : std::uint8_t {
         start_x,
@@ -22,29 +22,6 @@ public:
         along_y,
         inverse,  ///< of the squared length; 0 for an edge of no length
     };
-    static constexpr std::size_t numbers = 5;
-
-    void clear() { count_ = 0; }
-    void push(const std::array<float, numbers>& edge, std::uint32_t index);
-    /// Appends edges first, ..., end - 1 of another stack.
-    void append(const EdgeStack& other, std::size_t first, std::size_t end);
-    /// Drops all from `count` on.
-    void shrink(std::size_t count) { count_ = count; }
-    [[nodiscard]] std::size_t size() const { return count_; }
-
-    [[nodiscard]] const float* number(std::size_t number) const { return numbers_[number].data(); }
-    [[nodiscard]] float* number(std::size_t number) { return numbers_[number].data(); }
-    /// What an edge was pushed with.
-    [[nodiscard]] const std::uint32_t* indices() const { return indices_.data(); }
-    [[nodiscard]] std::uint32_t* indices() { return indices_.data(); }
-
-    /// Room for so many on top, and for a vector more.
-    void reserve(std::size_t more);
-
-private:
-    std::array<std::vector<float>, numbers> numbers_;
-    std::vector<std::uint32_t> indices_;
-    std::size_t count_ = 0;
 };
 
 /// A box around its centre.
