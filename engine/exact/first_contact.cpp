@@ -172,6 +172,29 @@ double FirstContactFinder::safe_step(double distance, double keep, double left) 
     }
 }
 
+bool FirstContactFinder::settle(const ContactAim& aim, const Look& look, FirstContact& contact) {
+    const double distance = std::sqrt(look.closest.squared_distance);
+    if (look.time == 0.0 && aim.distance > 0.0 && distance <= aim.distance) {
+        contact.kind = FirstContact::Kind::at_start;
+        contact.touch_at_latest = true;
+    } else if (distance - aim.distance <= touching * rounding_) {
+        contact.kind = FirstContact::Kind::found;
+        contact.latest = look.time;
+        // Of shapes that all but touch there is no direction; before, there was one.
+        if (look.moved <= aim.motion && look.time - contact.time <= aim.time) {
+            return true;
+        }
+    }
+    contact.time = look.time;
+    contact.closest = look.closest;
+    contact.least_distance = look.least_distance;
+    if (contact.kind == FirstContact::Kind::none && look.time == 1.0) {
+        contact.latest = 1.0;
+        return true;
+    }
+    return contact.kind != FirstContact::Kind::none;
+}
+
 void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
     double time = 0.0;
     double moved = no_end;      // how far at the most since the time before
@@ -187,29 +210,7 @@ void FirstContactFinder::advance(const ContactAim& aim, FirstContact& contact) {
                        : no_end;
         const double least = std::max(
             std::min({contact.least_distance, kept - rounding_, distance - rounding_}), 0.0);
-        if (time == 0.0 && aim.distance > 0.0 && distance <= aim.distance) {
-            contact.kind = FirstContact::Kind::at_start;
-            contact.touch_at_latest = true;
-            contact.closest = closest;
-            contact.least_distance = least;
-            return;
-        }
-        if (distance - aim.distance <= touching * rounding_) {
-            contact.kind = FirstContact::Kind::found;
-            contact.latest = time;
-            // Of shapes that all but touch there is no direction; before, there was one.
-            if (!(moved <= aim.motion && time - contact.time <= aim.time)) {
-                contact.time = time;
-                contact.closest = closest;
-                contact.least_distance = least;
-            }
-            return;
-        }
-        contact.least_distance = least;
-        contact.time = time;
-        contact.closest = closest;
-        if (time == 1.0) {
-            contact.latest = 1.0;
+        if (settle(aim, {time, moved, least, closest}, contact)) {
             return;
         }
         const double left = 1.0 - time;

@@ -70,7 +70,16 @@ private:
     /// `at_most`: they are known to be no farther apart.
     [[nodiscard]] ClosestPair find_closest(double at_most);
 
+    /// The shapes as they were seen.
+    struct Look {
+        double time;
+        double moved;           ///< since the time before, at the most
+        double least_distance;  ///< up to then
+        const ClosestPair& closest;
+    };
     void advance(const ContactAim& aim, FirstContact& contact);
+    /// Takes down what was seen; whether that is the answer.
+    [[nodiscard]] bool settle(const ContactAim& aim, const Look& look, FirstContact& contact);
     /// How long no vertex and edge come as close as `keep`; at most `left`. `distance`: now.
     [[nodiscard]] double safe_step(double distance, double keep, double left);
     [[nodiscard]] double pair_step(const VertexAndEdge& pair, double keep) const;
