@@ -1,20 +1,18 @@
 #pragma once
 
-#include <engine/edge_samples.hpp>
-#include <engine/edges_near_points.hpp>
 #include <engine/exact/boundary.hpp>
 #include <engine/exact/meeting.hpp>
+#include <engine/exact/nearest_points.hpp>
 #include <engine/exact/placed_edges.hpp>
+#include <engine/inside_samples.hpp>
 #include <engine/placed_pair.hpp>
 #include <engine/plan/plan.hpp>
-#include <engine/point_resolver.hpp>
+#include <engine/point_list.hpp>
 #include <nearfield/result.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace nearfield {
 
@@ -38,35 +36,24 @@ private:
         const plan::PlannedQuery* query = nullptr;
         InstancePairIndex index;
         bool intersects = false;
+        bool is_sampled = false;  ///< where boundaries cross was found
     };
 
-    /// Of points of A. Those nearer to B's boundary than `touching` are on it.
-    void find_penetrating(const exact::PointArrays& points, double touching,
-                          const exact::PlacedEdges& b, PenetrationResult& result,
-                          bool keep_records);
-    /// Lists the points inside B, and finds what is nearest to them where B is small.
-    [[nodiscard]] std::span<const std::uint32_t> find_inside(const exact::PointArrays& points,
-                                                             const exact::PlacedEdges& b);
-    /// Of the point that was listed as number i; in order, so that each is near the one before.
-    [[nodiscard]] exact::NearestPoint find_nearest(const exact::PlacedEdges& b, std::size_t i,
-                                                   const geometry::Vector& point);
-    /// Likewise.
-    [[nodiscard]] ResolvedPoint resolve(const exact::PlacedEdges& b, std::size_t i,
-                                        const geometry::Vector& point,
-                                        const exact::NearestPoint& nearest);
-    [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, std::size_t i,
-                                 const geometry::Vector& point, const exact::NearestPoint& nearest);
+    /// Of A's vertices.
+    void find_vertices_inside(const exact::PointArrays& vertices, const exact::PlacedEdges& b);
+    /// Those nearer to B's boundary than `touching` are on it.
+    void write(double touching, const exact::PlacedEdges& b, bool keep_records,
+               PenetrationResult& result);
+    /// Point number i.
+    void write(const exact::PlacedEdges& b, std::size_t i, PenetrationRecord& record);
 
     exact::Boundary boundary_;  // of B, where it has many edges
     exact::MeetingFinder meeting_;
-    EdgeSamples samples_;     // of A
-    EdgesNearPoints near_b_;  // of a small B, near the points inside
+    InsideSamples samples_;         // of A
+    PointList inside_;              // points of A
+    exact::NearestPoints nearest_;  // to them
     // Edges of a small B, beside the points.
     std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> beside_{};
-    std::vector<std::uint32_t> inside_;         // points of A
-    std::vector<exact::NearestEdges> nearest_;  // to them, of near_b_
-    std::uint32_t near_last_ = 0;               // an edge of B near the last point
-    double margin_ = 0.0;                       // of uniqueness
     Pair last_;
 };
 

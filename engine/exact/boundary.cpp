@@ -46,23 +46,29 @@ NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) c
     return {edge, nearest_on(edge, point)};
 }
 
-std::uint32_t Boundary::keep_inside(const PointArrays& points,
-                                    std::span<std::uint32_t> listed) const {
+std::uint32_t Boundary::keep_inside(std::uint32_t count, const FoundPoints& points) const {
     // Points in one box that no edge's box meets lie on one side, like the last point before them
     // where that is in the box as well.
-    constexpr std::size_t together = 8;
+    constexpr std::uint32_t together = 8;
     std::uint32_t kept = 0;
     bool inside = false;
-    for (std::size_t first = 0; first < listed.size(); first += together) {
-        const auto group = listed.subspan(first, std::min(together, listed.size() - first));
+    Vector last;
+    for (std::uint32_t first = 0; first < count; first += together) {
+        const std::uint32_t end = std::min(first + together, count);
         geometry::Box box;
-        for (std::size_t i = first == 0 ? 0 : first - 1; i < first + group.size(); ++i) {
-            box.extend(Vector(points.x[listed[i]], points.y[listed[i]]));
+        for (std::uint32_t i = first; i < end; ++i) {
+            box.extend(Vector(points.x[i], points.y[i]));
         }
-        const bool on_one_side = first > 0 && !kernels::meets(*tree_, extent_of(box));
-        for (const std::uint32_t point : group) {
-            inside = on_one_side ? inside : contains({points.x[point], points.y[point]});
-            listed[kept] = point;
+        bool on_one_side = false;
+        if (first > 0) {
+            box.extend(last);
+            on_one_side = !kernels::meets(*tree_, extent_of(box));
+        }
+        for (std::uint32_t i = first; i < end; ++i) {
+            last = {points.x[i], points.y[i]};
+            inside = on_one_side ? inside : contains(last);
+            points.x[kept] = last.x();
+            points.y[kept] = last.y();
             kept += inside ? 1 : 0;
         }
     }

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace nearfield::exact {
@@ -58,10 +57,9 @@ public:
         return kernels::contain(*tree_, point.x(), point.y());
     }
 
-    /// Keeps of a list of points those inside, and returns how many. The nearer each is to the one
-    /// before, the less is looked at.
-    [[nodiscard]] std::uint32_t keep_inside(const PointArrays& points,
-                                            std::span<std::uint32_t> listed) const;
+    /// Keeps of some points those inside, in order, and returns how many. The nearer each is to the
+    /// one before, the less is looked at.
+    [[nodiscard]] std::uint32_t keep_inside(std::uint32_t count, const FoundPoints& points) const;
 
     /// The unit normal of an edge that points out of the polygon at a place on the edge,
     /// `parameter` of the way along it; the side changes where the boundary crosses itself. Where

@@ -32,14 +32,26 @@ HWY_INLINE LaneMask are_in(const LanesOfExtent& box, Lanes x, Lanes y) {
                    hn::And(hn::Ge(y, box.low_y), hn::Le(y, box.high_y)));
 }
 
-std::uint32_t FindPointsIn(const PointArrays& points, const Extent& box, std::uint32_t* found) {
+/// Appends the lanes that are set; up to whole lanes may be written.
+HWY_INLINE std::uint32_t append_points(LaneMask mask, Lanes x, Lanes y, const FoundPoints& found,
+                                       std::uint32_t count) {
+    const Tag tag;
+    const std::size_t more = hn::CompressStore(x, mask, tag, found.x + count);
+    hn::CompressStore(y, mask, tag, found.y + count);
+    return count + static_cast<std::uint32_t>(more);
+}
+
+std::uint32_t FindPointsIn(const PointArrays& points, const Extent& box, const FoundPoints& found) {
     const Tag tag;
     const LanesOfExtent bounds = lanes_of(box);
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < points.count; i += hn::Lanes(tag)) {
-        const LaneMask inside =
-            are_in(bounds, hn::LoadU(tag, points.x + i), hn::LoadU(tag, points.y + i));
-        count = append_lanes(inside, i, points.count, found, count);
+        const Lanes x = hn::LoadU(tag, points.x + i);
+        const Lanes y = hn::LoadU(tag, points.y + i);
+        const LaneMask inside = hn::And(are_in(bounds, x, y), hn::FirstN(tag, points.count - i));
+        if (!hn::AllFalse(tag, inside)) {
+            count = append_points(inside, x, y, found, count);
+        }
     }
     return count;
 }
@@ -65,71 +77,45 @@ std::uint32_t FindEdgesIn(const EdgeArrays& edges, const Extent& box, std::uint3
     return count;
 }
 
-/// So many points are quicker held against several edges at once than several points against one.
-constexpr std::uint32_t few_points = 4;
-
-/// As many listed points as there are lanes; of fewer the last one fills the rest.
-struct PointLanes {
-    Lanes x;
-    Lanes y;
-
-    HWY_INLINE PointLanes(const PointArrays& points, const std::uint32_t* listed,
-                          std::uint32_t count) {
-        const Tag tag;
-        HWY_ALIGN double of_x[most_lanes];
-        HWY_ALIGN double of_y[most_lanes];
-        for (std::uint32_t i = 0; i < hn::Lanes(tag); ++i) {
-            const std::uint32_t point = listed[i < count ? i : count - 1];
-            of_x[i] = points.x[point];
-            of_y[i] = points.y[point];
+/// Keeps of points that were found those inside.
+std::uint32_t KeepInside(std::uint32_t points, const EdgeArrays& edges, std::uint32_t* crossed,
+                         const FoundPoints& found) {
+    const Tag tag;
+    // A ray to the right crosses no edges but those.
+    Extent rays = extent_of({points, found.x, found.y}, 0);
+    rays.high_x = std::numeric_limits<double>::infinity();
+    const std::uint32_t beside = FindEdgesIn(edges, rays, crossed);
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < points; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
+        const Lanes x = hn::LoadU(tag, found.x + i);
+        const Lanes y = hn::LoadU(tag, found.y + i);
+        Lanes odd = hn::Zero(tag);
+        for (std::uint32_t k = 0; k < beside; ++k) {
+            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, crossed[k]), x, y));
         }
-        x = hn::Load(tag, of_x);
-        y = hn::Load(tag, of_y);
+        const LaneMask inside = hn::And(are_negative(odd), hn::FirstN(tag, points - i));
+        count = append_points(inside, x, y, found, count);
     }
-};
-
-/// The box around listed points; at least one.
-Extent extent_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count) {
-    Extent box{points.x[listed[0]], points.y[listed[0]], points.x[listed[0]], points.y[listed[0]]};
-    for (std::uint32_t i = 1; i < count; ++i) {
-        const double x = points.x[listed[i]];
-        const double y = points.y[listed[i]];
-        box = {std::min(box.low_x, x), std::min(box.low_y, y), std::max(box.high_x, x),
-               std::max(box.high_y, y)};
-    }
-    return box;
+    return count;
 }
 
 std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,
-                               const EdgeArrays& edges, std::uint32_t* found,
-                               std::uint32_t* crossed) {
-    const Tag tag;
+                               const EdgeArrays& edges, std::uint32_t* crossed,
+                               const FoundPoints& found) {
+    // So many points are quicker held against several edges at once than several points against
+    // one.
+    constexpr std::uint32_t few_points = 4;
     const std::uint32_t in_box = FindPointsIn(points, box, found);
-    std::uint32_t count = 0;
-    if (in_box <= few_points) {
-        for (std::uint32_t i = 0; i < in_box; ++i) {
-            const std::uint32_t point = found[i];
-            found[count] = point;
-            count += Contain(edges, points.x[point], points.y[point]) ? 1U : 0U;
-        }
-        return count;
+    if (in_box > few_points) {
+        return KeepInside(in_box, edges, crossed, found);
     }
-    // A ray to the right crosses no edges but those.
-    Extent rays = extent_of(points, found, in_box);
-    rays.high_x = std::numeric_limits<double>::infinity();
-    const std::uint32_t beside = FindEdgesIn(edges, rays, crossed);
-    for (std::uint32_t i = 0; i < in_box; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
-        const auto together = std::min(in_box - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
-        const PointLanes lanes(points, found + i, together);
-        Lanes odd = hn::Zero(tag);
-        for (std::uint32_t k = 0; k < beside; ++k) {
-            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, crossed[k]), lanes.x, lanes.y));
-        }
-        const std::uint32_t inside = bits_of(are_negative(odd));
-        for (std::uint32_t k = 0; k < together; ++k) {
-            found[count] = found[i + k];
-            count += inside >> k & 1U;
-        }
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < in_box; ++i) {
+        const double x = found.x[i];
+        const double y = found.y[i];
+        found.x[count] = x;
+        found.y[count] = y;
+        count += Contain(edges, x, y) ? 1U : 0U;
     }
     return count;
 }
@@ -162,67 +148,15 @@ NearEdge FindNearest(const EdgeArrays& edges, double point_x, double point_y) {
     return found;
 }
 
-/// Of several points at once, one edge after the other.
-class NearestOfLanes {
-public:
-    HWY_INLINE NearestOfLanes()
-        : first_(hn::Set(Tag(), std::numeric_limits<double>::infinity())),
-          second_(first_),
-          third_(first_),
-          first_edge_(hn::Zero(Tag())),
-          second_edge_(hn::Zero(Tag())) {}
-
-    HWY_INLINE void Look(Lanes squared, Lanes edge) {
-        const LaneMask nearest = hn::Lt(squared, first_);
-        const LaneMask second = hn::Lt(squared, second_);
-        third_ = hn::Min(third_, hn::Max(second_, squared));
-        second_ = hn::Min(second_, hn::Max(first_, squared));
-        first_ = hn::Min(first_, squared);
-        second_edge_ =
-            hn::IfThenElse(nearest, first_edge_, hn::IfThenElse(second, edge, second_edge_));
-        first_edge_ = hn::IfThenElse(nearest, edge, first_edge_);
-    }
-
-    HWY_INLINE void Write(std::uint32_t count, NearestEdges* nearest) const {
-        const Tag tag;
-        HWY_ALIGN double values[4][most_lanes];
-        hn::Store(first_edge_, tag, values[0]);
-        hn::Store(second_edge_, tag, values[1]);
-        hn::Store(second_, tag, values[2]);
-        hn::Store(third_, tag, values[3]);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            nearest[i] = {static_cast<std::uint32_t>(values[0][i]),
-                          static_cast<std::uint32_t>(values[1][i]), values[2][i], values[3][i]};
-        }
-    }
-
-private:
-    Lanes first_;
-    Lanes second_;
-    Lanes third_;
-    Lanes first_edge_;
-    Lanes second_edge_;
-};
-
-void FindNearestOf(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                   const EdgeArrays& edges, NearestEdges* nearest) {
+double LeastSquared(const EdgeArrays& edges, double point_x, double point_y) {
     const Tag tag;
-    if (count <= few_points) {
-        for (std::uint32_t i = 0; i < count; ++i) {
-            nearest[i] = {FindNearest(edges, points.x[listed[i]], points.y[listed[i]]).edge};
-        }
-        return;
+    const Lanes x = hn::Set(tag, point_x);
+    const Lanes y = hn::Set(tag, point_y);
+    Lanes least = squared_distances(edges, 0, x, y);
+    for (std::size_t i = hn::Lanes(tag); i < edges.count; i += hn::Lanes(tag)) {
+        least = hn::Min(least, squared_distances(edges, i, x, y));
     }
-    for (std::uint32_t i = 0; i < count; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
-        const auto together = std::min(count - i, static_cast<std::uint32_t>(hn::Lanes(tag)));
-        const PointLanes lanes(points, listed + i, together);
-        NearestOfLanes search;
-        for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-            search.Look(squared_distances(EdgesAlong::Same(edges, edge), lanes.x, lanes.y),
-                        hn::Set(tag, static_cast<double>(edge)));
-        }
-        search.Write(together, nearest + i);
-    }
+    return least_lane(least);
 }
 
 std::uint32_t FindEdgesWithin(const EdgeArrays& edges, double point_x, double point_y, double most,
@@ -306,7 +240,6 @@ HWY_EXPORT(FindPointsIn);
 HWY_EXPORT(FindPointsInside);
 HWY_EXPORT(Contain);
 HWY_EXPORT(FindNearest);
-HWY_EXPORT(FindNearestOf);
 HWY_EXPORT(FindEdgesWithin);
 HWY_EXPORT(FindEdgesIn);
 HWY_EXPORT(FindMeetingPair);
@@ -316,14 +249,15 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length) {
     HWY_DYNAMIC_DISPATCH(FindInverseLengths)(edges, inverse_length);
 }
 
-std::uint32_t find_points_in(const PointArrays& points, const Extent& box, std::uint32_t* found) {
+std::uint32_t find_points_in(const PointArrays& points, const Extent& box,
+                             const FoundPoints& found) {
     return HWY_DYNAMIC_DISPATCH(FindPointsIn)(points, box, found);
 }
 
 std::uint32_t find_points_inside(const PointArrays& points, const Extent& box,
-                                 const EdgeArrays& edges, std::uint32_t* found,
-                                 std::uint32_t* crossed) {
-    return HWY_DYNAMIC_DISPATCH(FindPointsInside)(points, box, edges, found, crossed);
+                                 const EdgeArrays& edges, std::uint32_t* crossed,
+                                 const FoundPoints& found) {
+    return HWY_DYNAMIC_DISPATCH(FindPointsInside)(points, box, edges, crossed, found);
 }
 
 bool contain(const EdgeArrays& edges, double x, double y) {
@@ -332,11 +266,6 @@ bool contain(const EdgeArrays& edges, double x, double y) {
 
 NearEdge find_nearest(const EdgeArrays& edges, double x, double y) {
     return HWY_DYNAMIC_DISPATCH(FindNearest)(edges, x, y);
-}
-
-void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                     const EdgeArrays& edges, NearestEdges* nearest) {
-    HWY_DYNAMIC_DISPATCH(FindNearestOf)(points, listed, count, edges, nearest);
 }
 
 std::uint32_t find_edges_within(const EdgeArrays& edges, double x, double y, double most,

@@ -28,6 +28,12 @@ struct PointArrays {
     const double* y = nullptr;
 };
 
+/// Where points that are found are written; room for padded(how many are looked at).
+struct FoundPoints {
+    double* x = nullptr;
+    double* y = nullptr;
+};
+
 /// Edges, an array for each coordinate of their ends. What fills an array up to whole lanes is an
 /// edge of no length at the last edge's end; or, but for contain() and find_points_inside(), which
 /// count crossings, any edge of the array once more.
@@ -49,15 +55,6 @@ struct NearEdge {
     double squared = 0.0;
 };
 
-/// The edges nearest to a point, and how far others are: squared distances, up to rounding. Of
-/// edges that were not looked for the distance is 0.
-struct NearestEdges {
-    std::uint32_t edge = 0;    ///< the nearest, of equally near ones the first
-    std::uint32_t second = 0;  ///< the nearest of the others
-    double second_squared = 0.0;
-    double third_squared = 0.0;  ///< no other is nearer
-};
-
 /// An edge of each of two arrays.
 struct EdgePair {
     std::uint32_t first = 0;
@@ -72,26 +69,22 @@ namespace kernels {
 /// Writes EdgeArrays::inverse_length of whole lanes.
 void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 
-/// Lists the points in a closed box.
+/// Finds the points in a closed box, in order; returns how many there are.
 [[nodiscard]] std::uint32_t find_points_in(const PointArrays& points, const Extent& box,
-                                           std::uint32_t* found);
+                                           const FoundPoints& found);
 
-/// Lists the points in a closed box that lie inside the edges by the odd-even rule; for points on
-/// an edge either answer may come. `crossed`: scratch with room for padded(edges.count) entries.
+/// Finds the points in a closed box that lie inside the edges by the odd-even rule, in order; for
+/// points on an edge either answer may come. Returns how many there are. `crossed`: scratch with
+/// room for padded(edges.count) entries.
 [[nodiscard]] std::uint32_t find_points_inside(const PointArrays& points, const Extent& box,
-                                               const EdgeArrays& edges, std::uint32_t* found,
-                                               std::uint32_t* crossed);
+                                               const EdgeArrays& edges, std::uint32_t* crossed,
+                                               const FoundPoints& found);
 
 /// By the odd-even rule, of one point.
 [[nodiscard]] bool contain(const EdgeArrays& edges, double x, double y);
 
 /// The edge nearest to a point, of equally near ones the first. At least one edge.
 [[nodiscard]] NearEdge find_nearest(const EdgeArrays& edges, double x, double y);
-
-/// The edges nearest to each of the `count` points that `listed` lists. Where they are few, more
-/// than the nearest is not looked for.
-void find_nearest_of(const PointArrays& points, const std::uint32_t* listed, std::uint32_t count,
-                     const EdgeArrays& edges, NearestEdges* nearest);
 
 /// Lists the edges whose squared distance from a point is up to rounding at most `most`.
 [[nodiscard]] std::uint32_t find_edges_within(const EdgeArrays& edges, double x, double y,

@@ -73,6 +73,24 @@ HWY_INLINE LanesOfExtent lanes_of(const Extent& box) {
             hn::Set(tag, box.high_y)};
 }
 
+/// The box around the points from `first` on; at least one.
+HWY_INLINE Extent extent_of(const PointArrays& points, std::uint32_t first) {
+    const Tag tag;
+    const Lanes first_x = hn::Set(tag, points.x[first]);
+    const Lanes first_y = hn::Set(tag, points.y[first]);
+    LanesOfExtent box{first_x, first_y, first_x, first_y};
+    for (std::uint32_t i = first; i < points.count;
+         i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
+        const LaneMask is_point = hn::FirstN(tag, points.count - i);
+        const Lanes x = hn::IfThenElse(is_point, hn::LoadU(tag, points.x + i), first_x);
+        const Lanes y = hn::IfThenElse(is_point, hn::LoadU(tag, points.y + i), first_y);
+        box = {hn::Min(box.low_x, x), hn::Min(box.low_y, y), hn::Max(box.high_x, x),
+               hn::Max(box.high_y, y)};
+    }
+    return {least_lane(box.low_x), least_lane(box.low_y), greatest_lane(box.high_x),
+            greatest_lane(box.high_y)};
+}
+
 /// The ends of the edges i, i + 1, ...
 struct EdgeLanes {
     Lanes start_x;
@@ -127,18 +145,6 @@ struct EdgesAlong {
           start_y(hn::LoadU(Tag(), edges.start_y + i)),
           along_x(hn::Sub(hn::LoadU(Tag(), edges.end_x + i), start_x)),
           along_y(hn::Sub(hn::LoadU(Tag(), edges.end_y + i), start_y)) {}
-
-    /// One edge in every lane.
-    static HWY_INLINE EdgesAlong Same(const EdgeArrays& edges, std::size_t edge) {
-        const Tag tag;
-        EdgesAlong same;
-        same.start_x = hn::Set(tag, edges.start_x[edge]);
-        same.start_y = hn::Set(tag, edges.start_y[edge]);
-        same.along_x = hn::Set(tag, edges.end_x[edge] - edges.start_x[edge]);
-        same.along_y = hn::Set(tag, edges.end_y[edge] - edges.start_y[edge]);
-        same.inverse_length = hn::Set(tag, edges.inverse_length[edge]);
-        return same;
-    }
 };
 
 /// Of points to edges, lane by lane.
@@ -219,6 +225,13 @@ HWY_INLINE Extent extent_of(const EdgeArrays& edges, std::size_t edge, double ma
         (start_x < end_x ? start_x : end_x) - margin, (start_y < end_y ? start_y : end_y) - margin,
         (start_x < end_x ? end_x : start_x) + margin, (start_y < end_y ? end_y : start_y) + margin};
 }
+
+// Of edge_kernels.cpp, for other kernels of the same instruction set.
+
+/// The squared distance of a point from the nearest edge, up to rounding.
+double LeastSquared(const EdgeArrays& edges, double point_x, double point_y);
+std::uint32_t FindEdgesWithin(const EdgeArrays& edges, double point_x, double point_y, double most,
+                              std::uint32_t* found);
 
 }  // namespace nearfield::exact::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -5,7 +5,6 @@
 namespace nearfield::exact {
 namespace {
 
-using geometry::Box;
 using geometry::Polygon;
 using geometry::Vector;
 
@@ -22,61 +21,15 @@ bool holds_a_ring(const PlacedEdges& outer, const PlacedEdges& inner) {
     return false;
 }
 
-bool edges_meet(const PlacedEdges& a, const PlacedEdges& b, const EdgePair& edges) {
-    return geometry::segments_meet(a.start(edges.first), a.end(edges.first), b.start(edges.second),
-                                   b.end(edges.second), a.rounding + b.rounding);
-}
-
-/// By boxes over the edges of both.
-bool large_boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges) {
-    struct Search {
-        const PlacedEdges& a;
-        const PlacedEdges& b;
-        EdgePair& met;
-    } search{a, b, edges};
-    const auto look = [](void* user, const EdgePair& pair) {
-        Search& at = *static_cast<Search*>(user);
-        if (edges_meet(at.a, at.b, pair)) {
-            at.met = pair;
-            return false;
-        }
-        return true;
-    };
-    return kernels::for_meeting_pairs(a.tree(), b.tree(), a.rounding + b.rounding, {look, &search});
-}
-
 }  // namespace
 
 bool MeetingFinder::boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges) {
-    return is_small(a) && is_small(b) ? small_boundaries_meet(a, b, edges)
-                                      : large_boundaries_meet(a, b, edges);
-}
-
-bool MeetingFinder::small_boundaries_meet(const PlacedEdges& a, const PlacedEdges& b,
-                                          EdgePair& edges) {
     const double margin = a.rounding + b.rounding;
-    Box common = a.box.intersection(b.box);
-    common.min().array() -= 2.0 * margin;
-    common.max().array() += 2.0 * margin;
-    of_a_.pick(a, extent_of(common));
-    if (of_a_.empty()) {
-        return false;
-    }
-    of_b_.pick(b, extent_of(common));
-    if (of_b_.empty()) {
-        return false;
-    }
-    const EdgeArrays picked_a = of_a_.edges();
-    const EdgeArrays picked_b = of_b_.edges();
-    EdgePair pair;
-    while (kernels::find_meeting_pair(picked_a, picked_b, margin, pair)) {
-        edges = {of_a_.index(pair.first), of_b_.index(pair.second)};
-        if (edges_meet(a, b, edges)) {
-            return true;
-        }
-        ++pair.second;
-    }
-    return false;
+    return pairs_.for_each(a, b, [&](const EdgePair& pair) {
+        edges = pair;
+        return !geometry::segments_meet(a.start(pair.first), a.end(pair.first),
+                                        b.start(pair.second), b.end(pair.second), margin);
+    });
 }
 
 bool MeetingFinder::intersect(const PlacedEdges& a, const PlacedEdges& b) {

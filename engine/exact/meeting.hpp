@@ -1,10 +1,7 @@
 #pragma once
 
-#include <engine/exact/picked_edges.hpp>
+#include <engine/exact/meeting_pairs.hpp>
 #include <engine/exact/placed_edges.hpp>
-
-#include <cstdint>
-#include <vector>
 
 namespace nearfield::exact {
 
@@ -20,15 +17,12 @@ public:
     /// The same of shapes of which no vertex of A lies in B, which leaves less to look at.
     [[nodiscard]] bool intersect_without_vertex_inside(const PlacedEdges& a, const PlacedEdges& b);
 
-    /// True where their boundaries meet, with a pair of edges that do.
+    /// True where their boundaries meet, with a pair of edges that do; otherwise `edges` is left as
+    /// it may be.
     [[nodiscard]] bool boundaries_meet(const PlacedEdges& a, const PlacedEdges& b, EdgePair& edges);
 
 private:
-    [[nodiscard]] bool small_boundaries_meet(const PlacedEdges& a, const PlacedEdges& b,
-                                             EdgePair& edges);
-
-    PickedEdges of_a_;
-    PickedEdges of_b_;
+    MeetingPairs pairs_;
 };
 
 }  // namespace nearfield::exact

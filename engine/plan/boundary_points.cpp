@@ -1,9 +1,7 @@
-#include <engine/geometry/clip.hpp>
 #include <engine/plan/boundary_points.hpp>
+#include <engine/plan/edge_sampler.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace nearfield::plan {
 namespace {
@@ -26,105 +24,6 @@ void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Vi
     }
 }
 
-/// An edge divided evenly: it has `parts` parts, of which first, ..., end - 1 can start inside a
-/// box or on the way into it.
-struct Division {
-    double parts = 1.0;
-    double first = 0.0;
-    double end = 1.0;
-};
-
-Division divide(const PlacedPolygon& placed, std::uint32_t edge, double length, double spacing,
-                const geometry::Box& within) {
-    Division division;
-    division.parts = std::max(1.0, std::ceil(length / spacing));
-    division.end = division.parts;
-    if (division.parts < 16.0) {
-        return division;  // not worth a look
-    }
-    Vector a = placed.vertex(edge);
-    Vector b = placed.vertex(placed.polygon().next(edge));
-    const Vector start = a;
-    const double whole = (b - a).norm();
-    for (const int axis : {0, 1}) {
-        if (!geometry::clip_to_slab(a, b, axis, within.min()[axis], within.max()[axis])) {
-            division.end = 0.0;
-            return division;
-        }
-    }
-    // A part more at either end, for rounding.
-    const double from = (a - start).norm() / whole * division.parts;
-    const double to = (b - start).norm() / whole * division.parts;
-    division.first = std::max(0.0, std::floor(from) - 1.0);
-    division.end = std::min(division.parts, std::ceil(to) + 2.0);
-    return division;
-}
-
-/// Every so many edges of a ring its samples start anew, at a vertex: what is sampled depends on
-/// nothing farther back.
-constexpr std::uint32_t most_edges_back = 64;
-
-/// Samples edges of one polygon, in any order; the least is done for edges that follow each other.
-class EdgeSampler {
-public:
-    EdgeSampler(const PlacedPolygon& placed, double spacing, const geometry::Box& within)
-        : placed_(placed), spacing_(spacing), within_(within) {}
-
-    void append_samples(std::uint32_t edge, std::vector<BoundaryPoint>& points) {
-        const double edge_length = length(edge);
-        if (edge != next_ && edge_length <= spacing_) {
-            catch_up(edge);
-        }
-        const Division division = advance(edge, edge_length);
-        const auto end = static_cast<std::uint32_t>(division.end);
-        for (auto part = static_cast<std::uint32_t>(division.first); part < end; ++part) {
-            points.push_back({edge, part / division.parts});
-        }
-    }
-
-private:
-    [[nodiscard]] double length(std::uint32_t edge) const {
-        const Polygon& polygon = placed_.polygon();
-        return (polygon.vertices()[polygon.next(edge)] - polygon.vertices()[edge]).norm();
-    }
-
-    [[nodiscard]] bool starts_anew(std::uint32_t edge) const {
-        const Polygon& polygon = placed_.polygon();
-        return (edge - polygon.ring_begin(polygon.ring_of(edge))) % most_edges_back == 0;
-    }
-
-    /// Walks back to where the samples of a short edge can be told from, and up to it again.
-    void catch_up(std::uint32_t edge) {
-        std::uint32_t from = edge;
-        double from_length = 0.0;
-        while (from_length <= spacing_ && !starts_anew(from)) {
-            from_length = length(--from);
-        }
-        for (; from < edge; ++from) {
-            static_cast<void>(advance(from, length(from)));
-        }
-    }
-
-    /// The samples of an edge, from the samples before.
-    [[nodiscard]] Division advance(std::uint32_t edge, double edge_length) {
-        next_ = edge + 1;
-        if (edge_length <= spacing_ && !starts_anew(edge) &&
-            since_last_ + edge_length <= spacing_) {
-            since_last_ += edge_length;
-            return {1.0, 0.0, 0.0};
-        }
-        const Division division = divide(placed_, edge, edge_length, spacing_, within_);
-        since_last_ = division.end < division.parts ? spacing_ : edge_length / division.parts;
-        return division;
-    }
-
-    const PlacedPolygon& placed_;
-    double spacing_;
-    const geometry::Box& within_;
-    std::uint32_t next_ = std::numeric_limits<std::uint32_t>::max();  // edge, if none is left out
-    double since_last_ = 0.0;  // sample, along the boundary to the next edge
-};
-
 }  // namespace
 
 Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
@@ -138,18 +37,16 @@ Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
 void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
                    double spacing, const geometry::Box& within,
                    std::vector<BoundaryPoint>& points) {
-    EdgeSampler sampler(polygon, spacing, within);
+    EdgeSampler sampler(polygon.polygon(), spacing);
     for (const localize::Chain& chain : chains) {
-        for_each_edge(polygon, chain,
-                      [&](std::uint32_t edge, double) { sampler.append_samples(edge, points); });
-    }
-}
-
-void sample_edges(const PlacedPolygon& polygon, std::span<const std::uint32_t> edges,
-                  double spacing, const geometry::Box& within, std::vector<BoundaryPoint>& points) {
-    EdgeSampler sampler(polygon, spacing, within);
-    for (const std::uint32_t edge : edges) {
-        sampler.append_samples(edge, points);
+        for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
+            const double parts = sampler.parts_of(edge);
+            const PartRange range = parts_within(polygon, edge, parts, within);
+            const auto end = static_cast<std::uint32_t>(range.end);
+            for (auto part = static_cast<std::uint32_t>(range.first); part < end; ++part) {
+                points.push_back({edge, part / parts});
+            }
+        });
     }
 }
 
@@ -174,8 +71,9 @@ double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Ch
     double count = 0.0;
     for (const localize::Chain& chain : chains) {
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double length) {
-            const Division division = divide(polygon, edge, length, spacing, within);
-            count += std::max(0.0, division.end - division.first);
+            const PartRange range =
+                parts_within(polygon, edge, parts_of_length(length, spacing), within);
+            count += std::max(0.0, range.end - range.first);
         });
     }
     return count;

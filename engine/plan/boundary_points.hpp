@@ -29,10 +29,6 @@ void sample_chains(const geometry::PlacedPolygon& polygon,
                    const std::vector<localize::Chain>& chains, double spacing,
                    const geometry::Box& within, std::vector<BoundaryPoint>& points);
 
-/// The same samples of single edges, which had best be in ascending order.
-void sample_edges(const geometry::PlacedPolygon& polygon, std::span<const std::uint32_t> edges,
-                  double spacing, const geometry::Box& within, std::vector<BoundaryPoint>& points);
-
 /// Appends the first vertex of every edge of the chains.
 void vertices_of_chains(const geometry::PlacedPolygon& polygon,
                         const std::vector<localize::Chain>& chains,

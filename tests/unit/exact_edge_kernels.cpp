@@ -40,17 +40,16 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
         said.insert(said.end(), found.begin(), found.begin() + count);
     };
     const Extent box_b = extent_of(edges_b.box);
-    add_found(kernels::find_points_in(edges_a.starts(), box_b, found.data()));
+    std::vector<double> x(padded(edges_a.count));
+    std::vector<double> y(padded(edges_a.count));
+    const auto add_points = [&](std::uint32_t count) {
+        said.insert(said.end(), x.begin(), x.begin() + count);
+        said.insert(said.end(), y.begin(), y.begin() + count);
+    };
+    add_points(kernels::find_points_in(edges_a.starts(), box_b, {x.data(), y.data()}));
     std::vector<std::uint32_t> crossed(padded(edges_b.count));
-    const std::uint32_t inside =
-        kernels::find_points_inside(edges_a.starts(), box_b, edges_b, found.data(), crossed.data());
-    add_found(inside);
-    std::vector<NearestEdges> nearest_of(inside);
-    kernels::find_nearest_of(edges_a.starts(), found.data(), inside, edges_b, nearest_of.data());
-    for (const NearestEdges& near : nearest_of) {
-        said.insert(said.end(), {static_cast<double>(near.edge), static_cast<double>(near.second),
-                                 near.second_squared, near.third_squared});
-    }
+    add_points(kernels::find_points_inside(edges_a.starts(), box_b, edges_b, crossed.data(),
+                                           {x.data(), y.data()}));
     add_found(kernels::find_edges_in(edges_a, box_b, found.data()));
     said.push_back(kernels::find_point_nearest_to(edges_a.starts(), box_b));
     for (const Vector& point : points) {
@@ -111,7 +110,7 @@ TEST(EdgeKernels, SayTheSameOnEveryInstructionSet) {
 
 TEST(EdgeKernels, SayOfManyPointsWhatTheySayOfEach) {
     samples::Random random(93);
-    std::size_t together = 0;
+    std::uint32_t several = 0;
     for (int i = 0; i < 200; ++i) {
         const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 120.0)); };
         const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
@@ -122,42 +121,26 @@ TEST(EdgeKernels, SayOfManyPointsWhatTheySayOfEach) {
             instances.place(b, {{random.between(-1.0, 1.0), random.between(-1.0, 1.0)}, 0.4});
         const PlacedEdges& points = instances[index_a];
         const PlacedEdges& edges = instances[index_b];
-        std::vector<std::uint32_t> inside(padded(points.count));
+        std::vector<double> x(padded(points.count));
+        std::vector<double> y(padded(points.count));
         std::vector<std::uint32_t> crossed(padded(edges.count));
-        inside.resize(kernels::find_points_inside(points.starts(), extent_of(edges.box), edges,
-                                                  inside.data(), crossed.data()));
-        std::vector<std::uint32_t> expected;
+        const std::uint32_t count = kernels::find_points_inside(
+            points.starts(), extent_of(edges.box), edges, crossed.data(), {x.data(), y.data()});
+        std::vector<Vector> expected;
         for (std::uint32_t k = 0; k < points.count; ++k) {
             const Vector point = points.start(k);
             if (edges.box.contains(point) && kernels::contain(edges, point.x(), point.y())) {
-                expected.push_back(k);
+                expected.push_back(point);
             }
+        }
+        std::vector<Vector> inside;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            inside.emplace_back(x[k], y[k]);
         }
         EXPECT_EQ(inside, expected);
-        std::vector<NearestEdges> nearest(inside.size());
-        kernels::find_nearest_of(points.starts(), inside.data(),
-                                 static_cast<std::uint32_t>(inside.size()), edges, nearest.data());
-        for (std::size_t k = 0; k < inside.size(); ++k) {
-            const Vector point = points.start(inside[k]);
-            EXPECT_EQ(nearest[k].edge, kernels::find_nearest(edges, point.x(), point.y()).edge);
-            if (nearest[k].third_squared == 0.0) {
-                continue;  // not looked for
-            }
-            ++together;
-            std::vector<double> squared;
-            for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
-                squared.push_back(
-                    geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
-                        .squared_distance);
-            }
-            EXPECT_NEAR(squared[nearest[k].second], nearest[k].second_squared, 1e-14);
-            EXPECT_NE(nearest[k].second, nearest[k].edge);
-            std::sort(squared.begin(), squared.end());
-            EXPECT_NEAR(squared[1], nearest[k].second_squared, 1e-14);
-            EXPECT_NEAR(squared[2], nearest[k].third_squared, 1e-14);
-        }
+        several += count > 8 ? 1U : 0U;
     }
-    EXPECT_GT(together, 500U);
+    EXPECT_GT(several, 50U);
 }
 
 TEST(EdgeKernels, MissNoPairOfEdgesThatMeet) {

@@ -139,13 +139,19 @@ TEST(PlacedEdges, SelectTheVerticesInABox) {
             for (int i = 0; i < 20; ++i) {
                 Box box(any_point(placed, random));
                 box.extend(any_point(placed, random));
-                std::vector<std::uint32_t> found(padded(edges.count));
-                found.resize(kernels::find_points_in(edges.starts(), extent_of(box), found.data()));
-                std::vector<std::uint32_t> expected;
+                std::vector<double> x(padded(edges.count));
+                std::vector<double> y(padded(edges.count));
+                const std::uint32_t count = kernels::find_points_in(
+                    edges.starts(), extent_of(box), {x.data(), y.data()});
+                std::vector<Vector> expected;
                 for (std::uint32_t v = 0; v < edges.count; ++v) {
                     if (box.contains(edges.start(v))) {
-                        expected.push_back(v);
+                        expected.push_back(edges.start(v));
                     }
+                }
+                std::vector<Vector> found;
+                for (std::uint32_t v = 0; v < count; ++v) {
+                    found.emplace_back(x[v], y[v]);
                 }
                 EXPECT_EQ(found, expected);
             }

@@ -1,4 +1,5 @@
 #include <engine/plan/boundary_points.hpp>
+#include <engine/plan/edge_sampler.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/polygons.hpp>
@@ -110,7 +111,13 @@ TEST(SampleChains, WhereSamplesAreDoesNotDependOnWhatIsAskedFor) {
                 }
             };
             std::vector<BoundaryPoint> of_edges;
-            sample_edges(placed, edges, spacing, placed.box(), of_edges);
+            EdgeSampler sampler(polygon, spacing);
+            for (const std::uint32_t edge : edges) {
+                const double parts = sampler.parts_of(edge);
+                for (double part = 0.0; part < parts; ++part) {
+                    of_edges.push_back({edge, part / parts});
+                }
+            }
             expect_same(of_edges);
             std::vector<BoundaryPoint> of_chains;
             sample_chains(placed, chains, spacing, placed.box(), of_chains);

@@ -1,0 +1,246 @@
+#include <engine/exact/box_tree.hpp>
+
+#include <bit>
+#include <cmath>
+
+// Highway compiles what follows once for every instruction set, by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/exact/tree_pair_kernels.cpp"
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <engine/exact/box_lanes-inl.hpp>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::exact::kernels::HWY_NAMESPACE {
+
+/// Goes down two trees together, to pairs of boxes of their lowest levels. `Leaves` says which
+/// pairs matter and what to do with those:
+///   Lanes squared_bound()           no pair farther apart than its root matters
+///   bool use(box_a, box_b)          a pair of lowest boxes; whether to go on
+template <class Leaves>
+class PairWalk {
+public:
+    HWY_INLINE PairWalk(const BoxTree& a, const BoxTree& b, Leaves& leaves)
+        : a_(a), b_(b), leaves_(leaves) {}
+
+    bool Run() {
+        const std::uint32_t top = a_.top_level();
+        for (std::uint32_t i = 0; i < a_.level(top).count; ++i) {
+            if (!OpenB(top, i, b_.top_level(), 0)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    /// Boxes of A from `first` on against one of B.
+    bool OpenA(std::uint32_t level_a, std::uint32_t first, std::uint32_t level_b,
+               std::uint32_t box_b) {
+        return Open(a_.level(level_a), first, box_at(b_.level(level_b), box_b),
+                    [&](std::uint32_t box_a)
+                        HWY_ATTR { return Visit(level_a, box_a, level_b, box_b); });
+    }
+
+    bool OpenB(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
+               std::uint32_t first) {
+        return Open(b_.level(level_b), first, box_at(a_.level(level_a), box_a),
+                    [&](std::uint32_t box_b)
+                        HWY_ATTR { return Visit(level_a, box_a, level_b, box_b); });
+    }
+
+    template <class Use>
+    HWY_INLINE bool Open(const BoxArrays& boxes, std::uint32_t first, const Extent& other,
+                         const Use& use) {
+        const Tag tag;
+        const LanesOfExtent bounds = lanes_of(other);
+        double squared[fan_out];
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
+            const Lanes distances = squared_between(boxes_at(boxes, first + i), bounds);
+            hn::StoreU(distances, tag, squared + i);
+            bits |= bits_of(hn::Le(distances, hn::Set(tag, leaves_.squared_bound()))) << i;
+        }
+        for (; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+            if (squared[i] <= leaves_.squared_bound() && !use(first + i)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool Visit(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
+               std::uint32_t box_b) {
+        if (level_a == 0 && level_b == 0) {
+            return leaves_.Use(fan_out * box_a, fan_out * box_b);
+        }
+        return level_a >= level_b ? OpenA(level_a - 1, fan_out * box_a, level_b, box_b)
+                                  : OpenB(level_a, box_a, level_b - 1, fan_out * box_b);
+    }
+
+    const BoxTree& a_;
+    const BoxTree& b_;
+    Leaves& leaves_;
+};
+
+class MeetingLeaves {
+public:
+    HWY_INLINE MeetingLeaves(const BoxTree& a, const BoxTree& b, double margin,
+                             const EdgePairSink& sink)
+        : a_(a), b_(b), margin_(margin), sink_(sink) {}
+
+    /// Boxes so much apart along both axes are twice that apart, squared, and a little more.
+    [[nodiscard]] HWY_INLINE double squared_bound() const { return 8.0 * margin_ * margin_; }
+
+    bool Use(std::uint32_t first_a, std::uint32_t first_b) {
+        const EdgeArrays& a = a_.edges();
+        const EdgeArrays& b = b_.edges();
+        const LanesOfExtent box =
+            lanes_of(grown(box_at(b_.level(0), first_b / fan_out), 2.0 * margin_));
+        std::uint32_t near = bits_of_eight(
+            [&](std::size_t i) HWY_ATTR { return meet(box, EdgeLanes(a, first_a + i)); });
+        for (; near != 0; near &= near - 1) {
+            const std::uint32_t edge = first_a + static_cast<std::uint32_t>(std::countr_zero(near));
+            if (edge >= a.count) {
+                break;
+            }
+            // Twice the margin: what two boxes are compared by rounds too.
+            const LanesOfExtent bounds = lanes_of(extent_of(a, edge, 2.0 * margin_));
+            std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
+                const EdgeLanes others(b, first_b + i);
+                return hn::And(meet(bounds, others), may_meet(a, edge, others, margin_));
+            });
+            for (; found != 0; found &= found - 1) {
+                const std::uint32_t other =
+                    first_b + static_cast<std::uint32_t>(std::countr_zero(found));
+                if (other < b.count && !sink_.use(sink_.user, {edge, other})) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+private:
+    const BoxTree& a_;
+    const BoxTree& b_;
+    double margin_;
+    const EdgePairSink& sink_;
+};
+
+bool ForMeetingPairs(const BoxTree& first, const BoxTree& second, double margin,
+                     const EdgePairSink& sink) {
+    MeetingLeaves leaves(first, second, margin, sink);
+    return !PairWalk<MeetingLeaves>(first, second, leaves).Run();
+}
+
+class ClosestLeaves {
+public:
+    HWY_INLINE ClosestLeaves(const BoxTree& a, const BoxTree& b, double most, double margin,
+                             const VertexAndEdgeSink& sink)
+        : a_(a), b_(b), margin_(margin), sink_(sink), least_(most), bound_(longer(most)) {}
+
+    [[nodiscard]] HWY_INLINE double squared_bound() const { return bound_; }
+    [[nodiscard]] HWY_INLINE double least() const { return least_; }
+
+    bool Use(std::uint32_t first_a, std::uint32_t first_b) {
+        FindNear(a_, first_a, b_, first_b, true);
+        FindNear(b_, first_b, a_, first_a, false);
+        return true;
+    }
+
+private:
+    [[nodiscard]] HWY_INLINE double longer(double squared) const {
+        const double length = std::sqrt(squared) + margin_;
+        return length * length;
+    }
+
+    /// The vertices of some edges against other edges.
+    void FindNear(const BoxTree& of_vertices, std::uint32_t first_vertex, const BoxTree& of_edges,
+                  std::uint32_t first_edge, bool vertices_are_of_a) {
+        const Tag tag;
+        const EdgeArrays& vertices = of_vertices.edges();
+        const EdgeArrays& edges = of_edges.edges();
+        const LanesOfExtent box = lanes_of(box_at(of_edges.level(0), first_edge / fan_out));
+        std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            const Lanes x = hn::LoadU(tag, vertices.start_x + first_vertex + i);
+            const Lanes y = hn::LoadU(tag, vertices.start_y + first_vertex + i);
+            return hn::Le(squared_between(box, {x, y, x, y}), hn::Set(tag, bound_));
+        });
+        if (near == 0) {
+            return;
+        }
+        for (std::size_t i = first_edge; i < first_edge + fan_out; i += hn::Lanes(tag)) {
+            const EdgesAlong along = edges_along(edges, i);
+            for (std::uint32_t left = near; left != 0; left &= left - 1) {
+                const std::uint32_t vertex =
+                    first_vertex + static_cast<std::uint32_t>(std::countr_zero(left));
+                if (vertex >= vertices.count) {
+                    break;
+                }
+                const Lanes squared =
+                    squared_distances(along, hn::Set(tag, vertices.start_x[vertex]),
+                                      hn::Set(tag, vertices.start_y[vertex]));
+                std::uint32_t found = bits_of(hn::Le(squared, hn::Set(tag, bound_)));
+                if (found == 0) {
+                    continue;
+                }
+                double distances[most_lanes];
+                hn::StoreU(squared, tag, distances);
+                for (; found != 0; found &= found - 1) {
+                    const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
+                    const auto edge = static_cast<std::uint32_t>(i) + lane;
+                    if (edge < edges.count && distances[lane] <= bound_) {
+                        Take({vertex, edge, vertices_are_of_a, distances[lane]});
+                    }
+                }
+            }
+        }
+    }
+
+    void Take(const VertexAndEdge& found) {
+        sink_.use(sink_.user, found);
+        if (found.squared < least_) {
+            least_ = found.squared;
+            bound_ = longer(least_);
+        }
+    }
+
+    const BoxTree& a_;
+    const BoxTree& b_;
+    double margin_;
+    const VertexAndEdgeSink& sink_;
+    double least_;
+    double bound_;
+};
+
+double ForClosest(const BoxTree& first, const BoxTree& second, double most, double margin,
+                  const VertexAndEdgeSink& sink) {
+    ClosestLeaves leaves(first, second, most, margin, sink);
+    PairWalk<ClosestLeaves>(first, second, leaves).Run();
+    return leaves.least();
+}
+
+}  // namespace nearfield::exact::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::exact::kernels {
+
+HWY_EXPORT(ForMeetingPairs);
+HWY_EXPORT(ForClosest);
+
+bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margin,
+                       const EdgePairSink& sink) {
+    return HWY_DYNAMIC_DISPATCH(ForMeetingPairs)(first, second, margin, sink);
+}
+
+double for_closest(const BoxTree& first, const BoxTree& second, double most, double margin,
+                   const VertexAndEdgeSink& sink) {
+    return HWY_DYNAMIC_DISPATCH(ForClosest)(first, second, most, margin, sink);
+}
+
+}  // namespace nearfield::exact::kernels
+#endif
