@@ -14,9 +14,9 @@ std::span<const std::uint32_t> InsideSamples::edges_near(const PlacedEdges& a,
         near_.resize(exact::padded(a.count));
     }
     const exact::Extent box = exact::extent_of(b.box);
-    const std::uint32_t count =
-        exact::is_small(a) ? exact::kernels::find_edges_in(a, box, near_.data())
-                           : exact::kernels::find_edges_in(a.tree(), box, near_.data());
+    const std::uint32_t count = exact::is_small(a)
+                                    ? exact::kernels::find_edges_in(a, box, near_.data())
+                                    : exact::kernels::find_edges_in(a.tree(), box, near_.data());
     return {near_.data(), count};
 }
 

@@ -1,13 +1,23 @@
+#include <engine/exact/edge_by_edge.hpp>
 #include <engine/nearest_feature.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/point_penetration.hpp>
 
+#include <cmath>
 #include <utility>
 
 namespace nearfield {
 
 using exact::PlacedEdges;
+using geometry::Vector;
+
+namespace {
+
+/// Of so few points each is quicker held against several edges at once than all against one.
+constexpr std::size_t few_points = 4;
+
+}  // namespace
 
 void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                               PenetrationResult& result) {
@@ -34,10 +44,15 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         } else if (a.box.intersects(b.box)) {
             find_vertices_inside(a.starts(), b);
         }
-        if (inside_.size() > 0) {
-            nearest_.find(inside_.arrays(), b, result.tolerance * plan::uniqueness_margin);
-            write(a.rounding + b.rounding, b, asked.records, result);
+        const double touching = a.rounding + b.rounding;
+        const double margin = result.tolerance * plan::uniqueness_margin;
+        if (!asked.records && exact::is_small(b) && inside_.size() <= few_points) {
+            write_deepest(touching, margin, b, result);
+        } else {
+            nearest_.find(inside_.arrays(), b, margin);
+            write(touching, b, asked.records, result);
         }
+        result.intersects = inside_.size() > 0;
         // Of a ring of A that lies in B some point is found: it has a vertex that is a sample.
         result.intersects =
             result.intersects || reversed || meeting_.intersect_without_vertex_inside(a, b);
@@ -51,50 +66,82 @@ void PointPenetration::find_vertices_inside(const exact::PointArrays& vertices,
     const exact::Extent box = exact::extent_of(b.box);
     const exact::FoundPoints found = inside_.found();
     if (exact::is_small(b)) {
-        inside_.resize(
-            exact::kernels::find_points_inside(vertices, box, b, beside_.data(), found));
+        inside_.resize(exact::kernels::find_points_inside(vertices, box, b, beside_.data(), found));
     } else {
         boundary_.set(b);
-        inside_.resize(boundary_.keep_inside(
-            exact::kernels::find_points_in(vertices, box, found), found));
+        inside_.resize(
+            boundary_.keep_inside(exact::kernels::find_points_in(vertices, box, found), found));
+    }
+}
+
+void PointPenetration::write_deepest(double touching, double margin, const PlacedEdges& b,
+                                     PenetrationResult& result) {
+    const exact::PointArrays points = inside_.arrays();
+    std::uint32_t deepest = 0;
+    exact::NearestOfEdges nearest;
+    for (std::uint32_t i = 0; i < points.count; ++i) {
+        const exact::NearestOfEdges near =
+            exact::kernels::find_nearest(b, points.x[i], points.y[i]);
+        result.count += near.squared > touching * touching ? 1U : 0U;
+        if (near.squared > nearest.squared) {
+            deepest = i;
+            nearest = near;
+        }
+    }
+    if (result.count > 0) {
+        const Vector point(points.x[deepest], points.y[deepest]);
+        const exact::NearestPoint exit{
+            nearest.edge,
+            geometry::nearest_on_segment(point, b.start(nearest.edge), b.end(nearest.edge))};
+        const double depth = std::sqrt(exit.on_edge.squared_distance);
+        const bool unique = nearest.second_squared > exact::beyond_rounding(depth + margin) ||
+                            exact::is_unique(b, point, exit, margin);
+        write({point, exit.on_edge.point, depth, exit.edge, exit.on_edge.parameter, unique}, b,
+              result.deepest);
     }
 }
 
 void PointPenetration::write(double touching, const PlacedEdges& b, bool keep_records,
                              PenetrationResult& result) {
+    const exact::PointArrays points = inside_.arrays();
+    const exact::NearestArrays& nearest = nearest_.arrays();
+    const auto write_record = [&](std::size_t i, PenetrationRecord& record) {
+        write({{points.x[i], points.y[i]},
+               {nearest.x[i], nearest.y[i]},
+               nearest.distance[i],
+               nearest.edge[i],
+               nearest.parameter[i],
+               nearest_.is_unique(i)},
+              b, record);
+    };
     std::size_t deepest = 0;
     double most = 0.0;
-    const double* const distance = nearest_.arrays().distance;
-    result.intersects = true;
-    for (std::size_t i = 0; i < inside_.size(); ++i) {
-        if (distance[i] <= touching) {
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const double depth = nearest.distance[i];
+        if (depth <= touching) {
             continue;
         }
         ++result.count;
         if (keep_records) {
-            write(b, i, result.records.emplace_back());
+            write_record(i, result.records.emplace_back());
         }
-        if (distance[i] > most) {
+        if (depth > most) {
             deepest = i;
-            most = distance[i];
+            most = depth;
         }
     }
     if (result.count > 0) {
-        write(b, deepest, result.deepest);
+        write_record(deepest, result.deepest);
     }
 }
 
-void PointPenetration::write(const PlacedEdges& b, std::size_t i, PenetrationRecord& record) {
-    const exact::PointArrays points = inside_.arrays();
-    const exact::NearestArrays& nearest = nearest_.arrays();
-    const double depth = nearest.distance[i];
-    record.point = {points.x[i], points.y[i]};
-    record.depth = depth;
-    record.nearest = {nearest.x[i], nearest.y[i]};
-    record.direction = {(record.nearest.x - record.point.x) / depth,
-                        (record.nearest.y - record.point.y) / depth};
-    record.feature = feature_at(b.placed, nearest.edge[i], nearest.parameter[i]);
-    record.unique = nearest_.is_unique(i);
+void PointPenetration::write(const WayOut& way, const PlacedEdges& b, PenetrationRecord& record) {
+    record.point = geometry::to_public(way.point);
+    record.depth = way.depth;
+    record.direction = geometry::to_public((way.exit - way.point) / way.depth);
+    record.nearest = geometry::to_public(way.exit);
+    record.feature = feature_at(b.placed, way.edge, way.parameter);
+    record.unique = way.unique;
 }
 
 }  // namespace nearfield

@@ -41,11 +41,24 @@ private:
 
     /// Of A's vertices.
     void find_vertices_inside(const exact::PointArrays& vertices, const exact::PlacedEdges& b);
-    /// Those nearer to B's boundary than `touching` are on it.
+    /// From a point of A, and what is known of it.
+    struct WayOut {
+        geometry::Vector point;
+        geometry::Vector exit;  ///< the point of B's boundary nearest to it
+        double depth;
+        std::uint32_t edge;  ///< of B
+        double parameter;    ///< where on it
+        bool unique;
+    };
+
+    // Points nearer to B's boundary than `touching` are on it.
+
+    /// Of few points inside a small B, none but the deepest of which is asked for.
+    void write_deepest(double touching, double margin, const exact::PlacedEdges& b,
+                       PenetrationResult& result);
     void write(double touching, const exact::PlacedEdges& b, bool keep_records,
                PenetrationResult& result);
-    /// Point number i.
-    void write(const exact::PlacedEdges& b, std::size_t i, PenetrationRecord& record);
+    static void write(const WayOut& way, const exact::PlacedEdges& b, PenetrationRecord& record);
 
     exact::Boundary boundary_;  // of B, where it has many edges
     exact::MeetingFinder meeting_;

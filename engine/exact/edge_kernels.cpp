@@ -127,25 +127,28 @@ HWY_INLINE Lanes squared_distances(const EdgeArrays& edges, std::size_t i, Lanes
     return squared_distances(along, x, y);
 }
 
-NearEdge FindNearest(const EdgeArrays& edges, double point_x, double point_y) {
+NearestOfEdges FindNearest(const EdgeArrays& edges, double point_x, double point_y) {
     const Tag tag;
     const Lanes x = hn::Set(tag, point_x);
     const Lanes y = hn::Set(tag, point_y);
     Lanes index = hn::Iota(tag, 0.0);
     Lanes least = squared_distances(edges, 0, x, y);
+    Lanes second = hn::Set(tag, std::numeric_limits<double>::infinity());
     Lanes nearest = index;
     const Lanes step = hn::Set(tag, static_cast<double>(hn::Lanes(tag)));
     for (std::size_t i = hn::Lanes(tag); i < edges.count; i += hn::Lanes(tag)) {
         index = hn::Add(index, step);
         const Lanes squared = squared_distances(edges, i, x, y);
         const LaneMask nearer = hn::Lt(squared, least);
-        least = hn::IfThenElse(nearer, squared, least);
+        second = hn::Min(second, hn::Max(squared, least));
+        least = hn::Min(least, squared);
         nearest = hn::IfThenElse(nearer, index, nearest);
     }
-    NearEdge found = least_of(least, nearest);
+    const NearEdge found = least_of(least, nearest);
+    const LaneMask is_found = hn::Eq(nearest, hn::Set(tag, static_cast<double>(found.edge)));
     // What fills up the lanes is no nearer than the last edge, but may be so by its rounding.
-    found.edge = found.edge < edges.count ? found.edge : edges.count - 1;
-    return found;
+    return {{found.edge < edges.count ? found.edge : edges.count - 1, found.squared},
+            least_lane(hn::IfThenElse(is_found, second, least))};
 }
 
 double LeastSquared(const EdgeArrays& edges, double point_x, double point_y) {
@@ -264,7 +267,7 @@ bool contain(const EdgeArrays& edges, double x, double y) {
     return HWY_DYNAMIC_DISPATCH(Contain)(edges, x, y);
 }
 
-NearEdge find_nearest(const EdgeArrays& edges, double x, double y) {
+NearestOfEdges find_nearest(const EdgeArrays& edges, double x, double y) {
     return HWY_DYNAMIC_DISPATCH(FindNearest)(edges, x, y);
 }
 

@@ -55,6 +55,11 @@ struct NearEdge {
     double squared = 0.0;
 };
 
+/// The nearest edge to a point, and how far the others are.
+struct NearestOfEdges : NearEdge {
+    double second_squared = 0.0;  ///< no other is nearer than its root, up to rounding
+};
+
 /// An edge of each of two arrays.
 struct EdgePair {
     std::uint32_t first = 0;
@@ -84,7 +89,7 @@ void find_inverse_lengths(const EdgeArrays& edges, double* inverse_length);
 [[nodiscard]] bool contain(const EdgeArrays& edges, double x, double y);
 
 /// The edge nearest to a point, of equally near ones the first. At least one edge.
-[[nodiscard]] NearEdge find_nearest(const EdgeArrays& edges, double x, double y);
+[[nodiscard]] NearestOfEdges find_nearest(const EdgeArrays& edges, double x, double y);
 
 /// Lists the edges whose squared distance from a point is up to rounding at most `most`.
 [[nodiscard]] std::uint32_t find_edges_within(const EdgeArrays& edges, double x, double y,

@@ -54,8 +54,8 @@ HWY_INLINE void write_points(const EdgeArrays& edges, Lanes nearest_edge, Lanes 
     const Lanes end_y = hn::GatherIndex(tag, edges.end_y, edge);
     const Lanes along_x = hn::Sub(end_x, start_x);
     const Lanes along_y = hn::Sub(end_y, start_y);
-    const Lanes along = hn::Add(hn::Mul(along_x, hn::Sub(x, start_x)),
-                                hn::Mul(along_y, hn::Sub(y, start_y)));
+    const Lanes along =
+        hn::Add(hn::Mul(along_x, hn::Sub(x, start_x)), hn::Mul(along_y, hn::Sub(y, start_y)));
     const Lanes length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
     const LaneMask at_end = hn::Ge(along, length);
     const LaneMask after_start =
@@ -161,8 +161,8 @@ void FindNearestOf(const PointArrays& points, const EdgeArrays& edges, double ma
         const std::uint32_t together = std::min(points.count - i, most_together);
         const DiscOfPoints disc = disc_around(points, i, together);
         const double least = LeastSquared(edges, disc.x, disc.y);
-        const std::uint32_t count = FindEdgesWithin(edges, disc.x, disc.y,
-                                                    squared_reach(disc, least, margin), near);
+        const std::uint32_t count =
+            FindEdgesWithin(edges, disc.x, disc.y, squared_reach(disc, least, margin), near);
         solve(points, i, together, edges, near, count, nearest);
     }
 }
@@ -195,8 +195,8 @@ public:
 private:
     [[nodiscard]] double LengthTo(const DiscOfPoints& disc, std::uint32_t edge) const {
         const Tag tag;
-        return hn::GetLane(squared_distances(same_along(tree_.edges(), edge),
-                                             hn::Set(tag, disc.x), hn::Set(tag, disc.y)));
+        return hn::GetLane(squared_distances(same_along(tree_.edges(), edge), hn::Set(tag, disc.x),
+                                             hn::Set(tag, disc.y)));
     }
 
     const PointArrays& points_;

@@ -1,8 +1,6 @@
 #include <engine/exact/edge_by_edge.hpp>
 #include <engine/exact/nearest_points.hpp>
 
-#include <cmath>
-
 namespace nearfield::exact {
 
 void NearestPoints::make_room(std::size_t points, std::size_t edges) {
@@ -28,30 +26,11 @@ void NearestPoints::find(const PointArrays& points, const PlacedEdges& edges, do
     points_ = points;
     edges_ = &edges;
     margin_ = margin;
-    // So many points are quicker held against several edges at once than several points against
-    // one.
-    constexpr std::uint32_t few_points = 4;
-    if (is_small(edges) && points.count <= few_points) {
-        find_one_by_one();
-    } else if (is_small(edges)) {
+    if (is_small(edges)) {
         kernels::find_nearest_of(points, edges, margin, near_.data(), arrays_);
     } else {
         boundary_.set(edges);
         kernels::find_nearest_of(points, edges.tree(), margin, near_.data(), arrays_);
-    }
-}
-
-/// No more than the nearest edges: few points are asked whether they are unique.
-void NearestPoints::find_one_by_one() {
-    for (std::uint32_t i = 0; i < points_.count; ++i) {
-        const geometry::Vector point(points_.x[i], points_.y[i]);
-        const NearestPoint nearest = exact::nearest(*edges_, point);
-        arrays_.x[i] = nearest.on_edge.point.x();
-        arrays_.y[i] = nearest.on_edge.point.y();
-        arrays_.distance[i] = std::sqrt(nearest.on_edge.squared_distance);
-        arrays_.parameter[i] = nearest.on_edge.parameter;
-        arrays_.second_squared[i] = arrays_.third_squared[i] = 0.0;
-        arrays_.edge[i] = nearest.edge;
     }
 }
 

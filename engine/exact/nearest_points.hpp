@@ -17,7 +17,7 @@ struct NearestArrays {
     double* y = nullptr;
     double* distance = nullptr;
     double* parameter = nullptr;       ///< where the nearest point is on its edge
-    double* second_squared = nullptr;  ///< of the next edge, if that is near; 0: not looked for
+    double* second_squared = nullptr;  ///< of the next edge, if that is near
     double* third_squared = nullptr;   ///< no other is nearer than its root
     std::uint32_t* edge = nullptr;     ///< the nearest; of equally near ones the first
     std::uint32_t* second = nullptr;   ///< the next
@@ -54,7 +54,6 @@ public:
 
 private:
     void make_room(std::size_t points, std::size_t edges);
-    void find_one_by_one();
     [[nodiscard]] bool has_no_rival(std::size_t i, double limit);
 
     PointArrays points_;

@@ -288,8 +288,7 @@ NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& gu
 
 std::uint32_t find_edges_within(const BoxTree& tree, double x, double y, double most,
                                 std::uint32_t* found) {
-    return HWY_DYNAMIC_DISPATCH(FindEdgesWithinByTree)(tree, x, y, most, tree.edges().count,
-                                                       found);
+    return HWY_DYNAMIC_DISPATCH(FindEdgesWithinByTree)(tree, x, y, most, tree.edges().count, found);
 }
 
 std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box, std::uint32_t* found) {

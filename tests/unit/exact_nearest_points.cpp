@@ -125,9 +125,9 @@ TEST(NearestPoints, AreTheSameOnEveryInstructionSet) {
             nearest.find(points.arrays(), edges, 1e-3);
             const NearestArrays& found = nearest.arrays();
             for (std::uint32_t i = 0; i < points.count; ++i) {
-                said.insert(said.end(), {found.x[i], found.y[i], found.distance[i],
-                                         found.parameter[i], found.second_squared[i],
-                                         found.third_squared[i], 1.0 * found.edge[i]});
+                said.insert(said.end(),
+                            {found.x[i], found.y[i], found.distance[i], found.parameter[i],
+                             found.second_squared[i], found.third_squared[i], 1.0 * found.edge[i]});
             }
         });
         return said;

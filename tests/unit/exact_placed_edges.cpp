@@ -141,8 +141,8 @@ TEST(PlacedEdges, SelectTheVerticesInABox) {
                 box.extend(any_point(placed, random));
                 std::vector<double> x(padded(edges.count));
                 std::vector<double> y(padded(edges.count));
-                const std::uint32_t count = kernels::find_points_in(
-                    edges.starts(), extent_of(box), {x.data(), y.data()});
+                const std::uint32_t count =
+                    kernels::find_points_in(edges.starts(), extent_of(box), {x.data(), y.data()});
                 std::vector<Vector> expected;
                 for (std::uint32_t v = 0; v < edges.count; ++v) {
                     if (box.contains(edges.start(v))) {
