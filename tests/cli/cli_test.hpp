@@ -1,10 +1,10 @@
 #pragma once
 
-#include "folder.hpp"
 #include "program.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <tests/support/folder.hpp>
 
 #include <string>
 #include <vector>
@@ -34,7 +34,7 @@ protected:
     /// and every file as it was.
     void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const;
 
-    Folder folder_;
+    test_support::Folder folder_;
     std::string a_;  ///< GeoJSON
     std::string b_;  ///< well-known text
 };

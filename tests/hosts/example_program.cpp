@@ -23,21 +23,8 @@ std::string read_all(const std::filesystem::path& file) {
 
 }  // namespace
 
-ScratchFolder::ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nearfield XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-        throw std::runtime_error("cannot make a folder " + name);
-    }
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
 ExampleOutcome run_example(const std::string& program, const std::vector<std::string>& arguments,
-                           const ScratchFolder& folder,
+                           const test_support::Folder& folder,
                            const std::vector<std::string>& environment) {
     const std::filesystem::path settings = folder.path() / "vk_layer_settings.txt";
     const std::filesystem::path log = folder.path() / "validation.log";

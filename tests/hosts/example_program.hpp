@@ -1,24 +1,11 @@
 #pragma once
 
-#include <filesystem>
+#include <tests/support/folder.hpp>
+
 #include <string>
 #include <vector>
 
 namespace nearfield::test {
-
-/// A folder of its own, removed with all that is in it.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 /// What a run of an example came to.
 struct ExampleOutcome {
@@ -32,7 +19,7 @@ struct ExampleOutcome {
 /// added to the test's own.
 [[nodiscard]] ExampleOutcome run_example(const std::string& program,
                                          const std::vector<std::string>& arguments,
-                                         const ScratchFolder& folder,
+                                         const test_support::Folder& folder,
                                          const std::vector<std::string>& environment = {});
 
 }  // namespace nearfield::test

@@ -77,7 +77,7 @@ protected:
     }
 
 private:
-    ScratchFolder folder_;
+    test_support::Folder folder_;
 };
 
 TEST_P(Examples, ShowTheContactsOfTheCpuWhereTheStarCameToRest) {
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Hosts, Examples, testing::ValuesIn(every_example()),
 void expect_refused(const std::string& program, const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment, int status,
                     const std::string& reason) {
-    const ScratchFolder folder;
+    const test_support::Folder folder;
     const ExampleOutcome outcome = run_example(program, arguments, folder, environment);
     EXPECT_EQ(outcome.status, status) << outcome.messages;
     EXPECT_NE(outcome.messages.find(reason), std::string::npos) << outcome.messages;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tests/support/folder.hpp>
+
 #include <filesystem>
 #include <string>
 
@@ -8,13 +10,9 @@ namespace nearfield::test_support {
 /// A copy of the library's shaders, to change; gone in the end.
 class ShaderFolder {
 public:
-    /// Throws std::filesystem::filesystem_error where it cannot be made.
     ShaderFolder();
-    ~ShaderFolder();
-    ShaderFolder(const ShaderFolder&) = delete;
-    ShaderFolder& operator=(const ShaderFolder&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
 
     /// Replaces the first place of a file with that text. Throws std::logic_error where there is
     /// none.
@@ -23,7 +21,7 @@ public:
     void restore(const std::string& file) const;
 
 private:
-    std::filesystem::path path_;
+    Folder folder_;
 };
 
 }  // namespace nearfield::test_support

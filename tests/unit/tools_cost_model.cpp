@@ -1,6 +1,7 @@
 #include "tools_support.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/folder.hpp>
 #include <tools/input/cost_model.hpp>
 
 #include <sstream>
@@ -31,7 +32,7 @@ std::string text_of(const CostModel& costs) {
 }
 
 TEST(ToolsCostModel, IsReadAsItWasWritten) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     const CostModel costs = numbered();
     const CostModel read = read_cost_model(folder.write("costs.json", text_of(costs)));
     EXPECT_EQ(text_of(read), text_of(costs));
@@ -40,7 +41,7 @@ TEST(ToolsCostModel, IsReadAsItWasWritten) {
 }
 
 TEST(ToolsCostModel, BadFilesAreRefusedWithThePlace) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     const std::string good = text_of(numbered());
     const auto expect_bad = [&](const std::string& from, const std::string& to,
                                 const std::string& reason) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <tests/support/folder.hpp>
 #include <tools/output/npy.hpp>
 #include <tools/output/output_file.hpp>
 #include <tools/output/query_json.hpp>
@@ -165,31 +166,31 @@ TEST(ToolsNpy, ReadsBackAsWritten) {
 }
 
 TEST(ToolsOutputFile, AppearsWholeOrNotAtAll) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     folder.write("out", "former");
     {
-        OutputFile file(folder.file("out"));
+        OutputFile file(folder.path("out"));
         file.stream() << "half";
     }
     EXPECT_EQ(folder.read("out"), "former");
-    EXPECT_EQ(folder.file_count(), 1);
+    EXPECT_EQ(folder.contents().size(), 1U);
     {
-        OutputFile file(folder.file("out"));
+        OutputFile file(folder.path("out"));
         file.stream() << "whole";
         EXPECT_EQ(folder.read("out"), "former");
         file.commit();
     }
     EXPECT_EQ(folder.read("out"), "whole");
-    EXPECT_EQ(folder.file_count(), 1);
+    EXPECT_EQ(folder.contents().size(), 1U);
 }
 
 TEST(ToolsOutputFile, TargetsThatCannotBeWrittenAreRefusedAtOnce) {
-    const TemporaryFolder folder;
-    const std::string inside = folder.file("none/out");
+    const test_support::Folder folder;
+    const std::string inside = folder.path("none/out");
     EXPECT_EQ(input_error([&] { return OutputFile(inside), 0; }),
               inside + ": cannot be written: No such file or directory");
-    EXPECT_EQ(input_error([&] { return OutputFile(folder.file("")), 0; }),
-              folder.file("") + ": cannot be written: is a folder");
+    EXPECT_EQ(input_error([&] { return OutputFile(folder.path("")), 0; }),
+              folder.path("") + ": cannot be written: is a folder");
 }
 
 TEST(ToolsOutputFile, DevicesStayDevices) {

@@ -1,6 +1,7 @@
 #include "tools_support.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/folder.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/scene.hpp>
 #include <tools/input/values.hpp>
@@ -20,7 +21,7 @@ std::string scene_text(const std::string& query) {
 }
 
 TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
     const Scene scene = read_scene(folder.write(
         "s.json", scene_text(R"({"query": "penetration", "a": "one", "b": "two", "tolerance": 0.5,
@@ -48,7 +49,7 @@ TEST(ToolsScene, ReadsShapesInstancesAndQueries) {
 }
 
 TEST(ToolsScene, ReadsWhatADistanceFieldIsAskedFor) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
     const std::string begin =
         R"({"query": "distance-field", "a": "two", "b": "two", "tolerance": 2, )";
@@ -65,7 +66,7 @@ TEST(ToolsScene, ReadsWhatADistanceFieldIsAskedFor) {
     EXPECT_TRUE(request.features);
     EXPECT_TRUE(request.gradients);
     EXPECT_EQ(request.at, (std::vector<Vector2>{{1, 2}, {3, 4}}));
-    const std::string file = folder.file("s.json") + ": queries[0].";
+    const std::string file = folder.path("s.json") + ": queries[0].";
     EXPECT_EQ(input_error([&] { return read(R"("at": [[1]])"); }),
               file + "at[0]: expected [x, y] (two numbers)");
     EXPECT_EQ(input_error([&] { return read(R"("gradient": "blended")"); }),
@@ -73,9 +74,9 @@ TEST(ToolsScene, ReadsWhatADistanceFieldIsAskedFor) {
 }
 
 TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
-    const std::string file = folder.file("s.json");
+    const std::string file = folder.path("s.json");
     const auto error_of_query = [&](const std::string& query) {
         folder.write("s.json", scene_text(query));
         return input_error([&] { return read_scene(file); });
@@ -103,7 +104,7 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
     folder.write("s.json",
                  R"({"shapes": {"x": {"file": "none.wkt"}}, "instances": {}, "queries": []})");
     EXPECT_EQ(input_error([&] { return read_scene(file); }),
-              folder.file("none.wkt") + ": cannot be opened: No such file or directory");
+              folder.path("none.wkt") + ": cannot be opened: No such file or directory");
     folder.write("s.json", R"({"shapes": {"x": {}}, "instances": {}, "queries": []})");
     EXPECT_EQ(input_error([&] { return read_scene(file); }),
               file + ": shapes.x: needs either \"file\" or \"rings\"");

@@ -1,6 +1,7 @@
 #include "tools_support.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/folder.hpp>
 #include <tools/input/outline.hpp>
 #include <tools/input/svg.hpp>
 #include <tools/input/svg_path.hpp>
@@ -245,7 +246,7 @@ TEST(ToolsSvg, DeepNestingIsNoTrouble) {
 }
 
 TEST(ToolsOutline, SvgAndPathDataByExtensionAndContent) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     const std::vector<Ring> triangle{{{0, 0}, {4, 0}, {4, -3}}};
     const std::string file = "<svg><path d='M0 0h4v3z'/></svg>";
     for (const std::string& path :

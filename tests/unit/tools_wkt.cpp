@@ -1,6 +1,7 @@
 #include "tools_support.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/folder.hpp>
 #include <tools/input/outline.hpp>
 #include <tools/input/wkt.hpp>
 
@@ -65,7 +66,7 @@ TEST(ToolsWkt, ErrorsNameFileLineAndColumn) {
 }
 
 TEST(ToolsOutline, ExtensionAndContentSayWhatAFileIs) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     const std::string json = R"({"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [0, 3]]]})";
     const std::string wkt = "POLYGON((0 0, 4 0, 0 3))";
     const std::vector<Ring> triangle{{{0, 0}, {4, 0}, {0, 3}}};
@@ -77,13 +78,13 @@ TEST(ToolsOutline, ExtensionAndContentSayWhatAFileIs) {
 }
 
 TEST(ToolsOutline, FilesThatCannotBeReadAreNamed) {
-    const TemporaryFolder folder;
+    const test_support::Folder folder;
     const auto error = [](const std::string& path) {
         return input_error([&] { return read_outline(path); });
     };
-    const std::string missing = folder.file("missing.wkt");
+    const std::string missing = folder.path("missing.wkt");
     EXPECT_EQ(error(missing), missing + ": cannot be opened: No such file or directory");
-    EXPECT_EQ(error(folder.file("")), folder.file("") + ": is a folder, not a file");
+    EXPECT_EQ(error(folder.path("")), folder.path("") + ": is a folder, not a file");
     const std::string empty = folder.write("empty.geojson", " \n");
     EXPECT_EQ(error(empty), empty + ": is empty");
     const std::string binary = folder.write("binary", std::string("PK\x03\x04\0\x01", 6));

@@ -58,7 +58,7 @@ protected:
         return picture.at(static_cast<int>(at.x), static_cast<int>(at.y));
     }
 
-    ScratchFolder folder_;
+    test_support::Folder folder_;
 };
 
 TEST_F(Viewer, ABodyFollowsTheMouse) {
@@ -141,7 +141,7 @@ TEST_F(Viewer, FitsAWindowThatIsResized) {
 void expect_viewer_refused(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment, int status,
                            const std::string& reason) {
-    const ScratchFolder folder;
+    const test_support::Folder folder;
     const ExampleOutcome outcome = run_example(NEARFIELD_VIEWER, arguments, folder, environment);
     EXPECT_EQ(outcome.status, status) << outcome.messages;
     EXPECT_NE(outcome.messages.find(reason), std::string::npos) << outcome.messages;

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-namespace nearfield::test {
+namespace nearfield::test_support {
 
 /// A fresh folder with a space in its name, removed with all that is in it.
 class Folder {
@@ -14,6 +14,7 @@ public:
     Folder(const Folder&) = delete;
     Folder& operator=(const Folder&) = delete;
 
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     /// The full path of a file in the folder, which need not exist.
     [[nodiscard]] std::string path(const std::string& name) const;
 
@@ -30,4 +31,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace nearfield::test
+}  // namespace nearfield::test_support

@@ -1,4 +1,4 @@
-#include "folder.hpp"
+#include <tests/support/folder.hpp>
 
 #include <cstdlib>
 #include <fstream>
@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace nearfield::test {
+namespace nearfield::test_support {
 
 Folder::Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nearfield cli XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "nearfield test XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) {
         throw std::runtime_error(name + ": cannot be made");
     }
@@ -44,4 +44,4 @@ std::map<std::string, std::string> Folder::contents() const {
     return contents;
 }
 
-}  // namespace nearfield::test
+}  // namespace nearfield::test_support
