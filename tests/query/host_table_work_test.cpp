@@ -1,6 +1,7 @@
 #include <tests/query/host_table.hpp>
 
 #include <array>
+#include <type_traits>
 
 namespace nearfield::test {
 namespace {
@@ -23,111 +24,120 @@ TEST_F(HostTable, Work) {
     EXPECT_EQ(submissions, 1);
 }
 
-VkSemaphore make_semaphore(const HostDevice& host, bool timeline) {
-    VkSemaphoreTypeCreateInfo type{};
-    type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    VkSemaphoreCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    info.pNext = timeline ? &type : nullptr;
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    EXPECT_EQ(test_support::host_function<PFN_vkCreateSemaphore>(host, "vkCreateSemaphore")(
-                  host.device, &info, nullptr, &semaphore),
-              VK_SUCCESS);
-    return semaphore;
-}
+/// A semaphore of the host's, which is gone with it.
+class HostSemaphore {
+public:
+    HostSemaphore(const HostDevice& host, VkSemaphoreType type) : host_(host) {
+        VkSemaphoreTypeCreateInfo of_type{};
+        of_type.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO;
+        of_type.semaphoreType = type;
+        VkSemaphoreCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+        info.pNext = type == VK_SEMAPHORE_TYPE_TIMELINE ? &of_type : nullptr;
+        EXPECT_EQ(call<PFN_vkCreateSemaphore>("vkCreateSemaphore", &info, nullptr, &semaphore_),
+                  VK_SUCCESS);
+    }
+    ~HostSemaphore() { call<PFN_vkDestroySemaphore>("vkDestroySemaphore", semaphore_, nullptr); }
+    HostSemaphore(const HostSemaphore&) = delete;
+    HostSemaphore& operator=(const HostSemaphore&) = delete;
 
-void destroy_semaphore(const HostDevice& host, VkSemaphore semaphore) {
-    test_support::host_function<PFN_vkDestroySemaphore>(host, "vkDestroySemaphore")(
-        host.device, semaphore, nullptr);
-}
+    [[nodiscard]] VkSemaphore get() const { return semaphore_; }
+
+    // Of timelines.
+
+    [[nodiscard]] std::uint64_t value() const {
+        std::uint64_t value = 0;
+        EXPECT_EQ(call<PFN_vkGetSemaphoreCounterValueKHR>("vkGetSemaphoreCounterValueKHR",
+                                                          semaphore_, &value),
+                  VK_SUCCESS);
+        return value;
+    }
+    void signal(std::uint64_t value) const {
+        VkSemaphoreSignalInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO;
+        info.semaphore = semaphore_;
+        info.value = value;
+        EXPECT_EQ(call<PFN_vkSignalSemaphoreKHR>("vkSignalSemaphoreKHR", &info), VK_SUCCESS);
+    }
+    void wait_for(std::uint64_t value) const {
+        VkSemaphoreWaitInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+        info.semaphoreCount = 1;
+        info.pSemaphores = &semaphore_;
+        info.pValues = &value;
+        EXPECT_EQ(call<PFN_vkWaitSemaphoresKHR>("vkWaitSemaphoresKHR", &info, UINT64_MAX),
+                  VK_SUCCESS);
+    }
+
+private:
+    template <class Function, class... Arguments>
+    std::invoke_result_t<Function, VkDevice, Arguments...> call(const char* name,
+                                                                Arguments... arguments) const {
+        return test_support::host_function<Function>(host_, name)(host_.device, arguments...);
+    }
+
+    HostDevice host_;
+    VkSemaphore semaphore_ = VK_NULL_HANDLE;
+};
 
 TEST_F(HostTable, HandOff) {
     Enabled enabled;
     enabled.timeline_semaphore = true;
     make_host(enabled);
-    VkSemaphore const timeline = make_semaphore(host(), true);
-    VkSemaphore const binary = make_semaphore(host(), false);
-    const auto counter = [&] {
-        std::uint64_t value = 0;
-        EXPECT_EQ(test_support::host_function<PFN_vkGetSemaphoreCounterValueKHR>(
-                      host(), "vkGetSemaphoreCounterValueKHR")(host().device, timeline, &value),
-                  VK_SUCCESS);
-        return value;
-    };
-    const auto signal = [&](std::uint64_t value) {
-        VkSemaphoreSignalInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO;
-        info.semaphore = timeline;
-        info.value = value;
-        EXPECT_EQ(test_support::host_function<PFN_vkSignalSemaphoreKHR>(
-                      host(), "vkSignalSemaphoreKHR")(host().device, &info),
-                  VK_SUCCESS);
-    };
-    const auto wait_for = [&](std::uint64_t value) {
-        VkSemaphoreWaitInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
-        info.semaphoreCount = 1;
-        info.pSemaphores = &timeline;
-        info.pValues = &value;
-        EXPECT_EQ(test_support::host_function<PFN_vkWaitSemaphoresKHR>(
-                      host(), "vkWaitSemaphoresKHR")(host().device, &info, UINT64_MAX),
-                  VK_SUCCESS);
-    };
-    {
-        Context context = make(host());
-        const Scene scene(context);
-        const std::vector<double> expected = scene.run(scene.small());
+    const HostSemaphore timeline(host(), VK_SEMAPHORE_TYPE_TIMELINE);
+    const HostSemaphore binary(host(), VK_SEMAPHORE_TYPE_BINARY);
+    Context context = make(host());
+    const Scene scene(context);
+    const std::vector<double> expected = scene.run(scene.small());
+    // Whether the device has anything to do or not.
+    for (const bool device_works : {true, false}) {
+        SCOPED_TRACE(device_works);
         // One waits for the host, the other for the first by the binary semaphore.
-        const SemaphoreWait for_host{timeline, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 1};
-        const std::array<SemaphoreSignal, 2> both{{{timeline, 2}, {binary, 0}}};
-        const SemaphoreWait for_first{binary};
-        const SemaphoreSignal last{timeline, 3};
-        // Whether the device has anything to do or not.
-        for (const bool device_works : {true, false}) {
-            SCOPED_TRACE(device_works);
-            const std::uint64_t base = counter();
-            const auto later = [&](auto semaphore) {
-                semaphore.value += semaphore.value == 0 ? 0 : base;
-                return semaphore;
-            };
-            const std::array<SemaphoreSignal, 2> signals{later(both[0]), later(both[1])};
-            const SemaphoreWait wait = later(for_host);
-            const SemaphoreSignal end = later(last);
-            const Batch batch = device_works ? scene.small() : scene.on_cpu();
-            const Expected<Ticket> first =
-                context.submit(batch, {.waits = {&wait, 1}, .signals = signals});
-            ASSERT_TRUE(first.ok()) << first.status().text();
-            EXPECT_EQ(context.is_ready(*first), !device_works);
-            EXPECT_EQ(counter(), base);
-            signal(base + 1);
-            const Expected<Ticket> second =
-                context.submit(batch, {.waits = {&for_first, 1}, .signals = {&end, 1}});
-            ASSERT_TRUE(second.ok()) << second.status().text();
-            wait_for(base + 3);
-            const std::vector<double> numbers = scene.collect(first);
-            EXPECT_EQ(scene.collect(second), numbers);
-            EXPECT_EQ(device_works ? numbers : expected, expected);
-        }
-        // What cannot be used is said by name, and nothing is submitted.
-        const std::uint64_t before = counter();
-        const auto refusal = [&](const Submission& submission) {
-            const Status status = context.submit(scene.small(), submission).status();
-            EXPECT_EQ(status.code(), StatusCode::invalid_submission) << status.text();
-            return status.message();
-        };
-        const SemaphoreWait null_wait{};
-        const SemaphoreWait no_stage{binary, 0};
-        const SemaphoreSignal null_signal{};
-        EXPECT_NE(refusal({.waits = {&null_wait, 1}}).find("waits[0].semaphore"),
-                  std::string::npos);
-        EXPECT_NE(refusal({.waits = {&no_stage, 1}}).find("waits[0].stages"), std::string::npos);
-        EXPECT_NE(refusal({.signals = {&null_signal, 1}}).find("signals[0].semaphore"),
-                  std::string::npos);
-        EXPECT_EQ(counter(), before);
+        const std::uint64_t base = timeline.value();
+        const SemaphoreWait for_host{timeline.get(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, base + 1};
+        const std::array<SemaphoreSignal, 2> both{{{timeline.get(), base + 2}, {binary.get(), 0}}};
+        const SemaphoreWait for_first{binary.get()};
+        const SemaphoreSignal last{timeline.get(), base + 3};
+        const Batch batch = device_works ? scene.small() : scene.on_cpu();
+        const Expected<Ticket> first =
+            context.submit(batch, {.waits = {&for_host, 1}, .signals = both});
+        ASSERT_TRUE(first.ok()) << first.status().text();
+        EXPECT_EQ(context.is_ready(*first), !device_works);
+        EXPECT_EQ(timeline.value(), base);
+        timeline.signal(base + 1);
+        const Expected<Ticket> second =
+            context.submit(batch, {.waits = {&for_first, 1}, .signals = {&last, 1}});
+        ASSERT_TRUE(second.ok()) << second.status().text();
+        timeline.wait_for(base + 3);
+        const std::vector<double> numbers = scene.collect(first);
+        EXPECT_EQ(scene.collect(second), numbers);
+        EXPECT_EQ(device_works ? numbers : expected, expected);
     }
-    destroy_semaphore(host(), timeline);
-    destroy_semaphore(host(), binary);
+}
+
+TEST_F(HostTable, Semaphores) {
+    Enabled enabled;
+    enabled.timeline_semaphore = true;
+    make_host(enabled);
+    const HostSemaphore timeline(host(), VK_SEMAPHORE_TYPE_TIMELINE);
+    Context context = make(host());
+    const Scene scene(context);
+    // What cannot be used is said by name, and nothing is submitted.
+    const auto refusal = [&](const Submission& submission) {
+        const Status status = context.submit(scene.small(), submission).status();
+        EXPECT_EQ(status.code(), StatusCode::invalid_submission) << status.text();
+        return status.message();
+    };
+    const SemaphoreSignal good{timeline.get(), 1};
+    const SemaphoreWait null_wait{};
+    const SemaphoreWait no_stage{timeline.get(), 0};
+    const std::array<SemaphoreSignal, 2> one_null{{good, {}}};
+    EXPECT_NE(refusal({.waits = {&null_wait, 1}, .signals = {&good, 1}}).find("waits[0].semaphore"),
+              std::string::npos);
+    EXPECT_NE(refusal({.waits = {&no_stage, 1}, .signals = {&good, 1}}).find("waits[0].stages"),
+              std::string::npos);
+    EXPECT_NE(refusal({.signals = one_null}).find("signals[1].semaphore"), std::string::npos);
+    EXPECT_EQ(timeline.value(), 0U);
 }
 
 TEST_F(HostTable, Waits) {
