@@ -46,11 +46,11 @@ void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInst
         }
         const double touching = a.rounding + b.rounding;
         const double margin = result.tolerance * plan::uniqueness_margin;
-        if (!asked.records && exact::is_small(b) && inside_.size() <= few_points) {
-            write_deepest(touching, margin, b, result);
-        } else {
+        if (asked.records) {
             nearest_.find(inside_.arrays(), b, margin);
-            write(touching, b, asked.records, result);
+            write_records(touching, b, result);
+        } else {
+            write_deepest(touching, margin, b, result);
         }
         result.intersects = inside_.size() > 0;
         // Of a ring of A that lies in B some point is found: it has a vertex that is a sample.
@@ -74,64 +74,87 @@ void PointPenetration::find_vertices_inside(const exact::PointArrays& vertices,
     }
 }
 
-void PointPenetration::write_deepest(double touching, double margin, const PlacedEdges& b,
-                                     PenetrationResult& result) {
+PointPenetration::Deepest PointPenetration::find_deepest(double touching, const PlacedEdges& b) {
     const exact::PointArrays points = inside_.arrays();
-    std::uint32_t deepest = 0;
-    exact::NearestOfEdges nearest;
-    for (std::uint32_t i = 0; i < points.count; ++i) {
-        const exact::NearestOfEdges near =
-            exact::kernels::find_nearest(b, points.x[i], points.y[i]);
-        result.count += near.squared > touching * touching ? 1U : 0U;
-        if (near.squared > nearest.squared) {
-            deepest = i;
-            nearest = near;
+    Deepest deepest;
+    if (exact::is_small(b) && points.count <= few_points) {
+        for (std::uint32_t i = 0; i < points.count; ++i) {
+            const exact::NearestOfEdges near =
+                exact::kernels::find_nearest(b, points.x[i], points.y[i]);
+            deepest.count += near.squared > touching * touching ? 1U : 0U;
+            if (near.squared > deepest.nearest.squared) {
+                deepest.point = i;
+                deepest.nearest = near;
+            }
         }
+    } else {
+        nearest_.find(points, b, 0.0);
+        const exact::NearestArrays& nearest = nearest_.arrays();
+        double most = 0.0;
+        for (std::uint32_t i = 0; i < points.count; ++i) {
+            deepest.count += nearest.distance[i] > touching ? 1U : 0U;
+            if (nearest.distance[i] > most) {
+                deepest.point = i;
+                most = nearest.distance[i];
+            }
+        }
+        deepest.nearest.edge = nearest.edge[deepest.point];
     }
-    if (result.count > 0) {
-        const Vector point(points.x[deepest], points.y[deepest]);
-        const exact::NearestPoint exit{
-            nearest.edge,
-            geometry::nearest_on_segment(point, b.start(nearest.edge), b.end(nearest.edge))};
-        const double depth = std::sqrt(exit.on_edge.squared_distance);
-        const bool unique = nearest.second_squared > exact::beyond_rounding(depth + margin) ||
-                            exact::is_unique(b, point, exit, margin);
-        write({point, exit.on_edge.point, depth, exit.edge, exit.on_edge.parameter, unique}, b,
-              result.deepest);
-    }
+    return deepest;
 }
 
-void PointPenetration::write(double touching, const PlacedEdges& b, bool keep_records,
-                             PenetrationResult& result) {
+void PointPenetration::write_deepest(double touching, double margin, const PlacedEdges& b,
+                                     PenetrationResult& result) {
+    const Deepest deepest = find_deepest(touching, b);
+    result.count = deepest.count;
+    if (deepest.count == 0) {
+        return;
+    }
+    const exact::PointArrays points = inside_.arrays();
+    const Vector point(points.x[deepest.point], points.y[deepest.point]);
+    const std::uint32_t edge = deepest.nearest.edge;
+    const exact::NearestPoint exit{edge,
+                                   geometry::nearest_on_segment(point, b.start(edge), b.end(edge))};
+    const double depth = std::sqrt(exit.on_edge.squared_distance);
+    const bool unique = deepest.nearest.second_squared > exact::beyond_rounding(depth + margin) ||
+                        is_unique(b, point, exit, margin);
+    write({point, exit.on_edge.point, depth, edge, exit.on_edge.parameter, unique}, b,
+          result.deepest);
+}
+
+bool PointPenetration::is_unique(const PlacedEdges& b, const Vector& point,
+                                 const exact::NearestPoint& nearest, double margin) {
+    if (exact::is_small(b)) {
+        return exact::is_unique(b, point, nearest, margin);
+    }
+    boundary_.set(b);
+    return boundary_.is_unique(point, nearest, margin);
+}
+
+void PointPenetration::write_records(double touching, const PlacedEdges& b,
+                                     PenetrationResult& result) {
     const exact::PointArrays points = inside_.arrays();
     const exact::NearestArrays& nearest = nearest_.arrays();
-    const auto write_record = [&](std::size_t i, PenetrationRecord& record) {
-        write({{points.x[i], points.y[i]},
-               {nearest.x[i], nearest.y[i]},
-               nearest.distance[i],
-               nearest.edge[i],
-               nearest.parameter[i],
-               nearest_.is_unique(i)},
-              b, record);
-    };
     std::size_t deepest = 0;
-    double most = 0.0;
     for (std::size_t i = 0; i < points.count; ++i) {
         const double depth = nearest.distance[i];
         if (depth <= touching) {
             continue;
         }
-        ++result.count;
-        if (keep_records) {
-            write_record(i, result.records.emplace_back());
-        }
-        if (depth > most) {
-            deepest = i;
-            most = depth;
+        write({{points.x[i], points.y[i]},
+               {nearest.x[i], nearest.y[i]},
+               depth,
+               nearest.edge[i],
+               nearest.parameter[i],
+               nearest_.is_unique(i)},
+              b, result.records.emplace_back());
+        if (depth > result.records[deepest].depth) {
+            deepest = result.records.size() - 1;
         }
     }
+    result.count = static_cast<std::uint32_t>(result.records.size());
     if (result.count > 0) {
-        write_record(deepest, result.deepest);
+        result.deepest = result.records[deepest];
     }
 }
 

@@ -51,13 +51,23 @@ private:
         bool unique;
     };
 
+    /// Of the points inside.
+    struct Deepest {
+        std::uint32_t count = 0;  ///< of those that are not on B's boundary
+        std::uint32_t point = 0;
+        exact::NearestOfEdges nearest;  ///< to it: an edge of B, and how far others are if known
+    };
+
     // Points nearer to B's boundary than `touching` are on it.
 
-    /// Of few points inside a small B, none but the deepest of which is asked for.
+    [[nodiscard]] Deepest find_deepest(double touching, const exact::PlacedEdges& b);
+    /// Where no more than the deepest point is asked for.
     void write_deepest(double touching, double margin, const exact::PlacedEdges& b,
                        PenetrationResult& result);
-    void write(double touching, const exact::PlacedEdges& b, bool keep_records,
-               PenetrationResult& result);
+    [[nodiscard]] bool is_unique(const exact::PlacedEdges& b, const geometry::Vector& point,
+                                 const exact::NearestPoint& nearest, double margin);
+    /// Once what is nearest to the points was found.
+    void write_records(double touching, const exact::PlacedEdges& b, PenetrationResult& result);
     static void write(const WayOut& way, const exact::PlacedEdges& b, PenetrationRecord& record);
 
     exact::Boundary boundary_;  // of B, where it has many edges
