@@ -40,10 +40,10 @@ void GradientNormals::apply(BatchRunner& main) {
         if (!result.status.ok()) {
             continue;
         }
-        contacts_.find(main.plan(), planned, main.point_words(), result.cell);
+        decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
         set_normals(planned, result, results.timings);
         if (result.status.ok()) {
-            contacts_.write(planned, result);
+            contacts_.write(*planned.a, *planned.b, *query, result);
         }
     }
 }

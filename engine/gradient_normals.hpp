@@ -32,7 +32,8 @@ private:
     void add_fields(const ContactQuery& asked, double cell);
 
     BatchRunner runner_;
-    ContactDecoder contacts_;
+    ContactDecoder decoder_;
+    FoundContacts contacts_;
     std::vector<Vector2> points_;  // by contact
     std::vector<Place> places_;    // square by square
     std::vector<Vector2> sorted_points_;

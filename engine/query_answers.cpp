@@ -87,9 +87,14 @@ void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
 
 void QueryAnswers::answer(const Asked& asked, ContactResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (std::get<ContactQuery>(*planned.query).normals == ContactNormals::analytic) {
-        contacts_.find(asked.plan, planned, asked.words, result.cell);
-        contacts_.write(planned, result);
+    if (planned.edge_by_edge) {
+        contacts_.answer(planned, instances_, result);
+        return;
+    }
+    const auto& query = std::get<ContactQuery>(*planned.query);
+    if (query.normals == ContactNormals::analytic) {
+        contact_decoder_.find(asked.plan, planned, asked.words, result.cell, found_contacts_);
+        found_contacts_.write(*planned.a, *planned.b, query, result);
     }
     result.intersects = shapes_intersect(asked, result);
 }

@@ -9,6 +9,7 @@
 #include <engine/field_results.hpp>
 #include <engine/intersection_test.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/point_contacts.hpp>
 #include <engine/point_penetration.hpp>
 #include <engine/point_resolver.hpp>
 #include <engine/separation_vector.hpp>
@@ -65,7 +66,9 @@ private:
     exact::PlacedInstances instances_;   // of the batch, as far as they came up
     plan::SimplifiedShapes simplified_;  // likewise
     PointResolver resolver_;
-    ContactDecoder contacts_;
+    ContactDecoder contact_decoder_;
+    FoundContacts found_contacts_;
+    PointContacts contacts_;
     ExactPoints exact_points_;
     ExactField exact_fields_;
     ExactOverlap overlaps_;

@@ -3,6 +3,8 @@
 
 #include <engine/exact/box_tree.hpp>
 
+#include <bit>
+
 // A guard for each instruction set, as Highway has it.
 #if defined(NEARFIELD_EXACT_BOX_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef NEARFIELD_EXACT_BOX_LANES_INL_HPP
@@ -65,6 +67,43 @@ HWY_INLINE EdgesAlong edges_along(const EdgeArrays& edges, std::size_t i) {
         hn::Add(hn::Mul(along.along_x, along.along_x), hn::Mul(along.along_y, along.along_y));
     along.inverse_length = hn::Div(hn::Set(Tag(), 1.0), squared);
     return along;
+}
+
+/// Calls `use(i)` for the first edge of each box of the lowest level that is entered with all boxes
+/// above it, as long as it says so; `enter(boxes)` says which of some boxes are.
+template <class Enter, class Use>
+HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& use) {
+    // A stack of what is left of eight boxes, a level each.
+    std::uint32_t bits[10];
+    std::uint32_t first[10];
+    const auto open = [&](std::uint32_t level, std::uint32_t begin) HWY_ATTR {
+        first[level] = begin;
+        bits[level] = bits_of_eight(
+            [&](std::size_t i) HWY_ATTR { return enter(boxes_at(tree.level(level), begin + i)); });
+    };
+    const std::uint32_t top = tree.top_level();
+    std::uint32_t level = top;
+    open(top, 0);
+    for (;;) {
+        if (bits[level] == 0) {
+            if (level == top) {
+                return;
+            }
+            ++level;
+            continue;
+        }
+        const std::uint32_t child =
+            fan_out * (first[level] + static_cast<std::uint32_t>(std::countr_zero(bits[level])));
+        bits[level] &= bits[level] - 1;
+        if (level == 0) {
+            if (!use(child)) {
+                return;
+            }
+        } else {
+            --level;
+            open(level, child);
+        }
+    }
 }
 
 // Of tree_kernels.cpp, for other kernels of the same instruction set.

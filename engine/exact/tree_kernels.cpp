@@ -78,43 +78,6 @@ void FindBoxes(const EdgeArrays& edges, double* boxes) {
 
 // ---- one point -----------------------------------------------------------------------------
 
-/// Calls `use(i)` for the first edge of each box of the lowest level that is entered with all boxes
-/// above it, as long as it says so; `enter(boxes)` says which of some boxes are.
-template <class Enter, class Use>
-HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& use) {
-    // A stack of what is left of eight boxes, a level each.
-    std::uint32_t bits[10];
-    std::uint32_t first[10];
-    const auto open = [&](std::uint32_t level, std::uint32_t begin) HWY_ATTR {
-        first[level] = begin;
-        bits[level] = bits_of_eight(
-            [&](std::size_t i) HWY_ATTR { return enter(boxes_at(tree.level(level), begin + i)); });
-    };
-    const std::uint32_t top = tree.top_level();
-    std::uint32_t level = top;
-    open(top, 0);
-    for (;;) {
-        if (bits[level] == 0) {
-            if (level == top) {
-                return;
-            }
-            ++level;
-            continue;
-        }
-        const std::uint32_t child =
-            fan_out * (first[level] + static_cast<std::uint32_t>(std::countr_zero(bits[level])));
-        bits[level] &= bits[level] - 1;
-        if (level == 0) {
-            if (!use(child)) {
-                return;
-            }
-        } else {
-            --level;
-            open(level, child);
-        }
-    }
-}
-
 bool ContainByTree(const BoxTree& tree, double point_x, double point_y) {
     const Tag tag;
     const Lanes x = hn::Set(tag, point_x);
@@ -157,16 +120,24 @@ std::uint32_t FindEdgesWithinByTree(const BoxTree& tree, double point_x, double 
     return count;
 }
 
+/// Appends those of eight edges whose boxes meet a box.
+HWY_INLINE std::uint32_t append_edges_in(const BoxTree& tree, std::uint32_t first,
+                                         const LanesOfExtent& bounds, std::uint32_t* found,
+                                         std::uint32_t count) {
+    for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
+        count = append_lanes(meet(bounds, EdgeLanes(tree.edges(), first + i)), first + i,
+                             tree.edges().count, found, count);
+    }
+    return count;
+}
+
 std::uint32_t FindEdgesInByTree(const BoxTree& tree, const Extent& box, std::uint32_t* found) {
     const LanesOfExtent bounds = lanes_of(box);
     std::uint32_t count = 0;
     for_leaves(
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
         [&](std::uint32_t leaf) HWY_ATTR {
-            for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
-                count = append_lanes(meet(bounds, EdgeLanes(tree.edges(), leaf + i)), leaf + i,
-                                     tree.edges().count, found, count);
-            }
+            count = append_edges_in(tree, leaf, bounds, found, count);
             return true;
         });
     return count;
@@ -184,6 +155,21 @@ bool Meets(const BoxTree& tree, const Extent& box) {
             return !found;
         });
     return found;
+}
+
+std::uint32_t FindEdgesNear(const BoxTree& tree, const Extent& box, const BoxTree& others,
+                            double reach, std::uint32_t* found) {
+    const LanesOfExtent bounds = lanes_of(box);
+    std::uint32_t count = 0;
+    for_leaves(
+        tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
+        [&](std::uint32_t leaf) HWY_ATTR {
+            if (Meets(others, grown(box_at(tree.level(0), leaf / fan_out), reach))) {
+                count = append_edges_in(tree, leaf, bounds, found, count);
+            }
+            return true;
+        });
+    return count;
 }
 
 /// The nearest edge to a point, the nearest box first.
@@ -272,6 +258,7 @@ HWY_EXPORT(ContainByTree);
 HWY_EXPORT(FindNearer);
 HWY_EXPORT(FindEdgesWithinByTree);
 HWY_EXPORT(FindEdgesInByTree);
+HWY_EXPORT(FindEdgesNear);
 HWY_EXPORT(Meets);
 
 void find_boxes(const EdgeArrays& edges, double* boxes) {
@@ -293,6 +280,11 @@ std::uint32_t find_edges_within(const BoxTree& tree, double x, double y, double 
 
 std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box, std::uint32_t* found) {
     return HWY_DYNAMIC_DISPATCH(FindEdgesInByTree)(tree, box, found);
+}
+
+std::uint32_t find_edges_near(const BoxTree& tree, const Extent& box, const BoxTree& others,
+                              double reach, std::uint32_t* found) {
+    return HWY_DYNAMIC_DISPATCH(FindEdgesNear)(tree, box, others, reach, found);
 }
 
 bool meets(const BoxTree& tree, const Extent& box) {

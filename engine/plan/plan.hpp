@@ -87,7 +87,7 @@ struct PlannedQuery {
     bool outside = false;
     /// Technique::cpu: nothing is rendered for it.
     bool on_cpu = false;
-    /// Penetration on the CPU for which nothing is planned: PointPenetration finds the points.
+    /// On the CPU, with nothing planned: PointPenetration or PointContacts finds the points.
     bool edge_by_edge = false;
     /// Technique::compute: its tiles have no place in the atlas, and rounds of their own.
     bool by_compute = false;

@@ -90,6 +90,21 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
                    Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
+    closely_ = counted_roughly_ = false;
+    try {
+        plan_all(queries, shapes, plan, results, submissions);
+    } catch (const Failure&) {
+        if (!counted_roughly_) {
+            throw;
+        }
+        // It may fit all the same.
+        closely_ = true;
+        plan_all(queries, shapes, plan, results, submissions);
+    }
+}
+
+void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
+                       Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;

@@ -60,6 +60,8 @@ public:
     [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }
 
 private:
+    void plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
+                  Plan& plan, std::vector<AnyResult>& results, Submissions submissions);
     void add(const PenetrationQuery& query, PenetrationResult& result);
     void add(const IntersectionQuery& query, IntersectionResult& result);
     void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
@@ -142,6 +144,8 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
+    bool counted_roughly_ = false;  // what contacts take that could be planned
+    bool closely_ = false;          // they are planned all the same, for what they take
 
     // Scratch.
     localize::ClosestChains closest_;

@@ -160,6 +160,16 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     planned.outside = true;
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
+    const double of_a = most_samples(*planned.a, result.cell);
+    const double of_b = most_samples(*planned.b, result.cell);
+    // Gradients are found around what was planned.
+    planned.edge_by_edge = planned.on_cpu && query.normals == ContactNormals::analytic &&
+                           std::max(of_a, of_b) <= most_samples_at_once && !closely_;
+    if (planned.edge_by_edge) {
+        counted_roughly_ = true;
+        require_memory(sizeof(ContactRecord) * (of_a + of_b), query.tolerance, 1.0);
+        return;
+    }
     if (check_numbers(result)) {
         const std::uint32_t reverse = add_reverse();
         add_contact_points(query_, query.contact_distance, result);

@@ -37,11 +37,11 @@ enum class Technique {
     /// of drawing too, which all give the same answers: whichever is asked for makes no difference
     /// here, and none needs anything of the device.
     compute,
-    /// The device has no part in it. Points: the hierarchies of localisation driven to single
-    /// edges, in double precision; regions are what localisation found, or the common box of both
-    /// shapes where single edges were looked at from the start (penetration with records, of
-    /// vertices or between shapes of at most 256 edges), and no grid is sampled in them; closest
-    /// points have none, nor has such penetration without records. Intersections: bit masks of the
+    /// The device has no part in it. Points: down to single edges, in double precision. No grid is
+    /// sampled in regions: they are the common box of both shapes, none for penetration without
+    /// records; for contacts the box around what either shape has in the other's box grown by the
+    /// contact distance; and what localisation found where boundaries have very many samples or
+    /// normals are gradients. Closest points have none. Intersections: bit masks of the
     /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
     /// query but GradientMethod::blended (refused, invalid_query), and intersection tests, times
     /// of impact and separation vectors it alone.

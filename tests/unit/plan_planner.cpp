@@ -124,6 +124,50 @@ TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
     EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), Failure);
 }
 
+TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
+    ContactQuery query;
+    query.a = penetration_.a;
+    query.b = {{1, 0}, {{10.5, 0.0}, 0.0}};
+    query.tolerance = 0.01;
+    query.contact_distance = 0.6;
+    query.technique = Technique::cpu;
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+    const double roughly = plan_.result_bytes;
+    ASSERT_GT(roughly, 0.0);
+    const double most = static_cast<double>(limits_.memory);
+    const auto many = static_cast<std::size_t>(most / roughly) + 1;
+    query.contact_distance = 0.01;
+    run(std::vector<AnyQuery>(many, query));
+    EXPECT_FALSE(plan_.queries[0].edge_by_edge);
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+    query.contact_distance = 30.0;
+    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), Failure);
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+}
+
+TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
+    ContactQuery query;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 0.01;
+    query.contact_distance = 0.02;
+    const auto edge_by_edge = [&] {
+        run({query});
+        return plan_.queries[0].edge_by_edge;
+    };
+    query.technique = Technique::raster;
+    EXPECT_FALSE(edge_by_edge());
+    query.technique = Technique::cpu;
+    EXPECT_TRUE(edge_by_edge());
+    query.normals = ContactNormals::gradient;
+    EXPECT_FALSE(edge_by_edge());
+    query.normals = ContactNormals::analytic;
+    query.tolerance = 1e-4;  // 280,000 samples a boundary
+    EXPECT_FALSE(edge_by_edge());
+}
+
 TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
     penetration_.b.pose.translation = {1000.0, 0.0};
     run({penetration_});

@@ -1,0 +1,124 @@
+#include <engine/nearest_feature.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/plan/region.hpp>
+#include <engine/point_contacts.hpp>
+
+#include <utility>
+
+namespace nearfield {
+namespace {
+
+using exact::PlacedEdges;
+using geometry::Box;
+using geometry::Vector;
+
+Box box_grown_by(Box box, double distance) {
+    box.min().array() -= distance;
+    box.max().array() += distance;
+    return box;
+}
+
+/// Which of some points lie inside a polygon, asked in order along a line.
+class SidesOfPoints {
+public:
+    /// Points nearer to the boundary than `touching` are not inside.
+    SidesOfPoints(const PlacedEdges& edges, double touching) : edges_(edges), touching_(touching) {}
+
+    /// `distance`: from the boundary.
+    [[nodiscard]] bool is_inside(const Vector& point, double distance) {
+        if (distance <= touching_) {
+            return false;
+        }
+        // Two points that are closer to each other than to the boundary, both distances together,
+        // have none of it between them.
+        const double clear = distance + distance_ - touching_;
+        if (distance_ == 0.0 || (point - point_).squaredNorm() >= clear * clear) {
+            inside_ = contains(edges_, point);
+        }
+        point_ = point;
+        distance_ = distance;
+        return inside_;
+    }
+
+private:
+    const PlacedEdges& edges_;
+    double touching_;
+    Vector point_ = Vector::Zero();  // the last one that did not touch
+    double distance_ = 0.0;          // 0: there was none
+    bool inside_ = false;
+};
+
+}  // namespace
+
+void PointContacts::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
+                           ContactResult& result) {
+    const InstancePairIndex pair = place_pair(query, instances);
+    const PlacedEdges& a = instances[pair.a];
+    const PlacedEdges& b = instances[pair.b];
+    if (Status status = check_numbers(query, a, b, result.tolerance); !status.ok()) {
+        result.status = std::move(status);
+        return;
+    }
+    const auto& asked = std::get<ContactQuery>(*query.query);
+    const double near = asked.contact_distance;
+    const Box of_a = a.box.intersection(box_grown_by(b.box, near));
+    const Box of_b = b.box.intersection(box_grown_by(a.box, near));
+    if (of_a.isEmpty() || of_b.isEmpty()) {
+        complete_if_near(pair, instances);
+        result.intersects = meeting_.intersect(a, b);
+        return;
+    }
+    complete(pair, instances);
+    result.regions.push_back(plan::region_of(plan::Grid::covering(of_a.merged(of_b), result.cell)));
+    find(a, b, near, result);
+    found_.write(*query.a, *query.b, asked, result);
+    result.intersects = result.intersects || meeting_.intersect(a, b);
+}
+
+void PointContacts::find(const PlacedEdges& a, const PlacedEdges& b, double contact_distance,
+                         ContactResult& result) {
+    found_.begin(result.cell, a.rounding + b.rounding);
+    boundary_.set(b);
+    const auto boundary_of_b = [this]() -> exact::Boundary& { return boundary_; };
+    for_each_contact(a, b, contact_distance, result,
+                     [&](const plan::BoundaryPoint& place, const ResolvedPoint& resolved) {
+                         result.intersects = result.intersects || resolved.inside;
+                         found_.add_of_a(place, resolved, boundary_of_b);
+                     });
+    for_each_contact(b, a, contact_distance, result,
+                     [&](const plan::BoundaryPoint& place, const ResolvedPoint& resolved) {
+                         result.intersects = result.intersects || resolved.inside;
+                         found_.add_of_b(place, resolved, boundary_);
+                     });
+}
+
+template <class Use>
+void PointContacts::for_each_contact(const PlacedEdges& a, const PlacedEdges& b,
+                                     double contact_distance, const ContactResult& result,
+                                     const Use& use) {
+    samples_.find(a, b, contact_distance, result.cell);
+    const exact::PointArrays points = samples_.points().arrays();
+    if (points.count == 0) {
+        return;
+    }
+    nearest_.find(points, b, result.tolerance * plan::uniqueness_margin);
+    const exact::NearestArrays& nearest = nearest_.arrays();
+    SidesOfPoints sides(b, a.rounding + b.rounding);
+    for (std::size_t i = 0; i < points.count; ++i) {
+        if (nearest.distance[i] > contact_distance) {
+            continue;
+        }
+        const Vector point(points.x[i], points.y[i]);
+        use(samples_.place(i),
+            ResolvedPoint{point,
+                          {nearest.x[i], nearest.y[i]},
+                          nearest.distance[i],
+                          nearest.edge[i],
+                          nearest.parameter[i],
+                          feature_at(b.placed, nearest.edge[i], nearest.parameter[i]),
+                          sides.is_inside(point, nearest.distance[i]),
+                          nearest_.is_unique(i)});
+    }
+}
+
+}  // namespace nearfield

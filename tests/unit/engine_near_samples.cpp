@@ -1,0 +1,124 @@
+#include "shape_samples.hpp"
+
+#include <engine/near_samples.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace nearfield {
+namespace {
+
+using geometry::Polygon;
+using geometry::Vector;
+using Place = std::pair<std::uint32_t, double>;
+
+/// All samples of A's boundary, one by one, that are no farther from B's than `distance`.
+std::vector<Place> samples_near(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
+                                double distance, double spacing) {
+    const Polygon& polygon = a.placed.polygon();
+    std::vector<localize::Chain> rings;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t begin = polygon.ring_begin(ring);
+        rings.push_back({ring, begin, polygon.ring_end(ring) - begin, {}});
+    }
+    std::vector<plan::BoundaryPoint> points;
+    plan::sample_chains(a.placed, rings, spacing, a.box, points);
+    std::vector<Place> near;
+    for (const plan::BoundaryPoint& sample : points) {
+        if (find_nearest(b, plan::position(a.placed, sample)).squared <= distance * distance) {
+            near.emplace_back(sample.edge, sample.parameter);
+        }
+    }
+    return near;
+}
+
+struct Counts {
+    std::size_t found = 0;
+    std::size_t near = 0;
+};
+
+/// Holds what is found against all there are; A and B are complete.
+Counts check(NearSamples& finder, const exact::PlacedEdges& a, const exact::PlacedEdges& b,
+             double distance, double spacing) {
+    finder.find(a, b, distance, spacing);
+    Counts counts{finder.points().size(), 0};
+    std::vector<Place> found;
+    for (std::size_t i = 0; i < counts.found; ++i) {
+        const plan::BoundaryPoint& place = finder.place(i);
+        const exact::PointArrays points = finder.points().arrays();
+        const Vector point = plan::position(a.placed, place);
+        EXPECT_EQ(Vector(points.x[i], points.y[i]), point);
+        EXPECT_TRUE(i == 0 || found.back() < Place(place.edge, place.parameter));
+        found.emplace_back(place.edge, place.parameter);
+    }
+    const std::vector<Place> near = samples_near(a, b, distance, spacing);
+    counts.near = near.size();
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), near.begin(), near.end()));
+    return counts;
+}
+
+/// Calls `use(A, B)` for all pairs of assorted shapes, complete, at random poses.
+template <class Use>
+void for_each_pair(std::uint32_t seed, const Use& use) {
+    samples::Random random(seed);
+    const std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    for (const samples::NamedRings& one : shapes) {
+        for (const samples::NamedRings& other : shapes) {
+            SCOPED_TRACE(one.name + ", " + other.name);
+            const Polygon a = samples::polygon(one.rings);
+            const Polygon b = samples::polygon(other.rings);
+            const Pose pose{{random.between(-2.0, 2.0), random.between(-2.0, 2.0)}, 0.4};
+            exact::PlacedInstances instances;
+            const std::uint32_t index_a = instances.place(a, pose);
+            const std::uint32_t index_b = instances.place(b, random.below(4) == 0 ? pose : Pose{});
+            instances.complete(index_a);
+            instances.complete(index_b);
+            use(instances[index_a], instances[index_b]);
+        }
+    }
+}
+
+TEST(NearSamples, AreAllSamplesThatAreNear) {
+    NearSamples finder;
+    std::size_t near = 0;
+    for_each_pair(131, [&](const exact::PlacedEdges& a, const exact::PlacedEdges& b) {
+        for (const double spacing : {0.3, 0.01}) {
+            for (const double distance : {1e-300, 1e-9, 0.02, 0.5, 3.0, 1e300}) {
+                SCOPED_TRACE(std::to_string(spacing) + ", " + std::to_string(distance));
+                near += check(finder, a, b, distance, spacing).near;
+                near += check(finder, b, a, distance, spacing).near;
+            }
+        }
+    });
+    EXPECT_GT(near, 300000U);
+}
+
+TEST(NearSamples, AreHardlyAnyOthers) {
+    NearSamples finder;
+    Counts all;
+    for_each_pair(137, [&](const exact::PlacedEdges& a, const exact::PlacedEdges& b) {
+        const Counts counts = check(finder, a, b, 0.02, 0.002);
+        all = {all.found + counts.found, all.near + counts.near};
+    });
+    EXPECT_GT(all.near, 10000U);
+    EXPECT_LT(all.found, all.near + all.near / 2);
+}
+
+TEST(NearSamples, OfShapesFarFromTheOriginAreAllThatAreNear) {
+    // Edges that lie along each other, just as far apart as is asked.
+    const Polygon a = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
+    NearSamples finder;
+    for (const double angle : {0.0, 0.7, 2.0}) {
+        exact::PlacedInstances instances;
+        const Pose pose{{1e6, -3e6}, angle};
+        const std::uint32_t index_a = instances.place(a, pose);
+        const Polygon b = samples::polygon({samples::rectangle(1.25, 0.0, 2.0, 1.0)});
+        const std::uint32_t index_b = instances.place(b, pose);
+        finder.find(instances[index_a], instances[index_b], 0.25, 0.01);
+        EXPECT_GE(finder.points().size(), 101U);
+    }
+}
+
+}  // namespace
+}  // namespace nearfield
