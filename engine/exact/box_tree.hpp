@@ -83,8 +83,8 @@ void find_boxes(const EdgeArrays& edges, double* boxes);
 [[nodiscard]] std::uint32_t find_edges_in(const BoxTree& tree, const Extent& box,
                                           std::uint32_t* found);
 
-/// Lists the edges whose boxes meet a box, but for those of a lowest box that is farther from every
-/// edge of another tree than `reach`, and perhaps some more.
+/// Lists edges whose boxes meet a box: all that come as close to an edge of others as `reach`.
+/// Eight that share a lowest box are left out together.
 [[nodiscard]] std::uint32_t find_edges_near(const BoxTree& tree, const Extent& box,
                                             const BoxTree& others, double reach,
                                             std::uint32_t* found);

@@ -2,6 +2,7 @@
 
 #include <engine/exact/closest_pair.hpp>
 #include <engine/exact/placed_edges.hpp>
+#include <engine/exact/stretches.hpp>
 #include <engine/geometry/segment.hpp>
 
 #include <gtest/gtest.h>
@@ -68,6 +69,17 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
                     {static_cast<double>(pair.first), static_cast<double>(pair.second)});
     }
     add_found(kernels::find_edges_in(tree, box_b, found.data()));
+    add_found(kernels::find_edges_near(tree, box_b, edges_b.tree(), 0.1, found.data()));
+    std::vector<Stretch> stretches(most_stretches);
+    const auto add_stretches = [&](std::uint32_t count) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            said.insert(said.end(), {stretches[i].from, stretches[i].to});
+        }
+    };
+    for (std::uint32_t edge = 0; edge < edges_b.count; ++edge) {
+        add_stretches(kernels::find_stretches_near(edges_b, edge, edges_a, 0.05, stretches.data()));
+        add_stretches(kernels::find_stretches_near(edges_b, edge, tree, 0.05, stretches.data()));
+    }
     const auto say_pair = [](void* numbers, const EdgePair& pair) {
         static_cast<std::vector<double>*>(numbers)->insert(
             static_cast<std::vector<double>*>(numbers)->end(),
