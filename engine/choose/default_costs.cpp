@@ -18,7 +18,7 @@ constexpr CostModel on_software{
                 .field = {1.8, 0.027, 0.018},
                 .features = {16.0, 0.34, 0.13}},
     .cpu = {.submission = 0.6,
-            .points = {0.4, 0.002, 0.024},
+            .points = {0.8, 0.005, 0.0095},
             .closest = {0.3, 0.0033, 0.0},
             .intersection = {3.3, 0.028, 0.00017},
             .field = {0.77, 0.032, 0.0033},

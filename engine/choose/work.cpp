@@ -14,16 +14,16 @@ using geometry::Box;
 using geometry::PlacedPolygon;
 using geometry::Polygon;
 
-// Vertices of a shape that an estimate looks at: enough for a tenth, and less than any answer
-// takes.
-constexpr std::uint32_t looked_at = 256;
+// So many vertices of a shape an estimate looks at: techniques differ by more than what that leaves
+// open, and it takes less than any answer does.
+constexpr std::uint32_t looked_at = 64;
 
 std::uint32_t stride_of(const Polygon& polygon) {
     return (polygon.size() + looked_at - 1) / looked_at;
 }
 
 // So many vertices are boxed sooner than some of them are picked out.
-constexpr std::uint32_t boxed_at_once = 4096;
+constexpr std::uint32_t boxed_at_once = 1024;
 
 /// The box of all vertices, or of some of very many.
 Box rough_box(const PlacedPolygon& placed) {

@@ -35,7 +35,8 @@ struct WorkBounds {
 [[nodiscard]] WorkBounds work_bounds(const AnyQuery& query, const geometry::Polygon* a,
                                      const geometry::Polygon& b);
 
-/// Within the bounds. Looks at a few hundred vertices at the most, whatever the size of the shapes.
+/// Within the bounds. Looks at some dozens of vertices, and at all of a thousand for a box,
+/// whatever the size of the shapes.
 [[nodiscard]] Work work_of(const AnyQuery& query, const geometry::Polygon* a,
                            const geometry::Polygon& b);
 
