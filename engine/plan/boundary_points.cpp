@@ -42,9 +42,10 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
             const double parts = sampler.parts_of(edge);
             const PartRange range = parts_within(polygon, edge, parts, within);
-            const auto end = static_cast<std::uint32_t>(range.end);
-            for (auto part = static_cast<std::uint32_t>(range.first); part < end; ++part) {
-                points.push_back({edge, part / parts});
+            // An edge may have more parts than 32 bits can count, few of which lie in the box.
+            const auto count = static_cast<std::uint32_t>(std::max(0.0, range.end - range.first));
+            for (std::uint32_t i = 0; i < count; ++i) {
+                points.push_back({edge, (range.first + i) / parts});
             }
         });
     }

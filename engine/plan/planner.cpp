@@ -85,7 +85,7 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
     limits_.largest_tile = std::min(limits_.largest_tile, limits_.largest_atlas);
     point_tiles_ = PointTiles(std::min(limits_.points_tile, limits_.largest_tile));
     packer_ = AtlasPacker(limits_.largest_atlas);
-    memory_for_results_ = static_cast<double>(limits_.memory) - images();
+    memory_for_results_ = std::max(0.0, static_cast<double>(limits_.memory) - images());
 }
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -173,7 +173,8 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
     }
     // Memory grows with (1/d)^growth: what this query alone would take at a coarser tolerance.
     const double smallest = tolerance * std::pow(query_bytes_ / limit, 1.0 / growth);
-    std::string hint = query_bytes_ > limit
+    std::string hint = limit == 0.0 ? "; images take all of Settings::memory_limit"
+                       : query_bytes_ > limit
                            ? "; the smallest tolerance that fits is about " +
                                  number(static_cast<float>(smallest * 1.05))
                            : "; together with the queries before it the batch is too large";

@@ -144,7 +144,7 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
-    bool counted_roughly_ = false;  // what contacts take that could be planned
+    bool counted_roughly_ = false;  // what records take that could be planned
     bool closely_ = false;          // they are planned all the same, for what they take
 
     // Scratch.

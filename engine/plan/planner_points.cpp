@@ -63,12 +63,15 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const bool vertices = query.points == PenetrationPoints::vertices;
     const double most_points =
         vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
-    planned.edge_by_edge = planned.on_cpu && (vertices || most_points <= most_samples_at_once);
+    const bool closely = closely_ && query.records;
+    planned.edge_by_edge =
+        planned.on_cpu && !closely && (vertices || most_points <= most_samples_at_once);
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
         // PointPenetration finds them itself, and where they can be.
         if (query.records) {
+            counted_roughly_ = true;
             require_memory(sizeof(PenetrationRecord) * most_points, query.tolerance, 1.0);
         }
         return;

@@ -35,6 +35,27 @@ TEST_F(Extremes, DeepInsideAHugeShapeRecordsAreStillExact) {
     }
 }
 
+TEST_F(Extremes, EdgesOfMorePartsThanThirtyTwoBitsCountAreSampledWhereTheyMatter) {
+    // A strip so long that each of its long edges has 14,000,000,000 parts, through a small square.
+    const auto a = context().add_shape(rectangle({-1e6, -0.001}, {1e6, 0.001}));
+    const auto b = context().add_shape(rectangle({-0.05, -0.05}, {0.05, 0.05}));
+    ASSERT_TRUE(a.ok() && b.ok());
+    PenetrationQuery query;
+    query.a.shape = *a;
+    query.b.shape = *b;
+    query.tolerance = 1e-4;
+    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        SCOPED_TRACE(to_string(technique));
+        query.technique = technique;
+        const PenetrationResult result = run_alone(context(), query);
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        // Two lengths of 0.1, samples at most d times the root of two apart.
+        const double most_apart = query.tolerance * std::numbers::sqrt2;
+        EXPECT_NEAR(result.count, 2.0 * 0.1 / most_apart, 4.0);
+        EXPECT_NEAR(result.deepest.depth, 0.049, 1e-4);
+    }
+}
+
 TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
     const auto b = context().add_shape(rectangle({0.0, 0.0}, {1.0, 2.0}));
     ASSERT_TRUE(b.ok());

@@ -147,6 +147,25 @@ TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
     EXPECT_TRUE(plan_.queries[0].edge_by_edge);
 }
 
+TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
+    PenetrationQuery query = penetration_;
+    query.b.pose.translation = {1000.0, 0.0};
+    query.tolerance = 0.01;
+    query.technique = Technique::cpu;
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+    const double roughly = plan_.result_bytes;
+    ASSERT_GT(roughly, 0.0);
+    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / roughly) + 1;
+    run(std::vector<AnyQuery>(many, query));
+    EXPECT_FALSE(plan_.queries[0].edge_by_edge);
+    query.b.pose.translation = {};
+    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), Failure);
+    query.records = false;
+    run(std::vector<AnyQuery>(many, query));
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+}
+
 TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
     ContactQuery query;
     query.a = penetration_.a;
