@@ -1,7 +1,7 @@
+#include "boundary_samples.hpp"
 #include "shape_samples.hpp"
 
 #include <engine/inside_samples.hpp>
-#include <engine/plan/boundary_points.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,16 +14,8 @@ using geometry::Vector;
 /// All samples of A's boundary, one by one.
 std::vector<Vector> samples_inside(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
                                    double spacing) {
-    const Polygon& polygon = a.placed.polygon();
-    std::vector<localize::Chain> rings;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const std::uint32_t begin = polygon.ring_begin(ring);
-        rings.push_back({ring, begin, polygon.ring_end(ring) - begin, {}});
-    }
-    std::vector<plan::BoundaryPoint> points;
-    plan::sample_chains(a.placed, rings, spacing, a.box, points);
     std::vector<Vector> inside;
-    for (const plan::BoundaryPoint& sample : points) {
+    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
         const Vector start = a.start(sample.edge);
         const Vector point = start + sample.parameter * (a.end(sample.edge) - start);
         if (b.box.contains(point) && contains(b, point)) {

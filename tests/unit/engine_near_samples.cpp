@@ -1,3 +1,4 @@
+#include "boundary_samples.hpp"
 #include "shape_samples.hpp"
 
 #include <engine/near_samples.hpp>
@@ -16,16 +17,8 @@ using Place = std::pair<std::uint32_t, double>;
 /// All samples of A's boundary, one by one, that are no farther from B's than `distance`.
 std::vector<Place> samples_near(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
                                 double distance, double spacing) {
-    const Polygon& polygon = a.placed.polygon();
-    std::vector<localize::Chain> rings;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const std::uint32_t begin = polygon.ring_begin(ring);
-        rings.push_back({ring, begin, polygon.ring_end(ring) - begin, {}});
-    }
-    std::vector<plan::BoundaryPoint> points;
-    plan::sample_chains(a.placed, rings, spacing, a.box, points);
     std::vector<Place> near;
-    for (const plan::BoundaryPoint& sample : points) {
+    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
         if (find_nearest(b, plan::position(a.placed, sample)).squared <= distance * distance) {
             near.emplace_back(sample.edge, sample.parameter);
         }

@@ -1,3 +1,4 @@
+#include "boundary_samples.hpp"
 #include "shape_samples.hpp"
 
 #include <engine/geometry/segment.hpp>
@@ -17,16 +18,8 @@ using geometry::Vector;
 /// The contacts of one boundary, one sample and one edge after the other.
 std::vector<ContactRecord> contacts_of(const exact::PlacedEdges& a, const exact::PlacedEdges& b,
                                        const ContactQuery& query, double cell, Side side) {
-    const Polygon& polygon = a.placed.polygon();
-    std::vector<localize::Chain> rings;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const std::uint32_t begin = polygon.ring_begin(ring);
-        rings.push_back({ring, begin, polygon.ring_end(ring) - begin, {}});
-    }
-    std::vector<plan::BoundaryPoint> points;
-    plan::sample_chains(a.placed, rings, cell, a.box, points);
     std::vector<ContactRecord> contacts;
-    for (const plan::BoundaryPoint& sample : points) {
+    for (const plan::BoundaryPoint& sample : samples::of_boundary(a, cell)) {
         const Vector point = plan::position(a.placed, sample);
         double least = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < b.count; ++i) {
