@@ -81,14 +81,14 @@ void InsideSamples::add_stretch(std::uint32_t edge, double parts, std::uint32_t 
         return;
     }
     if (side_ == Side::unknown) {
-        side_ = side_of(position(edge, part / parts));
+        side_ = side_of(a_->at(edge, part / parts));
     }
     if (side_ == Side::outside) {
         return;
     }
     inside_->reserve(inside_->size() + (end - part));
     for (; part < end; ++part) {
-        const Vector point = position(edge, part / parts);
+        const Vector point = a_->at(edge, part / parts);
         inside_->push(point.x(), point.y());
     }
 }
@@ -97,7 +97,7 @@ void InsideSamples::add_one_by_one(std::uint32_t edge, double parts, std::uint32
                                    std::uint32_t end) {
     inside_->reserve(inside_->size() + (end - part));
     for (; part < end; ++part) {
-        const Vector point = position(edge, part / parts);
+        const Vector point = a_->at(edge, part / parts);
         if (side_of(point) == Side::inside) {
             inside_->push(point.x(), point.y());
         }
@@ -106,12 +106,6 @@ void InsideSamples::add_one_by_one(std::uint32_t edge, double parts, std::uint32
 
 InsideSamples::Side InsideSamples::side_of(const Vector& point) const {
     return b_->box.contains(point) && contains(*b_, point) ? Side::inside : Side::outside;
-}
-
-/// As plan::position() has it.
-Vector InsideSamples::position(std::uint32_t edge, double parameter) const {
-    const Vector start = a_->start(edge);
-    return start + parameter * (a_->end(edge) - start);
 }
 
 }  // namespace nearfield

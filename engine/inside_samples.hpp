@@ -36,7 +36,6 @@ private:
     /// Of those that do not.
     void add_one_by_one(std::uint32_t edge, double parts, std::uint32_t part, std::uint32_t end);
     [[nodiscard]] Side side_of(const geometry::Vector& point) const;
-    [[nodiscard]] geometry::Vector position(std::uint32_t edge, double parameter) const;
 
     const exact::PlacedEdges* a_ = nullptr;
     const exact::PlacedEdges* b_ = nullptr;

@@ -71,8 +71,6 @@ void NearSamples::find(const PlacedEdges& a, const PlacedEdges& b, double distan
 }
 
 void NearSamples::add(std::uint32_t edge, double parts) {
-    const Vector start = a_->start(edge);
-    const Vector along = a_->end(edge) - start;
     std::uint32_t part = 0;
     for (const Stretch& stretch : find_stretches(edge)) {
         part = std::max(part, static_cast<std::uint32_t>(stretch.from * parts));
@@ -80,9 +78,8 @@ void NearSamples::add(std::uint32_t edge, double parts) {
             static_cast<std::uint32_t>(std::min(std::floor(stretch.to * parts) + 1.0, parts));
         points_.reserve(points_.size() + (end - std::min(part, end)));
         for (; part < end; ++part) {
-            // As plan::position() has it.
             const double parameter = part / parts;
-            const Vector point = start + parameter * along;
+            const Vector point = a_->at(edge, parameter);
             points_.push(point.x(), point.y());
             places_.push_back({edge, parameter});
         }

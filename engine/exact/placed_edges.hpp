@@ -30,6 +30,11 @@ struct PlacedEdges : EdgeArrays {
     [[nodiscard]] geometry::Vector end(std::uint32_t edge) const {
         return {end_x[edge], end_y[edge]};
     }
+    /// `parameter` of the way along an edge, below 1: bit for bit as plan::position() has it.
+    [[nodiscard]] geometry::Vector at(std::uint32_t edge, double parameter) const {
+        const geometry::Vector from = start(edge);
+        return from + parameter * (end(edge) - from);
+    }
 };
 
 /// So many edges are looked at one by one, without a tree.

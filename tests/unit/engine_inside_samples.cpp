@@ -16,8 +16,7 @@ std::vector<Vector> samples_inside(const exact::PlacedEdges& a, const exact::Pla
                                    double spacing) {
     std::vector<Vector> inside;
     for (const plan::BoundaryPoint& sample : samples::of_boundary(a, spacing)) {
-        const Vector start = a.start(sample.edge);
-        const Vector point = start + sample.parameter * (a.end(sample.edge) - start);
+        const Vector point = plan::position(a.placed, sample);
         if (b.box.contains(point) && contains(b, point)) {
             inside.push_back(point);
         }
