@@ -111,6 +111,8 @@ private:
 
     /// Whether deviations and coordinates leave room for the tolerance; if not, the result says so.
     [[nodiscard]] bool check_numbers(ResultSummary& result) const;
+    /// Whether so many samples of boundaries may be kept at once, beside what comes of them.
+    [[nodiscard]] bool can_keep(double samples) const;
     std::uint32_t add_reverse();
     void sample_boundary(const geometry::PlacedPolygon& polygon, const geometry::Box& within,
                          const ResultSummary& result);

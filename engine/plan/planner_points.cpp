@@ -37,8 +37,9 @@ Box grown(Box box, double by) {
 // Of either boundary, for a search that is finished exactly.
 constexpr double most_search_samples = 4096.0;
 
-// Of a boundary, where all are kept at once and none is planned.
-constexpr double most_samples_at_once = 65536.0;
+// What a sample takes while all of a boundary's are kept at once and none is planned: its place,
+// what is nearest to it, the contact it may be.
+constexpr double bytes_of_kept_sample = 256.0;
 
 }  // namespace
 
@@ -55,6 +56,11 @@ bool Planner::check_numbers(ResultSummary& result) const {
     return result.status.ok();
 }
 
+bool Planner::can_keep(double samples) const {
+    constexpr double most = 1U << 30U;  // so that 32 bits number them, and the parts of an edge
+    return samples <= std::min(most, memory_for_results_ / 4.0 / bytes_of_kept_sample);
+}
+
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const ErrorBudget budget = penetration_budget(query, planned.deviations);
@@ -64,8 +70,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const double most_points =
         vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
     const bool closely = closely_ && query.records;
-    planned.edge_by_edge =
-        planned.on_cpu && !closely && (vertices || most_points <= most_samples_at_once);
+    planned.edge_by_edge = planned.on_cpu && !closely && (vertices || can_keep(most_points));
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
@@ -167,7 +172,7 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     const double of_b = most_samples(*planned.b, result.cell);
     // Gradients are found around what was planned.
     planned.edge_by_edge = planned.on_cpu && query.normals == ContactNormals::analytic &&
-                           std::max(of_a, of_b) <= most_samples_at_once && !closely_;
+                           can_keep(of_a + of_b) && !closely_;
     if (planned.edge_by_edge) {
         counted_roughly_ = true;
         require_memory(sizeof(ContactRecord) * (of_a + of_b), query.tolerance, 1.0);
