@@ -11,6 +11,13 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
     # False alarm on string concatenation in libstdc++ 12 (GCC bug 105651).
     target_compile_options(nearfield_options INTERFACE -Wno-restrict)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    # GCC's usual way to reset or copy a structure of some hundred bytes is `rep stos` or `rep movs`,
+    # which take tens of cycles to begin with: a tenth of a frame of small shapes.
+    set(few_at_once vector_loop:512:noalign,libcall:-1:noalign)
+    target_compile_options(nearfield_options INTERFACE
+        -mmemset-strategy=${few_at_once} -mmemcpy-strategy=${few_at_once})
+endif()
 if(NEARFIELD_WARNINGS_AS_ERRORS)
     target_compile_options(nearfield_options INTERFACE -Werror)
 endif()

@@ -31,10 +31,10 @@ BatchRunner::BatchRunner(Planning& planning, const char* gradient_format, Render
       decoder_(gradient_format, planning.answers) {}
 
 void BatchRunner::copy(std::span<const AnyQuery> queries) {
-    queries_.assign(queries.begin(), queries.end());
+    queries_.clear();
     std::size_t count = 0;
-    for (const AnyQuery& query : queries_) {
-        count += points_of(query).size();
+    for (const AnyQuery& query : queries) {
+        count += points_of(queries_.emplace_back(query)).size();
     }
     points_.resize(count);
     if (count == 0) {

@@ -30,20 +30,16 @@ GradientNormals::GradientNormals(Planning& planning, const char* gradient_format
 
 void GradientNormals::apply(BatchRunner& main) {
     Results& results = main.results();
-    for (std::size_t i = 0; i < results.results.size(); ++i) {
-        const plan::PlannedQuery& planned = main.plan().queries[i];
-        const auto* const query = std::get_if<ContactQuery>(planned.query);
-        if (query == nullptr || query->normals != ContactNormals::gradient) {
-            continue;
-        }
-        auto& result = std::get<ContactResult>(results.results[i]);
+    for (const std::uint32_t index : main.plan().with_gradient_normals) {
+        const plan::PlannedQuery& planned = main.plan().queries[index];
+        auto& result = std::get<ContactResult>(results.results[index]);
         if (!result.status.ok()) {
             continue;
         }
         decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
         set_normals(planned, result, results.timings);
         if (result.status.ok()) {
-            contacts_.write(*planned.a, *planned.b, *query, result);
+            contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(*planned.query), result);
         }
     }
 }

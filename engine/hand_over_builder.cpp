@@ -50,10 +50,10 @@ void HandOverBuilder::build(const plan::Plan& plan, std::span<const plan::Round>
     hand_over.clear();
     find_field_parts(plan, rounds);
     samples_.begin();
-    for (std::uint32_t query = 0; query < results.size(); ++query) {
+    for (const std::uint32_t query : plan.resident) {
         const PlannedQuery& planned = plan.queries[query];
         const auto is_usable = [](const auto& result) { return result.status.ok(); };
-        if (!planned.resident || !std::visit(is_usable, results[query])) {
+        if (!std::visit(is_usable, results[query])) {
             continue;
         }
         if (const auto* const field = std::get_if<DistanceFieldResult>(&results[query])) {

@@ -74,7 +74,8 @@ void PointPenetration::find_vertices_inside(const exact::PointArrays& vertices,
     }
 }
 
-PointPenetration::Deepest PointPenetration::find_deepest(double touching, const PlacedEdges& b) {
+PointPenetration::Deepest PointPenetration::find_deepest(double touching, double margin,
+                                                         const PlacedEdges& b) {
     const exact::PointArrays points = inside_.arrays();
     Deepest deepest;
     if (exact::is_small(b) && points.count <= few_points) {
@@ -88,7 +89,7 @@ PointPenetration::Deepest PointPenetration::find_deepest(double touching, const 
             }
         }
     } else {
-        nearest_.find(points, b, 0.0);
+        nearest_.find(points, b, margin);
         const exact::NearestArrays& nearest = nearest_.arrays();
         double most = 0.0;
         for (std::uint32_t i = 0; i < points.count; ++i) {
@@ -99,13 +100,14 @@ PointPenetration::Deepest PointPenetration::find_deepest(double touching, const 
             }
         }
         deepest.nearest.edge = nearest.edge[deepest.point];
+        deepest.nearest.second_squared = nearest.second_squared[deepest.point];
     }
     return deepest;
 }
 
 void PointPenetration::write_deepest(double touching, double margin, const PlacedEdges& b,
                                      PenetrationResult& result) {
-    const Deepest deepest = find_deepest(touching, b);
+    const Deepest deepest = find_deepest(touching, margin, b);
     result.count = deepest.count;
     if (deepest.count == 0) {
         return;

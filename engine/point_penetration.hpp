@@ -60,7 +60,8 @@ private:
 
     // Points nearer to B's boundary than `touching` are on it.
 
-    [[nodiscard]] Deepest find_deepest(double touching, const exact::PlacedEdges& b);
+    /// `margin`: of uniqueness.
+    [[nodiscard]] Deepest find_deepest(double touching, double margin, const exact::PlacedEdges& b);
     /// Where no more than the deepest point is asked for.
     void write_deepest(double touching, double margin, const exact::PlacedEdges& b,
                        PenetrationResult& result);

@@ -26,9 +26,10 @@ bool same(const Pose& a, const Pose& b) {
            a.angle == b.angle;
 }
 
-std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9e3779b97f4a7c15U;
-    return hash ^ (hash >> 32U);
+/// Of a number or an address, by a factor of its own: products that do not wait for each other.
+template <class Value>
+std::uint64_t scattered(Value value, std::uint64_t factor) {
+    return std::bit_cast<std::uint64_t>(value) * factor;
 }
 
 /// Where every edge ends, from where they start, ring by ring.
@@ -65,11 +66,13 @@ bool PlacedInstances::is(const Entry& entry, const Polygon& polygon, const Pose&
 }
 
 std::size_t PlacedInstances::slot_of(const Polygon& polygon, const Pose& pose) const {
-    std::uint64_t hash = mix(0, std::bit_cast<std::uintptr_t>(&polygon));
-    for (const double value : {pose.translation.x, pose.translation.y, pose.angle}) {
-        hash = mix(hash, std::bit_cast<std::uint64_t>(value));
-    }
-    std::size_t slot = hash & (slots_.size() - 1);
+    const std::uint64_t sum = scattered(&polygon, 0x9e3779b97f4a7c15U) +
+                              scattered(pose.translation.x, 0xc2b2ae3d27d4eb4fU) +
+                              scattered(pose.translation.y, 0x165667b19e3779f9U) +
+                              scattered(pose.angle, 0xd6e8feb86659fd93U);
+    // Products carry upwards alone, and round numbers differ in their upper bits.
+    const std::uint64_t hash = scattered(sum ^ (sum >> 32U), 0x9e3779b97f4a7c15U);
+    std::size_t slot = (hash >> 32U) & (slots_.size() - 1);
     while (slots_[slot] != empty_slot && !is(entries_[slots_[slot]], polygon, pose)) {
         slot = (slot + 1) & (slots_.size() - 1);
     }

@@ -1,5 +1,4 @@
 #include <engine/localize/broad_phase.hpp>
-#include <engine/localize/hierarchy.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -34,18 +33,21 @@ void BroadPhase::find(std::span<const Box> boxes, double reach, std::vector<Pair
         order_.emplace_back(boxes[i].min()[axis], i);
     }
     std::sort(order_.begin(), order_.end());
-    // Next to each other, as they are swept over.
+    // Next to each other, as they are swept over, and grown by the reach once and for all.
     sorted_.clear();
     for (const auto& [low, index] : order_) {
-        sorted_.push_back(boxes[index]);
+        const Box& box = boxes[index];
+        sorted_.push_back({low - reach, box.min()[1 - axis] - reach, box.max()[1 - axis] + reach});
     }
     found_.clear();
     for (std::size_t i = 0; i < sorted_.size(); ++i) {
-        const Box& box = sorted_[i];
-        const double end = box.max()[axis] + reach;
-        for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].min()[axis] <= end; ++j) {
-            if (boxes_meet(sorted_[j], box, reach)) {
-                found_.push_back(std::minmax(order_[i].second, order_[j].second));
+        const std::uint32_t first = order_[i].second;
+        const double end = boxes[first].max()[axis];
+        const double low = boxes[first].min()[1 - axis];
+        const double high = boxes[first].max()[1 - axis];
+        for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].begin <= end; ++j) {
+            if (sorted_[j].low <= high && low <= sorted_[j].high) {
+                found_.push_back(std::minmax(first, order_[j].second));
             }
         }
     }

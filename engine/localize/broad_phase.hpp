@@ -24,8 +24,15 @@ private:
     /// Writes what was found in ascending order.
     void sort_found(std::size_t boxes, std::vector<Pair>& pairs);
 
+    /// Of a box, grown by the reach: where it begins along the axis, and its ends along the other.
+    struct Grown {
+        double begin;
+        double low;
+        double high;
+    };
+
     std::vector<std::pair<double, std::uint32_t>> order_;  // low ends along the axis, positions
-    std::vector<geometry::Box> sorted_;                    // in that order
+    std::vector<Grown> sorted_;                            // in that order
     std::vector<Pair> found_;                              // as they came up
     std::vector<std::uint32_t> ends_;                      // of the pairs of each first box
 };

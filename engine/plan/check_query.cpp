@@ -139,7 +139,7 @@ Status check_pair(const Query& query) {
     if (!is_usable(query.a.pose)) {
         return unusable(query.a.pose, "A's pose");
     }
-    return check_pose(query.b.pose, "B");
+    return is_usable(query.b.pose) ? Status() : unusable(query.b.pose, "B's pose");
 }
 
 }  // namespace

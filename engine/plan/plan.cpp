@@ -4,6 +4,8 @@ namespace nearfield::plan {
 
 void Plan::clear() {
     // But for the queries: the planner writes each anew, and thousands would be written twice.
+    resident.clear();
+    with_gradient_normals.clear();
     tiles.clear();
     cpu_tiles.clear();
     points.clear();

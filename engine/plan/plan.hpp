@@ -140,8 +140,11 @@ private:
 struct Plan {
     /// By position in the batch; behind them the other directions of some.
     std::vector<PlannedQuery> queries;
-    BoundingVolume bounding_volume{};  ///< what hierarchies are made of
-    geometry::SubpixelGrid subpixel;   ///< that overlaps are snapped to
+    BoundingVolume bounding_volume{};     ///< what hierarchies are made of
+    geometry::SubpixelGrid subpixel;      ///< that overlaps are snapped to
+    std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
+    /// Contacts whose normals are to be gradients of the distance.
+    std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;
     std::vector<Tile> cpu_tiles;                  ///< of overlaps that the CPU finds, by query
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings

@@ -129,6 +129,9 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                 planned.by_compute = result.technique == Technique::compute;
                 if constexpr (requires { query.resident; }) {
                     planned.resident = query.resident;
+                    if (query.resident) {
+                        plan.resident.push_back(query_);
+                    }
                 }
                 // Success is not copied: it is what thousands of queries have in common.
                 if (Status status = check_query(query); !status.ok()) {

@@ -170,9 +170,12 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     result.cell = planned.budget.cell;
     const double of_a = most_samples(*planned.a, result.cell);
     const double of_b = most_samples(*planned.b, result.cell);
+    const bool gradients = query.normals == ContactNormals::gradient;
+    if (gradients) {
+        plan_->with_gradient_normals.push_back(query_);
+    }
     // Gradients are found around what was planned.
-    planned.edge_by_edge = planned.on_cpu && query.normals == ContactNormals::analytic &&
-                           can_keep(of_a + of_b) && !closely_;
+    planned.edge_by_edge = planned.on_cpu && !gradients && can_keep(of_a + of_b) && !closely_;
     if (planned.edge_by_edge) {
         counted_roughly_ = true;
         require_memory(sizeof(ContactRecord) * (of_a + of_b), query.tolerance, 1.0);
