@@ -32,28 +32,28 @@ HWY_INLINE LaneMask are_in(const LanesOfExtent& box, Lanes x, Lanes y) {
                    hn::And(hn::Ge(y, box.low_y), hn::Le(y, box.high_y)));
 }
 
-/// Appends the lanes that are set; up to whole lanes may be written.
-HWY_INLINE std::uint32_t append_points(LaneMask mask, Lanes x, Lanes y, const FoundPoints& found,
-                                       std::uint32_t count) {
-    const Tag tag;
-    const std::size_t more = hn::CompressStore(x, mask, tag, found.x + count);
-    hn::CompressStore(y, mask, tag, found.y + count);
-    return count + static_cast<std::uint32_t>(more);
+/// Appends those of the points that `test` says yes to; they may be the found ones themselves.
+template <class Test>
+HWY_INLINE std::uint32_t append_points_that(const PointArrays& points, const Test& test,
+                                            const FoundPoints& found) {
+    std::uint32_t count = 0;
+    for_each_that(0, points.count, test, [&](std::size_t i) HWY_ATTR {
+        found.x[count] = points.x[i];
+        found.y[count] = points.y[i];
+        ++count;
+    });
+    return count;
 }
 
 std::uint32_t FindPointsIn(const PointArrays& points, const Extent& box, const FoundPoints& found) {
-    const Tag tag;
     const LanesOfExtent bounds = lanes_of(box);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < points.count; i += hn::Lanes(tag)) {
-        const Lanes x = hn::LoadU(tag, points.x + i);
-        const Lanes y = hn::LoadU(tag, points.y + i);
-        const LaneMask inside = hn::And(are_in(bounds, x, y), hn::FirstN(tag, points.count - i));
-        if (!hn::AllFalse(tag, inside)) {
-            count = append_points(inside, x, y, found, count);
-        }
-    }
-    return count;
+    return append_points_that(
+        points,
+        [&](std::size_t i) HWY_ATTR {
+            const Tag tag;
+            return are_in(bounds, hn::LoadU(tag, points.x + i), hn::LoadU(tag, points.y + i));
+        },
+        found);
 }
 
 bool Contain(const EdgeArrays& edges, double point_x, double point_y) {
@@ -68,35 +68,33 @@ bool Contain(const EdgeArrays& edges, double point_x, double point_y) {
 }
 
 std::uint32_t FindEdgesIn(const EdgeArrays& edges, const Extent& box, std::uint32_t* found) {
-    const Tag tag;
     const LanesOfExtent bounds = lanes_of(box);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
-        count = append_lanes(meet(bounds, EdgeLanes(edges, i)), i, edges.count, found, count);
-    }
-    return count;
+    return append_those_that(
+        0, edges.count, [&](std::size_t i) HWY_ATTR { return meet(bounds, EdgeLanes(edges, i)); },
+        found, 0);
 }
 
 /// Keeps of points that were found those inside.
-std::uint32_t KeepInside(std::uint32_t points, const EdgeArrays& edges, std::uint32_t* crossed,
+std::uint32_t KeepInside(std::uint32_t count, const EdgeArrays& edges, std::uint32_t* crossed,
                          const FoundPoints& found) {
-    const Tag tag;
+    const PointArrays points{count, found.x, found.y};
     // A ray to the right crosses no edges but those.
-    Extent rays = extent_of({points, found.x, found.y}, 0);
+    Extent rays = extent_of(points, 0);
     rays.high_x = std::numeric_limits<double>::infinity();
     const std::uint32_t beside = FindEdgesIn(edges, rays, crossed);
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < points; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
-        const Lanes x = hn::LoadU(tag, found.x + i);
-        const Lanes y = hn::LoadU(tag, found.y + i);
-        Lanes odd = hn::Zero(tag);
-        for (std::uint32_t k = 0; k < beside; ++k) {
-            odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, crossed[k]), x, y));
-        }
-        const LaneMask inside = hn::And(are_negative(odd), hn::FirstN(tag, points - i));
-        count = append_points(inside, x, y, found, count);
-    }
-    return count;
+    return append_points_that(
+        points,
+        [&](std::size_t i) HWY_ATTR {
+            const Tag tag;
+            const Lanes x = hn::LoadU(tag, points.x + i);
+            const Lanes y = hn::LoadU(tag, points.y + i);
+            Lanes odd = hn::Zero(tag);
+            for (std::uint32_t k = 0; k < beside; ++k) {
+                odd = hn::Xor(odd, crossings(EdgeLanes::Same(edges, crossed[k]), x, y));
+            }
+            return are_negative(odd);
+        },
+        found);
 }
 
 std::uint32_t FindPointsInside(const PointArrays& points, const Extent& box,
@@ -168,12 +166,10 @@ std::uint32_t FindEdgesWithin(const EdgeArrays& edges, double point_x, double po
     const Lanes x = hn::Set(tag, point_x);
     const Lanes y = hn::Set(tag, point_y);
     const Lanes limit = hn::Set(tag, most);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < edges.count; i += hn::Lanes(tag)) {
-        count = append_lanes(hn::Le(squared_distances(edges, i, x, y), limit), i, edges.count,
-                             found, count);
-    }
-    return count;
+    return append_those_that(
+        0, edges.count,
+        [&](std::size_t i) HWY_ATTR { return hn::Le(squared_distances(edges, i, x, y), limit); },
+        found, 0);
 }
 
 bool FindMeetingPair(const EdgeArrays& first, const EdgeArrays& second, double margin,

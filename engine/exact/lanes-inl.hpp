@@ -45,6 +45,36 @@ HWY_INLINE std::uint32_t append_lanes(LaneMask mask, std::size_t first, std::uin
     return count;
 }
 
+/// Calls `use(index)`, in ascending order, for the indices from `first` on and below `end` that
+/// `test(index)` says yes to: it says so of as many that follow each other as there are lanes.
+template <class Test, class Use>
+HWY_INLINE void for_each_that(std::size_t first, std::size_t end, const Test& test,
+                              const Use& use) {
+    // For 64 at a time: that there is no further one is mostly foreseen wrong.
+    constexpr std::size_t at_a_time = 64;
+    for (; first < end; first += at_a_time) {
+        const std::size_t count = end - first < at_a_time ? end - first : at_a_time;
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < count; i += hn::Lanes(Tag())) {
+            bits |= std::uint64_t{bits_of(test(first + i))} << i;
+        }
+        bits &= ~std::uint64_t{0} >> (at_a_time - count);
+        for (; bits != 0; bits &= bits - 1) {
+            use(first + static_cast<std::size_t>(std::countr_zero(bits)));
+        }
+    }
+}
+
+/// Appends those indices to a list.
+template <class Test>
+HWY_INLINE std::uint32_t append_those_that(std::size_t first, std::size_t end, const Test& test,
+                                           std::uint32_t* found, std::uint32_t count) {
+    for_each_that(first, end, test, [&](std::size_t index) HWY_ATTR {
+        found[count++] = static_cast<std::uint32_t>(index);
+    });
+    return count;
+}
+
 HWY_INLINE double least_lane(Lanes lanes) {
     return hn::GetLane(hn::MinOfLanes(Tag(), lanes));
 }
