@@ -67,6 +67,14 @@ void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize
     }
 }
 
+double most_vertices(const std::vector<localize::Chain>& chains) {
+    double count = 0.0;
+    for (const localize::Chain& chain : chains) {
+        count += chain.count + 1.0;
+    }
+    return count;
+}
+
 double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
                     double spacing, const geometry::Box& within) {
     double count = 0.0;

@@ -34,6 +34,9 @@ void vertices_of_chains(const geometry::PlacedPolygon& polygon,
                         const std::vector<localize::Chain>& chains,
                         std::vector<BoundaryPoint>& points);
 
+/// What that may append at the most.
+[[nodiscard]] double most_vertices(const std::vector<localize::Chain>& chains);
+
 /// What sample_chains may append at the most; needs no memory. A double, since it may be huge.
 [[nodiscard]] double most_samples(const geometry::PlacedPolygon& polygon,
                                   const std::vector<localize::Chain>& chains, double spacing,

@@ -90,17 +90,13 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
                    Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
-    closely_ = counted_roughly_ = false;
-    try {
-        plan_all(queries, shapes, plan, results, submissions);
-    } catch (const Failure&) {
-        if (!counted_roughly_) {
-            throw;
-        }
-        // It may fit all the same.
-        closely_ = true;
+    counts_closely_ = false;
+    plan_all(queries, shapes, plan, results, submissions);
+    if (plan.result_bytes + rough_bytes_ > memory_for_results_) {
+        counts_closely_ = true;
         plan_all(queries, shapes, plan, results, submissions);
     }
+    plan.result_bytes += rough_bytes_;
 }
 
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -109,7 +105,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
     plan.subpixel = limits_.subpixel;
-    localize_milliseconds_ = 0.0;
+    localize_milliseconds_ = rough_bytes_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {

@@ -101,7 +101,13 @@ private:
     [[nodiscard]] bool check_resident(const IntersectionQuery& query, IntersectionResult& result);
     [[nodiscard]] double bytes_of_samples(const IntersectionQuery& query) const;
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
-    void add_contact_points(std::uint32_t index, double contact_distance, ResultSummary& result);
+    [[nodiscard]] double find_contact_chains(const geometry::PlacedPolygon& a,
+                                             const geometry::PlacedPolygon& b,
+                                             double contact_distance,
+                                             std::vector<localize::Chain>& chains,
+                                             ResultSummary& result);
+    void add_contact_points(std::uint32_t index, double contact_distance,
+                            const std::vector<localize::Chain>& chains, ResultSummary& result);
     /// The chains that can hold the closest point, and how many samples they take at the most.
     [[nodiscard]] double find_closest_chains(std::uint32_t index,
                                              std::vector<localize::Chain>& chains,
@@ -113,6 +119,12 @@ private:
     [[nodiscard]] bool check_numbers(ResultSummary& result) const;
     /// Whether so many samples of boundaries may be kept at once, beside what comes of them.
     [[nodiscard]] bool can_keep(double samples) const;
+    /// Whether a query may be answered edge by edge, by all samples there are; what their records
+    /// may take is counted roughly then, unless that was too much before.
+    [[nodiscard]] bool fits_roughly(double samples, double bytes_of_record);
+    /// The same by the samples that localisation leaves. Throws Failure (too_large) where their
+    /// records do not fit.
+    [[nodiscard]] bool fits(double samples, double bytes_of_record, double tolerance);
     std::uint32_t add_reverse();
     void sample_boundary(const geometry::PlacedPolygon& polygon, const geometry::Box& within,
                          const ResultSummary& result);
@@ -146,12 +158,12 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
-    bool counted_roughly_ = false;  // what records take that could be planned
-    bool closely_ = false;          // they are planned all the same, for what they take
+    double rough_bytes_ = 0.0;     // that records may take of queries that were not localised
+    bool counts_closely_ = false;  // those are localised too, so that less need be kept for them
 
     // Scratch.
     localize::ClosestChains closest_;
-    std::array<std::vector<localize::Chain>, 2> closest_chains_;  // of A, of B
+    std::array<std::vector<localize::Chain>, 2> chains_of_;  // A and B
     std::vector<localize::Chain> chains_;
     std::vector<geometry::Box> boxes_;
     std::vector<Grid> grids_;

@@ -61,24 +61,38 @@ bool Planner::can_keep(double samples) const {
     return samples <= std::min(most, memory_for_results_ / 4.0 / bytes_of_kept_sample);
 }
 
+bool Planner::fits_roughly(double samples, double bytes_of_record) {
+    const bool is_to_be_close = counts_closely_ && bytes_of_record > 0.0;
+    if (is_to_be_close || !can_keep(samples)) {
+        return false;
+    }
+    rough_bytes_ += bytes_of_record * samples;
+    return true;
+}
+
+bool Planner::fits(double samples, double bytes_of_record, double tolerance) {
+    if (!can_keep(samples)) {
+        return false;
+    }
+    require_memory(bytes_of_record * samples, tolerance, 1.0);
+    return true;
+}
+
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const ErrorBudget budget = penetration_budget(query, planned.deviations);
     result.error_bound = budget.bound;
     result.cell = budget.cell;
     const bool vertices = query.points == PenetrationPoints::vertices;
-    const double most_points =
-        vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
-    const bool closely = closely_ && query.records;
-    planned.edge_by_edge = planned.on_cpu && !closely && (vertices || can_keep(most_points));
+    const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
+    if (planned.on_cpu) {
+        const double samples = vertices ? static_cast<double>(planned.a->size())
+                                        : most_samples(*planned.a, budget.cell);
+        planned.edge_by_edge = fits_roughly(samples, bytes_of_record);
+    }
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
-        // PointPenetration finds them itself, and where they can be.
-        if (query.records) {
-            counted_roughly_ = true;
-            require_memory(sizeof(PenetrationRecord) * most_points, query.tolerance, 1.0);
-        }
         return;
     }
     planned.budget = budget;
@@ -92,18 +106,23 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const Box box_b = b.box();
     chains_.clear();
     count(localize::chains_in_volume(a, b, overlap_options(0.0), chains_), result);
-    join_chain_boxes(box_b, 0.0);
     localize_milliseconds_ += start.milliseconds();
     if (chains_.empty()) {
         return;
     }
+    const double samples =
+        vertices ? most_vertices(chains_) : most_samples(a, chains_, result.cell, box_b);
+    planned.edge_by_edge = planned.on_cpu && fits(samples, bytes_of_record, query.tolerance);
+    if (planned.edge_by_edge) {
+        return;
+    }
+    join_chain_boxes(box_b, 0.0);
     samples_.clear();
+    require_memory(bytes_of_point(planned) * samples, query.tolerance, 1.0);
     if (vertices) {
         vertices_of_chains(a, chains_, samples_);
-        require_memory(bytes_of_point(planned) * static_cast<double>(samples_.size()),
-                       query.tolerance, 1.0);
     } else {
-        sample_boundary(a, box_b, result);
+        sample_chains(a, chains_, result.cell, box_b, samples_);
     }
     spread_points(query_, box_b, result);
 }
@@ -145,19 +164,27 @@ void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummar
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
-void Planner::add_contact_points(std::uint32_t index, double contact_distance,
-                                 ResultSummary& result) {
-    const PlannedQuery& planned = plan_->queries[index];
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+/// The chains that can hold contacts, and how many samples they take at the most.
+double Planner::find_contact_chains(const PlacedPolygon& a, const PlacedPolygon& b,
+                                    double contact_distance, std::vector<localize::Chain>& chains,
+                                    ResultSummary& result) {
     const Stopwatch start;
-    const Box within = grown(b.box(), contact_distance);
     chains_.clear();
     count(localize::chains_near_boundary(a, b, overlap_options(contact_distance), chains_), result);
-    join_chain_boxes(within, 0.0);
     localize_milliseconds_ += start.milliseconds();
+    chains.assign(chains_.begin(), chains_.end());
+    return most_samples(a, chains, result.cell, grown(b.box(), contact_distance));
+}
+
+void Planner::add_contact_points(std::uint32_t index, double contact_distance,
+                                 const std::vector<localize::Chain>& chains,
+                                 ResultSummary& result) {
+    const PlannedQuery& planned = plan_->queries[index];
+    const Box within = grown(PlacedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
+    chains_.assign(chains.begin(), chains.end());
+    join_chain_boxes(within, 0.0);
     if (!chains_.empty()) {
-        sample_boundary(a, within, result);
+        sample_boundary(PlacedPolygon(*planned.a, planned.pose_a), within, result);
         spread_points(index, within, result);
     }
 }
@@ -168,24 +195,31 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     planned.outside = true;
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
-    const double of_a = most_samples(*planned.a, result.cell);
-    const double of_b = most_samples(*planned.b, result.cell);
     const bool gradients = query.normals == ContactNormals::gradient;
     if (gradients) {
         plan_->with_gradient_normals.push_back(query_);
     }
     // Gradients are found around what was planned.
-    planned.edge_by_edge = planned.on_cpu && !gradients && can_keep(of_a + of_b) && !closely_;
-    if (planned.edge_by_edge) {
-        counted_roughly_ = true;
-        require_memory(sizeof(ContactRecord) * (of_a + of_b), query.tolerance, 1.0);
+    const bool may_be_by_edge = planned.on_cpu && !gradients;
+    const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
+    planned.edge_by_edge = may_be_by_edge && fits_roughly(most_samples(*planned.a, result.cell) +
+                                                              most_samples(*planned.b, result.cell),
+                                                          bytes_of_record);
+    if (planned.edge_by_edge || !check_numbers(result)) {
         return;
     }
-    if (check_numbers(result)) {
-        const std::uint32_t reverse = add_reverse();
-        add_contact_points(query_, query.contact_distance, result);
-        add_contact_points(reverse, query.contact_distance, result);
+    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const double near = query.contact_distance;
+    const double samples = find_contact_chains(a, b, near, chains_of_[0], result) +
+                           find_contact_chains(b, a, near, chains_of_[1], result);
+    planned.edge_by_edge = may_be_by_edge && fits(samples, bytes_of_record, query.tolerance);
+    if (planned.edge_by_edge) {
+        return;
     }
+    const std::uint32_t reverse = add_reverse();
+    add_contact_points(query_, near, chains_of_[0], result);
+    add_contact_points(reverse, near, chains_of_[1], result);
 }
 
 double Planner::find_closest_chains(std::uint32_t index, std::vector<localize::Chain>& chains,
@@ -246,16 +280,16 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
         return;  // at distance 0: nothing to render
     }
     const std::uint32_t reverse = both_ways ? add_reverse() : PlannedQuery::none;
-    double samples = find_closest_chains(query_, closest_chains_[0], result);
+    double samples = find_closest_chains(query_, chains_of_[0], result);
     if (both_ways) {
-        samples = std::max(samples, find_closest_chains(reverse, closest_chains_[1], result));
+        samples = std::max(samples, find_closest_chains(reverse, chains_of_[1], result));
     }
     // The exact search takes over from wherever the samples leave off: more of them gain nothing.
     result.cell *= std::max(1.0, samples / most_search_samples);
     if (both_ways) {
-        add_closest_points(reverse, closest_chains_[1], result);
+        add_closest_points(reverse, chains_of_[1], result);
     }
-    add_closest_points(query_, closest_chains_[0], result);
+    add_closest_points(query_, chains_of_[0], result);
 }
 
 }  // namespace nearfield::plan

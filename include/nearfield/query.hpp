@@ -40,12 +40,11 @@ enum class Technique {
     /// The device has no part in it. Points: down to single edges, in double precision. No grid is
     /// sampled in regions: they are the common box of both shapes, none for penetration without
     /// records; for contacts the box around what either shape has in the other's box grown by the
-    /// contact distance; and what localisation found where boundaries have very many samples,
-    /// normals are gradients, or memory is so scarce that a batch's records have to be counted
-    /// closely. Closest points have none. Intersections: bit masks of the
-    /// raster's samples. Distance fields: the near edges of each block of cells. Answers every
-    /// query but GradientMethod::blended (refused, invalid_query), and intersection tests, times
-    /// of impact and separation vectors it alone.
+    /// contact distance; and what localisation found where normals are gradients, or boundaries
+    /// have so many samples that Settings::memory_limit does not let all be kept at once. Closest
+    /// points have none. Intersections: bit masks of the raster's samples. Distance fields: the
+    /// near edges of each block of cells. Answers every query but GradientMethod::blended (refused,
+    /// invalid_query), and intersection tests, times of impact and separation vectors it alone.
     cpu,
 };
 
