@@ -12,13 +12,6 @@ namespace nearfield {
 using exact::PlacedEdges;
 using geometry::Vector;
 
-namespace {
-
-/// Of so few points each is quicker held against several edges at once than all against one.
-constexpr std::size_t few_points = 4;
-
-}  // namespace
-
 void PointPenetration::answer(const plan::PlannedQuery& query, exact::PlacedInstances& instances,
                               PenetrationResult& result) {
     const bool reversed = last_.query + 1 == &query && is_reverse(*last_.query, query);
@@ -74,40 +67,9 @@ void PointPenetration::find_vertices_inside(const exact::PointArrays& vertices,
     }
 }
 
-PointPenetration::Deepest PointPenetration::find_deepest(double touching, double margin,
-                                                         const PlacedEdges& b) {
-    const exact::PointArrays points = inside_.arrays();
-    Deepest deepest;
-    if (exact::is_small(b) && points.count <= few_points) {
-        for (std::uint32_t i = 0; i < points.count; ++i) {
-            const exact::NearestOfEdges near =
-                exact::kernels::find_nearest(b, points.x[i], points.y[i]);
-            deepest.count += near.squared > touching * touching ? 1U : 0U;
-            if (near.squared > deepest.nearest.squared) {
-                deepest.point = i;
-                deepest.nearest = near;
-            }
-        }
-    } else {
-        nearest_.find(points, b, margin);
-        const exact::NearestArrays& nearest = nearest_.arrays();
-        double most = 0.0;
-        for (std::uint32_t i = 0; i < points.count; ++i) {
-            deepest.count += nearest.distance[i] > touching ? 1U : 0U;
-            if (nearest.distance[i] > most) {
-                deepest.point = i;
-                most = nearest.distance[i];
-            }
-        }
-        deepest.nearest.edge = nearest.edge[deepest.point];
-        deepest.nearest.second_squared = nearest.second_squared[deepest.point];
-    }
-    return deepest;
-}
-
 void PointPenetration::write_deepest(double touching, double margin, const PlacedEdges& b,
                                      PenetrationResult& result) {
-    const Deepest deepest = find_deepest(touching, margin, b);
+    const exact::DeepestPoint deepest = deepest_.find(inside_.arrays(), b, touching, margin);
     result.count = deepest.count;
     if (deepest.count == 0) {
         return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/exact/boundary.hpp>
+#include <engine/exact/deepest_point.hpp>
 #include <engine/exact/meeting.hpp>
 #include <engine/exact/nearest_points.hpp>
 #include <engine/exact/placed_edges.hpp>
@@ -51,17 +52,8 @@ private:
         bool unique;
     };
 
-    /// Of the points inside.
-    struct Deepest {
-        std::uint32_t count = 0;  ///< of those that are not on B's boundary
-        std::uint32_t point = 0;
-        exact::NearestOfEdges nearest;  ///< to it: an edge of B, and how far others are if known
-    };
-
     // Points nearer to B's boundary than `touching` are on it.
 
-    /// `margin`: of uniqueness.
-    [[nodiscard]] Deepest find_deepest(double touching, double margin, const exact::PlacedEdges& b);
     /// Where no more than the deepest point is asked for.
     void write_deepest(double touching, double margin, const exact::PlacedEdges& b,
                        PenetrationResult& result);
@@ -76,6 +68,7 @@ private:
     InsideSamples samples_;         // of A
     PointList inside_;              // points of A
     exact::NearestPoints nearest_;  // to them
+    exact::DeepestPointFinder deepest_;
     // Edges of a small B, beside the points.
     std::array<std::uint32_t, exact::padded(exact::most_edges_one_by_one)> beside_{};
     Pair last_;

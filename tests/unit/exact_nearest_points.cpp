@@ -1,3 +1,4 @@
+#include "point_samples.hpp"
 #include "shape_samples.hpp"
 
 #include <engine/exact/nearest_points.hpp>
@@ -14,22 +15,7 @@ namespace {
 using geometry::PlacedPolygon;
 using geometry::Polygon;
 using geometry::Vector;
-
-/// Points with the room that kernels need.
-struct Points {
-    std::vector<double> x;
-    std::vector<double> y;
-    std::uint32_t count = 0;
-
-    void push(const Vector& point) {
-        x.resize(count + 1 + 2 * most_lanes, std::numeric_limits<double>::quiet_NaN());
-        y.resize(count + 1 + 2 * most_lanes, std::numeric_limits<double>::quiet_NaN());
-        x[count] = point.x();
-        y[count] = point.y();
-        ++count;
-    }
-    [[nodiscard]] PointArrays arrays() const { return {count, x.data(), y.data()}; }
-};
+using samples::Points;
 
 /// Points here and there, or along lines, closer together or farther apart.
 Points any_points(const PlacedPolygon& placed, samples::Random& random) {

@@ -1,0 +1,122 @@
+#include <engine/exact/deepest_point.hpp>
+#include <engine/exact/edge_by_edge.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::Vector;
+
+/// Of so few points each is quicker held against several edges at once than all against one.
+constexpr std::uint32_t few_points = 4;
+
+/// From so many points on soundings pay.
+constexpr std::uint32_t many_points = 128;
+
+}  // namespace
+
+DeepestPoint DeepestPointFinder::find(const PointArrays& points, const PlacedEdges& edges,
+                                      double touching, double margin) {
+    points_ = points;
+    edges_ = &edges;
+    touching_ = touching;
+    depth_ = 0.0;
+    deepest_ = {};
+    if (points.count >= many_points) {
+        find_by_soundings();
+    } else if (points.count <= few_points && is_small(edges)) {
+        find_one_by_one();
+    } else {
+        find_together(margin);
+    }
+    return deepest_;
+}
+
+void DeepestPointFinder::find_one_by_one() {
+    for (std::uint32_t i = 0; i < points_.count; ++i) {
+        const NearestOfEdges near = kernels::find_nearest(*edges_, points_.x[i], points_.y[i]);
+        deepest_.count += near.squared > touching_ * touching_ ? 1U : 0U;
+        if (near.squared > deepest_.nearest.squared) {
+            deepest_.point = i;
+            deepest_.nearest = near;
+        }
+    }
+}
+
+void DeepestPointFinder::find_together(double margin) {
+    nearest_.find(points_, *edges_, margin);
+    const NearestArrays& nearest = nearest_.arrays();
+    for (std::uint32_t i = 0; i < points_.count; ++i) {
+        take(i, nearest.distance[i]);
+    }
+    deepest_.nearest.edge = nearest.edge[deepest_.point];
+    deepest_.nearest.second_squared = nearest.second_squared[deepest_.point];
+}
+
+void DeepestPointFinder::take(std::uint32_t point, double depth) {
+    deepest_.count += depth > touching_ ? 1U : 0U;
+    if (depth > depth_ || (depth == depth_ && point < deepest_.point)) {
+        deepest_.point = point;
+        deepest_.nearest.edge = guess_;
+        depth_ = depth;
+    }
+}
+
+DeepestPointFinder::Sounding DeepestPointFinder::sound(std::uint32_t point) {
+    const Vector at(points_.x[point], points_.y[point]);
+    const NearestPoint near =
+        is_small(*edges_) ? nearest(*edges_, at) : boundary_.nearest(at, guess_);
+    guess_ = near.edge;
+    const Sounding sounding{point, std::sqrt(near.on_edge.squared_distance)};
+    take(point, sounding.depth);
+    return sounding;
+}
+
+void DeepestPointFinder::find_by_soundings() {
+    if (!is_small(*edges_)) {
+        boundary_.set(*edges_);
+    }
+    guess_ = 0;
+    soundings_.clear();
+    const std::uint32_t last = points_.count - 1;
+    for (std::uint32_t i = 0; i < last; i += stride) {
+        soundings_.push_back(sound(i));
+    }
+    soundings_.push_back(sound(last));
+    for (std::size_t i = 0; i + 1 < soundings_.size(); ++i) {
+        const std::uint32_t origin = soundings_[i].point;
+        std::array<double, stride + 1> way{};
+        for (std::uint32_t k = origin + 1; k <= soundings_[i + 1].point; ++k) {
+            const Vector step(points_.x[k] - points_.x[k - 1], points_.y[k] - points_.y[k - 1]);
+            way[k - origin] = way[k - origin - 1] + step.norm();
+        }
+        search_between(soundings_[i], soundings_[i + 1], way.data(), origin);
+    }
+}
+
+void DeepestPointFinder::search_between(const Sounding& low, const Sounding& high,
+                                        const double* way, std::uint32_t origin) {
+    const std::uint32_t between = high.point - low.point - 1;
+    if (between == 0) {
+        return;
+    }
+    // No point between them is deeper or less deep than both and the way allow for; a little more,
+    // for rounding.
+    const double both = low.depth + high.depth;
+    const double from_low_to_high = way[high.point - origin] - way[low.point - origin];
+    const double slack = 4.0 * edges_->rounding + 1e-12 * (both + from_low_to_high);
+    const double most = 0.5 * (both + from_low_to_high) + slack;
+    const double least = 0.5 * (both - from_low_to_high) - slack;
+    if (most < depth_ && least > touching_) {
+        deepest_.count += between;
+        return;
+    }
+    const Sounding middle = sound(low.point + (high.point - low.point) / 2);
+    search_between(low, middle, way, origin);
+    search_between(middle, high, way, origin);
+}
+
+}  // namespace nearfield::exact
