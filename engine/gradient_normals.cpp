@@ -17,8 +17,7 @@ Rectangle around(std::span<const Vector2> points, double cell) {
     for (const Vector2& point : points) {
         box.extend(geometry::to_vector(point));
     }
-    box.min().array() -= 2.0 * cell;
-    box.max().array() += 2.0 * cell;
+    box = geometry::grown(box, 2.0 * cell);
     return {geometry::to_public(box.min()), geometry::to_public(box.max())};
 }
 

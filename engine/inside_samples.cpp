@@ -57,11 +57,16 @@ void InsideSamples::find(const PlacedEdges& a, const PlacedEdges& b, bool revers
 }
 
 void InsideSamples::follow(std::uint32_t edge, double parts, std::span<const Crossing> crossings) {
-    const auto end = static_cast<std::uint32_t>(parts);
-    std::uint32_t part = 0;
+    // Of a long edge little may be in the box, and all of it along an edge of B.
+    const plan::PartRange in_box = plan::parts_within(a_->placed, edge, parts, b_->box);
+    if (in_box.first > 0.0) {
+        side_ = Side::outside;
+    }
+    auto part = static_cast<std::uint32_t>(in_box.first);
+    const auto end = static_cast<std::uint32_t>(in_box.end);
     const auto part_at = [&](double parameter) {
         return static_cast<std::uint32_t>(
-            std::clamp(parameter * parts, static_cast<double>(part), parts));
+            std::clamp(parameter * parts, static_cast<double>(part), in_box.end));
     };
     for (const Crossing& crossing : crossings) {
         // Parts that begin where the edge may cross, and one before or behind them.
@@ -73,6 +78,9 @@ void InsideSamples::follow(std::uint32_t edge, double parts, std::span<const Cro
         side_ = Side::unknown;
     }
     add_stretch(edge, parts, part, end);
+    if (in_box.end < parts) {
+        side_ = Side::outside;
+    }
 }
 
 void InsideSamples::add_stretch(std::uint32_t edge, double parts, std::uint32_t part,

@@ -11,17 +11,8 @@ using exact::PlacedEdges;
 using exact::Stretch;
 using geometry::Vector;
 
-namespace {
-
-Extent box_around(const geometry::Box& box, double reach) {
-    return {box.min().x() - reach, box.min().y() - reach, box.max().x() + reach,
-            box.max().y() + reach};
-}
-
-}  // namespace
-
 std::span<const std::uint32_t> NearSamples::find_edges() {
-    const Extent box = box_around(b_->box, reach_);
+    const Extent box = exact::extent_of(near_b_);
     if (edges_.size() < exact::padded(a_->count)) {
         edges_.resize(exact::padded(a_->count));
     }
@@ -51,10 +42,11 @@ void NearSamples::find(const PlacedEdges& a, const PlacedEdges& b, double distan
     b_ = &b;
     // Several times what the placed vertices are off by: what is measured rounds as well.
     reach_ = distance + 8.0 * (a.rounding + b.rounding);
+    near_b_ = geometry::grown(b.box, reach_);
     points_.clear();
     places_.clear();
     if (exact::is_small(b)) {
-        picked_.pick(b, box_around(a.box, reach_));
+        picked_.pick(b, exact::extent_of(geometry::grown(a.box, reach_)));
         if (picked_.empty()) {
             return;
         }
@@ -71,11 +63,13 @@ void NearSamples::find(const PlacedEdges& a, const PlacedEdges& b, double distan
 }
 
 void NearSamples::add(std::uint32_t edge, double parts) {
-    std::uint32_t part = 0;
+    // Where there are many stretches they may be told as one, of all of a long edge.
+    const plan::PartRange near = plan::parts_within(a_->placed, edge, parts, near_b_);
+    auto part = static_cast<std::uint32_t>(near.first);
     for (const Stretch& stretch : find_stretches(edge)) {
         part = std::max(part, static_cast<std::uint32_t>(stretch.from * parts));
         const auto end =
-            static_cast<std::uint32_t>(std::min(std::floor(stretch.to * parts) + 1.0, parts));
+            static_cast<std::uint32_t>(std::min(std::floor(stretch.to * parts) + 1.0, near.end));
         points_.reserve(points_.size() + (end - std::min(part, end)));
         for (; part < end; ++part) {
             const double parameter = part / parts;

@@ -39,6 +39,7 @@ private:
     const exact::PlacedEdges* a_ = nullptr;
     const exact::PlacedEdges* b_ = nullptr;
     double reach_ = 0.0;
+    geometry::Box near_b_;                // all that is no farther from B than that
     exact::PickedEdges picked_;           // of a small B
     std::optional<exact::BoxTree> tree_;  // over another
     std::vector<std::uint32_t> edges_;    // of A

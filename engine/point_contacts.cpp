@@ -12,12 +12,6 @@ using exact::PlacedEdges;
 using geometry::Box;
 using geometry::Vector;
 
-Box box_grown_by(Box box, double distance) {
-    box.min().array() -= distance;
-    box.max().array() += distance;
-    return box;
-}
-
 /// Which of some points lie inside a polygon, asked in order along a line.
 class SidesOfPoints {
 public:
@@ -61,8 +55,8 @@ void PointContacts::answer(const plan::PlannedQuery& query, exact::PlacedInstanc
     }
     const auto& asked = std::get<ContactQuery>(*query.query);
     const double near = asked.contact_distance;
-    const Box of_a = a.box.intersection(box_grown_by(b.box, near));
-    const Box of_b = b.box.intersection(box_grown_by(a.box, near));
+    const Box of_a = a.box.intersection(geometry::grown(b.box, near));
+    const Box of_b = b.box.intersection(geometry::grown(a.box, near));
     if (of_a.isEmpty() || of_b.isEmpty()) {
         complete_if_near(pair, instances);
         result.intersects = meeting_.intersect(a, b);

@@ -11,6 +11,7 @@ namespace nearfield::choose {
 namespace {
 
 using geometry::Box;
+using geometry::grown;
 using geometry::PlacedPolygon;
 using geometry::Polygon;
 
@@ -36,12 +37,6 @@ Box rough_box(const PlacedPolygon& placed) {
             box.extend(placed.vertex(i));
         }
     }
-    return box;
-}
-
-Box grown(Box box, double by) {
-    box.min().array() -= by;
-    box.max().array() += by;
     return box;
 }
 

@@ -3,14 +3,12 @@
 namespace nearfield::exact {
 
 bool MeetingPairs::pick_near(const PlacedEdges& a, const PlacedEdges& b, double grow) {
-    geometry::Box common = a.box.intersection(b.box);
-    common.min().array() -= grow;
-    common.max().array() += grow;
-    of_a_.pick(a, extent_of(common));
+    const Extent common = extent_of(geometry::grown(a.box.intersection(b.box), grow));
+    of_a_.pick(a, common);
     if (of_a_.empty()) {
         return false;
     }
-    of_b_.pick(b, extent_of(common));
+    of_b_.pick(b, common);
     return !of_b_.empty();
 }
 

@@ -15,6 +15,13 @@ inline double cross(const Vector& a, const Vector& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
+/// A box whose sides are all farther out by so much.
+inline Box grown(Box box, double by) {
+    box.min().array() -= by;
+    box.max().array() += by;
+    return box;
+}
+
 inline Vector to_vector(const Vector2& v) {
     return {v.x, v.y};
 }

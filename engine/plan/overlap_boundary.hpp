@@ -16,11 +16,10 @@ namespace nearfield::plan {
     const geometry::PlacedPolygon placed(polygon, pose);
     // Farther than crossing_edges() looks and offset polygons reach.
     const double beyond = 2.0 * budget.offset + budget.simplification + 4.0 * cell;
-    geometry::Box window(tile.origin(),
-                         tile.origin() + cell * geometry::Vector(tile.width, tile.height));
-    window.min().array() -= beyond;
-    window.max().array() += beyond;
-    return {shapes.get_near(placed, window, budget.simplification, longest_tile_run * cell),
+    const geometry::Box drawn(tile.origin(),
+                              tile.origin() + cell * geometry::Vector(tile.width, tile.height));
+    return {shapes.get_near(placed, geometry::grown(drawn, beyond), budget.simplification,
+                            longest_tile_run * cell),
             ToCells(placed, tile.origin(), cell)};
 }
 

@@ -199,10 +199,7 @@ void Planner::count(const localize::Effort& effort, ResultSummary& result) const
 void Planner::join_chain_boxes(const Box& within, double grow) {
     boxes_.clear();
     for (const localize::Chain& chain : chains_) {
-        Box box = chain.box;
-        box.min().array() -= grow;
-        box.max().array() += grow;
-        box = box.intersection(within);
+        const Box box = geometry::grown(chain.box, grow).intersection(within);
         if (!box.isEmpty()) {
             boxes_.push_back(box);
         }

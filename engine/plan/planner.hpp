@@ -86,7 +86,7 @@ private:
     void find_common_volume(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
                             const geometry::Box& within, ResultSummary& result);
     void find_near_boundary(IntersectionKind kind, const geometry::PlacedPolygon& a,
-                            const geometry::PlacedPolygon& b, geometry::Box within,
+                            const geometry::PlacedPolygon& b, const geometry::Box& within,
                             ResultSummary& result);
 
     /// The box that a field covers; none, and the result says why, where it has none.

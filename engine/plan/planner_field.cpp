@@ -106,16 +106,14 @@ std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
     }
     const PlannedQuery& planned = plan_->queries[query_];
     const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
-    Box box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
+    const Box box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
     if (box.isEmpty()) {
         result.status = {StatusCode::invalid_query,
                          "the bounding boxes of A and B have nothing in common; give the "
                          "rectangle the distance field is to cover"};
         return std::nullopt;
     }
-    box.min().array() -= query.tolerance;
-    box.max().array() += query.tolerance;
-    return box;
+    return geometry::grown(box, query.tolerance);
 }
 
 bool Planner::check_field(const Box& box, ResultSummary& result) const {

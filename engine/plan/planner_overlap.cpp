@@ -94,16 +94,14 @@ void Planner::find_common_volume(const PlacedPolygon& a, const PlacedPolygon& b,
 }
 
 void Planner::find_near_boundary(IntersectionKind kind, const PlacedPolygon& a,
-                                 const PlacedPolygon& b, Box within, ResultSummary& result) {
+                                 const PlacedPolygon& b, const Box& within, ResultSummary& result) {
     const double grow = plan_->queries[query_].budget.bound;
     chains_.clear();
     count(kind == IntersectionKind::boundary_volume
               ? localize::chains_in_volume(a, b, overlap_options(grow), chains_)
               : localize::chains_near_boundary(a, b, overlap_options(2.0 * grow), chains_),
           result);
-    within.min().array() -= grow;
-    within.max().array() += grow;
-    join_chain_boxes(within, grow);
+    join_chain_boxes(geometry::grown(within, grow), grow);
 }
 
 /// What the tiles of the query's grids take themselves, where nothing is kept for their cells.

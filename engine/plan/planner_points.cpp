@@ -12,6 +12,7 @@ namespace nearfield::plan {
 // The part of the planner for points of one boundary in the field of the other.
 
 using geometry::Box;
+using geometry::grown;
 using geometry::PlacedPolygon;
 
 namespace {
@@ -28,18 +29,16 @@ double bytes_of_point(const PlannedQuery& query) {
     return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
 }
 
-Box grown(Box box, double by) {
-    box.min().array() -= by;
-    box.max().array() += by;
-    return box;
-}
-
 // Of either boundary, for a search that is finished exactly.
 constexpr double most_search_samples = 4096.0;
 
 // What a sample takes while all of a boundary's are kept at once and none is planned: its place,
 // what is nearest to it, the contact it may be.
 constexpr double bytes_of_kept_sample = 256.0;
+
+// Of a whole boundary: so many that 32 bits number them, and the parts of an edge, with room to
+// spare.
+constexpr double most_numbered_samples = 1U << 30U;
 
 }  // namespace
 
@@ -57,8 +56,8 @@ bool Planner::check_numbers(ResultSummary& result) const {
 }
 
 bool Planner::can_keep(double samples) const {
-    constexpr double most = 1U << 30U;  // so that 32 bits number them, and the parts of an edge
-    return samples <= std::min(most, memory_for_results_ / 4.0 / bytes_of_kept_sample);
+    return samples <=
+           std::min(most_numbered_samples, memory_for_results_ / 4.0 / bytes_of_kept_sample);
 }
 
 bool Planner::fits_roughly(double samples, double bytes_of_record) {
@@ -85,11 +84,10 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     result.cell = budget.cell;
     const bool vertices = query.points == PenetrationPoints::vertices;
     const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
-    if (planned.on_cpu) {
-        const double samples = vertices ? static_cast<double>(planned.a->size())
-                                        : most_samples(*planned.a, budget.cell);
-        planned.edge_by_edge = fits_roughly(samples, bytes_of_record);
-    }
+    const double of_boundary =
+        vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
+    const bool may_be_by_edge = planned.on_cpu && of_boundary <= most_numbered_samples;
+    planned.edge_by_edge = may_be_by_edge && fits_roughly(of_boundary, bytes_of_record);
     if (planned.edge_by_edge) {
         // Nothing is planned: of the budget the bound alone is asked for.
         planned.budget.bound = budget.bound;
@@ -112,7 +110,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     }
     const double samples =
         vertices ? most_vertices(chains_) : most_samples(a, chains_, result.cell, box_b);
-    planned.edge_by_edge = planned.on_cpu && fits(samples, bytes_of_record, query.tolerance);
+    planned.edge_by_edge = may_be_by_edge && fits(samples, bytes_of_record, query.tolerance);
     if (planned.edge_by_edge) {
         return;
     }
@@ -199,12 +197,13 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     if (gradients) {
         plan_->with_gradient_normals.push_back(query_);
     }
+    const double of_boundaries =
+        most_samples(*planned.a, result.cell) + most_samples(*planned.b, result.cell);
     // Gradients are found around what was planned.
-    const bool may_be_by_edge = planned.on_cpu && !gradients;
+    const bool may_be_by_edge =
+        planned.on_cpu && !gradients && of_boundaries <= most_numbered_samples;
     const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
-    planned.edge_by_edge = may_be_by_edge && fits_roughly(most_samples(*planned.a, result.cell) +
-                                                              most_samples(*planned.b, result.cell),
-                                                          bytes_of_record);
+    planned.edge_by_edge = may_be_by_edge && fits_roughly(of_boundaries, bytes_of_record);
     if (planned.edge_by_edge || !check_numbers(result)) {
         return;
     }

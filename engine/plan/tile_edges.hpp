@@ -73,10 +73,7 @@ public:
 
     /// A box around all of `box`, which is relative to the shape's centre, in cells.
     [[nodiscard]] geometry::Box in_cells(const geometry::Box& box) const {
-        geometry::Box cells = to_cells_(box);
-        cells.min().array() -= rounding_;
-        cells.max().array() += rounding_;
-        return cells;
+        return geometry::grown(to_cells_(box), rounding_);
     }
 
 private:

@@ -35,25 +35,48 @@ TEST_F(Extremes, DeepInsideAHugeShapeRecordsAreStillExact) {
     }
 }
 
-TEST_F(Extremes, EdgesOfMorePartsThanThirtyTwoBitsCountAreSampledWhereTheyMatter) {
-    // A strip so long that each of its long edges has 14,000,000,000 parts, through a small square.
-    const auto a = context().add_shape(rectangle({-1e6, -0.001}, {1e6, 0.001}));
-    const auto b = context().add_shape(rectangle({-0.05, -0.05}, {0.05, 0.05}));
-    ASSERT_TRUE(a.ok() && b.ok());
-    PenetrationQuery query;
-    query.a.shape = *a;
-    query.b.shape = *b;
-    query.tolerance = 1e-4;
-    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
-        SCOPED_TRACE(to_string(technique));
-        query.technique = technique;
-        const PenetrationResult result = run_alone(context(), query);
-        ASSERT_TRUE(result.status.ok()) << result.status.text();
-        // Two lengths of 0.1, samples at most d times the root of two apart.
-        const double most_apart = query.tolerance * std::numbers::sqrt2;
-        EXPECT_NEAR(result.count, 2.0 * 0.1 / most_apart, 4.0);
-        EXPECT_NEAR(result.deepest.depth, 0.049, 1e-4);
+/// A strip so long that its long edges have very many samples, through a small square.
+class LongStrip : public Extremes {
+protected:
+    static void expect_samples(double low, double deepest, double tolerance) {
+        const auto a = context().add_shape(rectangle({-1e6, low}, {1e6, 0.001}));
+        const auto b = context().add_shape(rectangle({-0.05, -0.05}, {0.05, 0.05}));
+        ASSERT_TRUE(a.ok() && b.ok());
+        PenetrationQuery query;
+        query.a.shape = *a;
+        query.b.shape = *b;
+        query.tolerance = tolerance;
+        // A length of 0.1 for each long edge inside, samples at most d times the root of two apart.
+        const double of_an_edge = 0.1 / (tolerance * std::numbers::sqrt2);
+        const double edges_inside = low > -0.05 ? 2.0 : 1.0;
+        for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+            SCOPED_TRACE(to_string(technique));
+            query.technique = technique;
+            const PenetrationResult result = run_alone(context(), query);
+            ASSERT_TRUE(result.status.ok()) << result.status.text();
+            EXPECT_NEAR(result.count, edges_inside * of_an_edge, 4.0);
+            EXPECT_NEAR(result.deepest.depth, deepest, tolerance);
+            const ContactResult contacts =
+                run_alone(context(), ContactQuery{query.a, query.b, tolerance, tolerance,
+                                                  ContactNormals::analytic, true, technique});
+            ASSERT_TRUE(contacts.status.ok()) << contacts.status.text();
+            EXPECT_GT(contacts.count, 4U);
+        }
+        EXPECT_TRUE(context().remove_shape(*a).ok());
+        EXPECT_TRUE(context().remove_shape(*b).ok());
     }
+};
+
+TEST_F(LongStrip, IsSampledWhereItMatters) {
+    // 14,000,000,000 parts an edge, more than 32 bits count, and 700,000,000.
+    expect_samples(-0.001, 0.049, 1e-4);
+    expect_samples(-0.001, 0.049, 2e-3);
+}
+
+TEST_F(LongStrip, IsSampledWhereItMattersAlongAnEdge) {
+    // The lower edge of the strip lies on that of the square.
+    expect_samples(-0.05, 0.049, 1e-4);
+    expect_samples(-0.05, 0.049, 2e-3);
 }
 
 TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {

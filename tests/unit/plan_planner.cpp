@@ -139,7 +139,7 @@ TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
     const auto many = static_cast<std::size_t>(most / roughly) + 1;
     query.contact_distance = 0.01;
     run(std::vector<AnyQuery>(many, query));
-    EXPECT_FALSE(plan_.queries[0].edge_by_edge);
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
     EXPECT_EQ(plan_.result_bytes, 0.0);
     query.contact_distance = 30.0;
     EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), Failure);
@@ -158,12 +158,15 @@ TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
     ASSERT_GT(roughly, 0.0);
     const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / roughly) + 1;
     run(std::vector<AnyQuery>(many, query));
-    EXPECT_FALSE(plan_.queries[0].edge_by_edge);
-    query.b.pose.translation = {};
-    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), Failure);
-    query.records = false;
-    run(std::vector<AnyQuery>(many, query));
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+    query.b.pose = {{1.0, 1.0}, 0.0};
+    run(std::vector<AnyQuery>(many / 2, query));
     EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+    EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, query)), Failure);
+    query.records = false;
+    run(std::vector<AnyQuery>(4 * many, query));
+    EXPECT_TRUE(plan_.queries[0].edge_by_edge);
+    EXPECT_EQ(plan_.result_bytes, 0.0);
 }
 
 TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
