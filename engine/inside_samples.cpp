@@ -58,7 +58,7 @@ void InsideSamples::find(const PlacedEdges& a, const PlacedEdges& b, bool revers
 
 void InsideSamples::follow(std::uint32_t edge, double parts, std::span<const Crossing> crossings) {
     // Of a long edge little may be in the box, and all of it along an edge of B.
-    const plan::PartRange in_box = plan::parts_within(a_->placed, edge, parts, b_->box);
+    const plan::PartRange in_box = plan::parts_roughly_within(a_->placed, edge, parts, b_->box);
     if (in_box.first > 0.0) {
         side_ = Side::outside;
     }

@@ -64,7 +64,7 @@ void NearSamples::find(const PlacedEdges& a, const PlacedEdges& b, double distan
 
 void NearSamples::add(std::uint32_t edge, double parts) {
     // Where there are many stretches they may be told as one, of all of a long edge.
-    const plan::PartRange near = plan::parts_within(a_->placed, edge, parts, near_b_);
+    const plan::PartRange near = plan::parts_roughly_within(a_->placed, edge, parts, near_b_);
     auto part = static_cast<std::uint32_t>(near.first);
     for (const Stretch& stretch : find_stretches(edge)) {
         part = std::max(part, static_cast<std::uint32_t>(stretch.from * parts));

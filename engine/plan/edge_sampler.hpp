@@ -43,4 +43,13 @@ struct PartRange {
 [[nodiscard]] PartRange parts_within(const geometry::PlacedPolygon& placed, std::uint32_t edge,
                                      double parts, const geometry::Box& within);
 
+/// The same for who leaves out what is outside in other ways, mostly: all parts unless they are
+/// very many.
+[[nodiscard]] inline PartRange parts_roughly_within(const geometry::PlacedPolygon& placed,
+                                                    std::uint32_t edge, double parts,
+                                                    const geometry::Box& within) {
+    constexpr double very_many = 1024.0;
+    return parts < very_many ? PartRange{0.0, parts} : parts_within(placed, edge, parts, within);
+}
+
 }  // namespace nearfield::plan
