@@ -109,15 +109,19 @@ void HandOverSlot::upload_tables() {
 }
 
 void HandOverSlot::make_sets() {
-    const std::size_t wanted = hand_over_->field_parts.size() + hand_over_->point_runs.size() +
-                               hand_over_->records.size() + 2 * hand_over_->sample_runs.size() +
-                               hand_over_->samples.size();
-    while (own_sets_.size() < wanted) {
-        own_sets_.emplace_back(*device_, *layout_, set_names);
-    }
     sets_.clear();
-    for (std::size_t i = 0; i < wanted; ++i) {
-        sets_.push_back(own_sets_[i][0]);
+    append_sets(hand_over_->field_parts.size(), sets_of_images_);
+    append_sets(hand_over_->point_runs.size() + hand_over_->records.size() +
+                    2 * hand_over_->sample_runs.size() + hand_over_->samples.size(),
+                sets_of_buffers_);
+}
+
+void HandOverSlot::append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own) {
+    while (own.size() < count) {
+        own.emplace_back(*device_, *layout_, set_names);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        sets_.push_back(own[i][0]);
     }
 }
 

@@ -69,6 +69,7 @@ private:
                                  std::uint64_t blocks) const;
     void upload_tables();
     void make_sets();
+    void append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own);
     void bind_fields(std::span<const Words> words, std::span<const VkDescriptorSet>& sets) const;
     void bind_points(std::span<const Words> words, const BufferPart& none,
                      std::span<const VkDescriptorSet>& sets);
@@ -87,7 +88,11 @@ private:
     std::vector<Place> places_;           // by records
     std::vector<Place> sample_places_;    // by samples
     std::vector<std::uint32_t> details_;  // by run of points
-    std::vector<passes::DescriptorSets> own_sets_;
+    // Of fields, and of records and samples, each their own, so that all that a set was ever bound
+    // to is bound anew with every use: lavapipe reads bindings that no shader does, and what they
+    // name may be gone.
+    std::vector<passes::DescriptorSets> sets_of_images_;
+    std::vector<passes::DescriptorSets> sets_of_buffers_;
     /// By part of a field; then, for each records, by run and one more; then, for each samples, two
     /// by run and one more.
     std::vector<VkDescriptorSet> sets_;
