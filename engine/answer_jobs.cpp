@@ -1,6 +1,7 @@
 #include <engine/answer_jobs.hpp>
 #include <engine/failure.hpp>
 #include <engine/placed_pair.hpp>
+#include <engine/plan/boundary_points.hpp>
 
 #include <algorithm>
 #include <string>
@@ -16,13 +17,25 @@ std::size_t edges_of(const plan::PlannedQuery& query) {
     return (query.a == nullptr ? 0 : query.a->size()) + (query.b == nullptr ? 0 : query.b->size());
 }
 
-/// What a query comes to, in edges that are looked at once or twice.
+/// Of a query that is answered edge by edge: of boundaries that are looked at all along.
+std::size_t samples_of(const plan::PlannedQuery& query) {
+    const double of_a = plan::most_samples(*query.a, query.budget.cell);
+    if (const auto* const penetration = std::get_if<PenetrationQuery>(query.query)) {
+        return penetration->points == PenetrationPoints::vertices ? 0
+                                                                  : static_cast<std::size_t>(of_a);
+    }
+    return static_cast<std::size_t>(of_a + plan::most_samples(*query.b, query.budget.cell));
+}
+
+/// What a query comes to, in edges or samples that are looked at once or twice.
 std::size_t weight_of(const plan::PlannedQuery& query) {
     if (!query.on_cpu) {
         return 0;
     }
-    const bool looks_once = query.edge_by_edge ||
-                            std::holds_alternative<IntersectionTestQuery>(*query.query) ||
+    if (query.edge_by_edge) {
+        return edges_of(query) + samples_of(query);
+    }
+    const bool looks_once = std::holds_alternative<IntersectionTestQuery>(*query.query) ||
                             std::holds_alternative<SeparationQuery>(*query.query) ||
                             std::holds_alternative<ClosestPointQuery>(*query.query);
     return looks_once ? edges_of(query) : edges_of_a_part;
@@ -108,7 +121,8 @@ std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uin
                                       FieldDecoder& fields, std::vector<AnyResult>& results) {
     if (system_.run != nullptr) {
         divide(plan, results.size());
-        const std::size_t jobs = std::min<std::size_t>(ends_.size(), system_.count);
+        const double in_memory = std::min<double>(system_.count, plan.most_jobs);
+        const std::size_t jobs = std::min(ends_.size(), static_cast<std::size_t>(in_memory));
         if (jobs > 1) {
             return run_at_once(static_cast<std::uint32_t>(jobs), {plan, words, fields, results});
         }

@@ -1,7 +1,6 @@
 #include <engine/exact/deepest_point.hpp>
 #include <engine/exact/edge_by_edge.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,8 +12,9 @@ using geometry::Vector;
 /// Of so few points each is quicker held against several edges at once than all against one.
 constexpr std::uint32_t few_points = 4;
 
-/// From so many points on soundings pay.
+/// From so many points and edges on soundings pay.
 constexpr std::uint32_t many_points = 128;
+constexpr std::uint32_t many_edges = 32;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ DeepestPoint DeepestPointFinder::find(const PointArrays& points, const PlacedEdg
     touching_ = touching;
     depth_ = 0.0;
     deepest_ = {};
-    if (points.count >= many_points) {
+    if (points.count >= many_points && edges.count >= many_edges) {
         find_by_soundings();
     } else if (points.count <= few_points && is_small(edges)) {
         find_one_by_one();
@@ -50,17 +50,16 @@ void DeepestPointFinder::find_together(double margin) {
     nearest_.find(points_, *edges_, margin);
     const NearestArrays& nearest = nearest_.arrays();
     for (std::uint32_t i = 0; i < points_.count; ++i) {
-        take(i, nearest.distance[i]);
+        take(i, nearest.distance[i], nearest.edge[i]);
     }
-    deepest_.nearest.edge = nearest.edge[deepest_.point];
     deepest_.nearest.second_squared = nearest.second_squared[deepest_.point];
 }
 
-void DeepestPointFinder::take(std::uint32_t point, double depth) {
+void DeepestPointFinder::take(std::uint32_t point, double depth, std::uint32_t edge) {
     deepest_.count += depth > touching_ ? 1U : 0U;
     if (depth > depth_ || (depth == depth_ && point < deepest_.point)) {
         deepest_.point = point;
-        deepest_.nearest.edge = guess_;
+        deepest_.nearest.edge = edge;
         depth_ = depth;
     }
 }
@@ -71,7 +70,7 @@ DeepestPointFinder::Sounding DeepestPointFinder::sound(std::uint32_t point) {
         is_small(*edges_) ? nearest(*edges_, at) : boundary_.nearest(at, guess_);
     guess_ = near.edge;
     const Sounding sounding{point, std::sqrt(near.on_edge.squared_distance)};
-    take(point, sounding.depth);
+    take(point, sounding.depth, near.edge);
     return sounding;
 }
 
@@ -99,10 +98,7 @@ void DeepestPointFinder::find_by_soundings() {
 
 void DeepestPointFinder::search_between(const Sounding& low, const Sounding& high,
                                         const double* way, std::uint32_t origin) {
-    const std::uint32_t between = high.point - low.point - 1;
-    if (between == 0) {
-        return;
-    }
+    const std::uint32_t first = low.point + 1;
     // No point between them is deeper or less deep than both and the way allow for; a little more,
     // for rounding.
     const double both = low.depth + high.depth;
@@ -111,12 +107,24 @@ void DeepestPointFinder::search_between(const Sounding& low, const Sounding& hig
     const double most = 0.5 * (both + from_low_to_high) + slack;
     const double least = 0.5 * (both - from_low_to_high) - slack;
     if (most < depth_ && least > touching_) {
-        deepest_.count += between;
-        return;
+        deepest_.count += high.point - first;
+    } else if (is_small(*edges_) && high.point - first < most_lanes) {
+        // Along a straight wall all are as deep, and few edges are quicker held against all at
+        // once.
+        look_between(first, high.point);
+    } else if (first < high.point) {
+        const Sounding middle = sound(low.point + (high.point - low.point) / 2);
+        search_between(low, middle, way, origin);
+        search_between(middle, high, way, origin);
     }
-    const Sounding middle = sound(low.point + (high.point - low.point) / 2);
-    search_between(low, middle, way, origin);
-    search_between(middle, high, way, origin);
+}
+
+void DeepestPointFinder::look_between(std::uint32_t first, std::uint32_t end) {
+    nearest_.find({end - first, points_.x + first, points_.y + first}, *edges_, 0.0);
+    const NearestArrays& nearest = nearest_.arrays();
+    for (std::uint32_t i = first; i < end; ++i) {
+        take(i, nearest.distance[i - first], nearest.edge[i - first]);
+    }
 }
 
 }  // namespace nearfield::exact

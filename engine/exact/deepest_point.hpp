@@ -42,12 +42,14 @@ private:
     void find_by_soundings();
 
     [[nodiscard]] Sounding sound(std::uint32_t point);
-    /// Counts a point, and takes it where it is deeper.
-    void take(std::uint32_t point, double depth);
+    /// Counts a point, and takes it where it is deeper. `edge`: nearest to it.
+    void take(std::uint32_t point, double depth, std::uint32_t edge);
     /// Looks between two points, which were sounded, as far as it takes. `way`: along the points up
     /// to each, counted from `origin`.
     void search_between(const Sounding& low, const Sounding& high, const double* way,
                         std::uint32_t origin);
+    /// At a few points together.
+    void look_between(std::uint32_t first, std::uint32_t end);
 
     PointArrays points_;
     const PlacedEdges* edges_ = nullptr;

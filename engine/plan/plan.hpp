@@ -157,6 +157,8 @@ struct Plan {
     ByRound field_points_by_round;
     /// Bytes all results may need on the host.
     double result_bytes = 0.0;
+    /// So many jobs at the same time have room for what each keeps while it answers; at least 1.
+    double most_jobs = 1.0;
 
     void clear();
 };

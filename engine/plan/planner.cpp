@@ -97,6 +97,7 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
         plan_all(queries, shapes, plan, results, submissions);
     }
     plan.result_bytes += rough_bytes_;
+    plan.most_jobs = std::max(1.0, most_to_keep() / std::max(1.0, most_kept_));
 }
 
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -105,7 +106,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
     plan.subpixel = limits_.subpixel;
-    localize_milliseconds_ = rough_bytes_ = 0.0;
+    localize_milliseconds_ = rough_bytes_ = most_kept_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {

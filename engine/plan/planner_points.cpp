@@ -55,9 +55,16 @@ bool Planner::check_numbers(ResultSummary& result) const {
     return result.status.ok();
 }
 
-bool Planner::can_keep(double samples) const {
-    return samples <=
-           std::min(most_numbered_samples, memory_for_results_ / 4.0 / bytes_of_kept_sample);
+double Planner::most_to_keep() const {
+    return std::min(most_numbered_samples, memory_for_results_ / 4.0 / bytes_of_kept_sample);
+}
+
+bool Planner::can_keep(double samples) {
+    if (samples > most_to_keep()) {
+        return false;
+    }
+    most_kept_ = std::max(most_kept_, samples);
+    return true;
 }
 
 bool Planner::fits_roughly(double samples, double bytes_of_record) {
@@ -89,8 +96,9 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const bool may_be_by_edge = planned.on_cpu && of_boundary <= most_numbered_samples;
     planned.edge_by_edge = may_be_by_edge && fits_roughly(of_boundary, bytes_of_record);
     if (planned.edge_by_edge) {
-        // Nothing is planned: of the budget the bound alone is asked for.
+        // Nothing is planned: of the budget no more is asked for.
         planned.budget.bound = budget.bound;
+        planned.budget.cell = budget.cell;
         return;
     }
     planned.budget = budget;

@@ -94,6 +94,9 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
     EXPECT_EQ(error_of_query(R"({"query": "separation", "tolerance": 1, "contact_distance": 1, )" +
                              ends + "}"),
               file + ": queries[0].contact_distance: is not known here");
+    EXPECT_EQ(
+        error_of_query(R"({"query": "separation", "tolerance": 1, "tolerance": 2, )" + ends + "}"),
+        file + ": an object has two members \"tolerance\"");
     EXPECT_EQ(error_of_query(R"({"query": "contacts", "tolerance": 1, "contact_distance": 0, )" +
                              ends + "}"),
               file + ": queries[0].contact_distance: expected a number greater than 0");

@@ -3,7 +3,9 @@
 #include <tools/input/text_file.hpp>
 
 #include <cmath>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace nearfield::tools {
 namespace {
@@ -41,6 +43,28 @@ private:
     std::string reason_;
 };
 
+/// Notices a name that an object has twice: the parser would take the last one silently.
+class NamesInObjects {
+public:
+    void look_at(json::parse_event_t event, const json& parsed) {
+        if (event == json::parse_event_t::object_start) {
+            names_.emplace_back();
+        } else if (event == json::parse_event_t::object_end) {
+            names_.pop_back();
+        } else if (event == json::parse_event_t::key && twice_.empty()) {
+            const auto& name = parsed.get_ref<const std::string&>();
+            twice_ = names_.back().insert(name).second ? "" : name;
+        }
+    }
+
+    /// The first one, empty where there is none.
+    [[nodiscard]] const std::string& twice() const noexcept { return twice_; }
+
+private:
+    std::vector<std::set<std::string>> names_;  // of the objects around
+    std::string twice_;
+};
+
 /// The parser's own text without its exception name and position: "[json.exception.parse_error.101]
 /// parse error at line 1, column 2: syntax error ..." becomes "syntax error ...".
 std::string plain_reason(std::string reason) {
@@ -65,7 +89,16 @@ std::string with_article(const json& value) {
 
 json parse_json(const std::string& text, const std::string& file) {
     try {
-        return json::parse(text);
+        NamesInObjects names;
+        json document =
+            json::parse(text, [&names](int, json::parse_event_t event, const json& parsed) {
+                names.look_at(event, parsed);
+                return true;
+            });
+        if (!names.twice().empty()) {
+            throw InputError(file + ": an object has two members \"" + names.twice() + "\"");
+        }
+        return document;
     } catch (const json::exception&) {
         ErrorFinder finder;
         json::sax_parse(text, &finder);
