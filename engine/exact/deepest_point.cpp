@@ -16,10 +16,26 @@ constexpr std::uint32_t few_points = 4;
 constexpr std::uint32_t many_points = 128;
 constexpr std::uint32_t many_edges = 32;
 
+DeepestPoint find_one_by_one(const PointArrays& points, const PlacedEdges& edges, double touching) {
+    DeepestPoint deepest;
+    for (std::uint32_t i = 0; i < points.count; ++i) {
+        const NearestOfEdges near = kernels::find_nearest(edges, points.x[i], points.y[i]);
+        deepest.count += near.squared > touching * touching ? 1U : 0U;
+        if (near.squared > deepest.nearest.squared) {
+            deepest.point = i;
+            deepest.nearest = near;
+        }
+    }
+    return deepest;
+}
+
 }  // namespace
 
 DeepestPoint DeepestPointFinder::find(const PointArrays& points, const PlacedEdges& edges,
                                       double touching, double margin) {
+    if (points.count <= few_points && is_small(edges)) {
+        return find_one_by_one(points, edges, touching);
+    }
     points_ = points;
     edges_ = &edges;
     touching_ = touching;
@@ -27,23 +43,10 @@ DeepestPoint DeepestPointFinder::find(const PointArrays& points, const PlacedEdg
     deepest_ = {};
     if (points.count >= many_points && edges.count >= many_edges) {
         find_by_soundings();
-    } else if (points.count <= few_points && is_small(edges)) {
-        find_one_by_one();
     } else {
         find_together(margin);
     }
     return deepest_;
-}
-
-void DeepestPointFinder::find_one_by_one() {
-    for (std::uint32_t i = 0; i < points_.count; ++i) {
-        const NearestOfEdges near = kernels::find_nearest(*edges_, points_.x[i], points_.y[i]);
-        deepest_.count += near.squared > touching_ * touching_ ? 1U : 0U;
-        if (near.squared > deepest_.nearest.squared) {
-            deepest_.point = i;
-            deepest_.nearest = near;
-        }
-    }
 }
 
 void DeepestPointFinder::find_together(double margin) {

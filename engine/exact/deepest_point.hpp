@@ -37,7 +37,6 @@ private:
     /// Of points that follow each other it is looked at the first of so many, before others.
     static constexpr std::uint32_t stride = 32;
 
-    void find_one_by_one();
     void find_together(double margin);
     void find_by_soundings();
 

@@ -20,6 +20,10 @@ using geometry::PlacedPolygon;
 // signs in white, signed features with their distances, gradients.
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
+// What a sample takes while all of a boundary's are kept at once and none is planned: its place,
+// what is nearest to it, the contact it may be.
+constexpr double bytes_of_kept_sample = 256.0;
+
 Status unknown_shape(const char* which, ShapeHandle handle) {
     return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
                                            std::to_string(handle.index) +
@@ -86,6 +90,7 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
     point_tiles_ = PointTiles(std::min(limits_.points_tile, limits_.largest_tile));
     packer_ = AtlasPacker(limits_.largest_atlas);
     memory_for_results_ = std::max(0.0, static_cast<double>(limits_.memory) - images());
+    most_to_keep_ = memory_for_results_ / 4.0 / bytes_of_kept_sample;
 }
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -97,7 +102,7 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
         plan_all(queries, shapes, plan, results, submissions);
     }
     plan.result_bytes += rough_bytes_;
-    plan.most_jobs = std::max(1.0, most_to_keep() / std::max(1.0, most_kept_));
+    plan.most_jobs = std::max(1.0, most_to_keep_ / std::max(1.0, most_kept_));
 }
 
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,

@@ -117,8 +117,7 @@ private:
 
     /// Whether deviations and coordinates leave room for the tolerance; if not, the result says so.
     [[nodiscard]] bool check_numbers(ResultSummary& result) const;
-    /// How many samples of boundaries may be kept at once, beside what comes of them.
-    [[nodiscard]] double most_to_keep() const;
+    /// Whether so many samples of boundaries may be kept at once, beside what comes of them.
     [[nodiscard]] bool can_keep(double samples);
     /// Whether a query may be answered edge by edge, by all samples there are; what their records
     /// may take is counted roughly then, unless that was too much before.
@@ -159,7 +158,8 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
-    double most_kept_ = 0.0;       // samples of a query that are kept at once
+    double most_to_keep_ = 0.0;    // samples of a query, at once
+    double most_kept_ = 0.0;       // of any query of the batch
     double rough_bytes_ = 0.0;     // that records may take of queries that were not localised
     bool counts_closely_ = false;  // those are localised too, so that less need be kept for them
 

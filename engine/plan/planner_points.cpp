@@ -32,10 +32,6 @@ double bytes_of_point(const PlannedQuery& query) {
 // Of either boundary, for a search that is finished exactly.
 constexpr double most_search_samples = 4096.0;
 
-// What a sample takes while all of a boundary's are kept at once and none is planned: its place,
-// what is nearest to it, the contact it may be.
-constexpr double bytes_of_kept_sample = 256.0;
-
 // Of a whole boundary: so many that 32 bits number them, and the parts of an edge, with room to
 // spare.
 constexpr double most_numbered_samples = 1U << 30U;
@@ -55,12 +51,8 @@ bool Planner::check_numbers(ResultSummary& result) const {
     return result.status.ok();
 }
 
-double Planner::most_to_keep() const {
-    return std::min(most_numbered_samples, memory_for_results_ / 4.0 / bytes_of_kept_sample);
-}
-
 bool Planner::can_keep(double samples) {
-    if (samples > most_to_keep()) {
+    if (samples > most_to_keep_) {
         return false;
     }
     most_kept_ = std::max(most_kept_, samples);
