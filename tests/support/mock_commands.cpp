@@ -51,6 +51,17 @@ void perform(Tag_vkCmdBindDescriptorSets tag, VkCommandBuffer commands, VkPipeli
     use(tag.name, commands, layout);
     for (std::uint32_t i = 0; i < count; ++i) {
         use(tag.name, commands, sets[i]);
+        const MockObject* const set = driver().find(tag.name, sets[i]);
+        if (set == nullptr) {
+            continue;
+        }
+        // No rule of the specification unless a shader uses the binding, but lavapipe looks at all.
+        for (const auto& [binding, needed] : set->needs) {
+            if (!driver().objects.contains(needed)) {
+                driver().breach(tag.name, "binding " + std::to_string(binding) +
+                                              " of a set names something that is gone");
+            }
+        }
     }
 }
 
