@@ -42,6 +42,14 @@ void leave_one_out(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
     }
 }
 
+/// One after the other; says how many there were.
+void count_jobs(void* user, std::uint32_t jobs, Job job, void* data) {
+    *static_cast<std::uint32_t*>(user) = jobs;
+    for (std::uint32_t i = 0; i < jobs; ++i) {
+        job(data, i);
+    }
+}
+
 /// The memory of the machine ends in the second job.
 void run_out_of_memory(void* user, std::uint32_t jobs, Job job, void* data) {
     for (std::uint32_t i = 0; i < jobs; ++i) {
@@ -158,6 +166,44 @@ TEST(Jobs, AllocateNothingInTheLongRunWhoeverDoesThem) {
     }
     EXPECT_EQ(calls, 9U);
     EXPECT_EQ(test_support::allocation_count(), before);
+}
+
+/// Into how many jobs, eight at the most, four pairs of squares are divided whose boundaries have
+/// so many samples each; 0 where none are asked for.
+std::uint32_t jobs_for(double samples, std::uint64_t memory) {
+    std::uint32_t jobs = 0;
+    Settings settings;
+    settings.jobs = {&jobs, 8, count_jobs};
+    settings.memory_limit = memory;
+    Expected<Context> context = Context::create_headless({}, settings);
+    EXPECT_TRUE(context.ok()) << context.status().text();
+    const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
+    const Expected<ShapeHandle> shape = context->add_shape(square);
+    EXPECT_TRUE(shape.ok());
+    Batch batch;
+    for (int i = 0; i < 4; ++i) {
+        const Instance b{*shape, {{0.1 + 0.2 * i, 0.5}, 0.0}};
+        PenetrationQuery query{{*shape, {}}, b, 4.0 / samples};
+        query.records = false;
+        query.technique = Technique::cpu;
+        batch.add(query);
+    }
+    Results results;
+    const Status status = context->run(batch, results);
+    EXPECT_TRUE(status.ok()) << status.text();
+    return jobs;
+}
+
+TEST(Jobs, AreDealtOutBySamples) {
+    constexpr std::uint64_t plenty = std::uint64_t{1} << 30U;
+    EXPECT_EQ(jobs_for(40.0, plenty), 0U);
+    EXPECT_EQ(jobs_for(20000.0, plenty), 4U);
+}
+
+TEST(Jobs, AreAsManyAsThereIsMemoryFor) {
+    const std::uint32_t jobs = jobs_for(10000.0, 24U << 20U);
+    EXPECT_GE(jobs, 2U);
+    EXPECT_LE(jobs, 3U);
 }
 
 TEST(Jobs, ThatWereNotDoneAreAnError) {
