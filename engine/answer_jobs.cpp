@@ -121,10 +121,10 @@ std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uin
                                       FieldDecoder& fields, std::vector<AnyResult>& results) {
     if (system_.run != nullptr) {
         divide(plan, results.size());
-        const double in_memory = std::min<double>(system_.count, plan.most_jobs);
-        const std::size_t jobs = std::min(ends_.size(), static_cast<std::size_t>(in_memory));
+        const std::uint32_t most = std::min(system_.count, plan.most_jobs);
+        const auto jobs = static_cast<std::uint32_t>(std::min<std::size_t>(ends_.size(), most));
         if (jobs > 1) {
-            return run_at_once(static_cast<std::uint32_t>(jobs), {plan, words, fields, results});
+            return run_at_once(jobs, {plan, words, fields, results});
         }
     }
     QueryAnswers& answers = jobs_.front()->answers;

@@ -4,7 +4,6 @@
 #include <engine/exact/nearest_points.hpp>
 #include <engine/exact/placed_edges.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -34,7 +33,7 @@ private:
         std::uint32_t point;
         double depth;
     };
-    /// Of points that follow each other it is looked at the first of so many, before others.
+    /// Of so many points that follow each other the first is sounded before any other.
     static constexpr std::uint32_t stride = 32;
 
     void find_together(double margin);

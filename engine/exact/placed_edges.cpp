@@ -26,10 +26,9 @@ bool same(const Pose& a, const Pose& b) {
            a.angle == b.angle;
 }
 
-/// Of a number or an address, by a factor of its own: products that do not wait for each other.
-template <class Value>
-std::uint64_t scattered(Value value, std::uint64_t factor) {
-    return std::bit_cast<std::uint64_t>(value) * factor;
+/// By a factor of its own for each number: products that do not wait for each other.
+std::uint64_t scattered(double number, std::uint64_t factor) {
+    return std::bit_cast<std::uint64_t>(number) * factor;
 }
 
 /// Where every edge ends, from where they start, ring by ring.
@@ -66,12 +65,13 @@ bool PlacedInstances::is(const Entry& entry, const Polygon& polygon, const Pose&
 }
 
 std::size_t PlacedInstances::slot_of(const Polygon& polygon, const Pose& pose) const {
-    const std::uint64_t sum = scattered(&polygon, 0x9e3779b97f4a7c15U) +
+    constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
+    const std::uint64_t sum = factor * std::bit_cast<std::uintptr_t>(&polygon) +
                               scattered(pose.translation.x, 0xc2b2ae3d27d4eb4fU) +
                               scattered(pose.translation.y, 0x165667b19e3779f9U) +
                               scattered(pose.angle, 0xd6e8feb86659fd93U);
     // Products carry upwards alone, and round numbers differ in their upper bits.
-    const std::uint64_t hash = scattered(sum ^ (sum >> 32U), 0x9e3779b97f4a7c15U);
+    const std::uint64_t hash = factor * (sum ^ (sum >> 32U));
     std::size_t slot = (hash >> 32U) & (slots_.size() - 1);
     while (slots_[slot] != empty_slot && !is(entries_[slots_[slot]], polygon, pose)) {
         slot = (slot + 1) & (slots_.size() - 1);

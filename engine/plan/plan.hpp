@@ -158,7 +158,7 @@ struct Plan {
     /// Bytes all results may need on the host.
     double result_bytes = 0.0;
     /// So many jobs at the same time have room for what each keeps while it answers; at least 1.
-    double most_jobs = 1.0;
+    std::uint32_t most_jobs = 1;
 
     void clear();
 };

@@ -6,6 +6,7 @@
 #include <engine/plan/region.hpp>
 #include <engine/plan/technique.hpp>
 #include <engine/stopwatch.hpp>
+#include <nearfield/jobs.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +103,8 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
         plan_all(queries, shapes, plan, results, submissions);
     }
     plan.result_bytes += rough_bytes_;
-    plan.most_jobs = std::max(1.0, most_to_keep_ / std::max(1.0, most_kept_));
+    const double with_room = most_to_keep_ / std::max(1.0, most_kept_);
+    plan.most_jobs = static_cast<std::uint32_t>(std::clamp(with_room, 1.0, 1.0 * most_jobs));
 }
 
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,

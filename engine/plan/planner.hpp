@@ -101,13 +101,15 @@ private:
     [[nodiscard]] bool check_resident(const IntersectionQuery& query, IntersectionResult& result);
     [[nodiscard]] double bytes_of_samples(const IntersectionQuery& query) const;
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
+    /// The chains that can hold contacts, and how many samples they take at the most.
     [[nodiscard]] double find_contact_chains(const geometry::PlacedPolygon& a,
                                              const geometry::PlacedPolygon& b,
                                              double contact_distance,
                                              std::vector<localize::Chain>& chains,
                                              ResultSummary& result);
     void add_contact_points(std::uint32_t index, double contact_distance,
-                            const std::vector<localize::Chain>& chains, ResultSummary& result);
+                            const std::vector<localize::Chain>& chains, double samples,
+                            ResultSummary& result);
     /// The chains that can hold the closest point, and how many samples they take at the most.
     [[nodiscard]] double find_closest_chains(std::uint32_t index,
                                              std::vector<localize::Chain>& chains,
@@ -126,8 +128,9 @@ private:
     /// records do not fit.
     [[nodiscard]] bool fits(double samples, double bytes_of_record, double tolerance);
     std::uint32_t add_reverse();
+    /// Of the chains at hand, which have so many `samples` at the most.
     void sample_boundary(const geometry::PlacedPolygon& polygon, const geometry::Box& within,
-                         const ResultSummary& result);
+                         double samples, const ResultSummary& result);
     void spread_points(std::uint32_t index, const geometry::Box& within, ResultSummary& result);
     [[nodiscard]] localize::OverlapOptions overlap_options(double grow) const;
     void count(const localize::Effort& effort, ResultSummary& result) const;

@@ -115,12 +115,12 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     join_chain_boxes(box_b, 0.0);
-    samples_.clear();
-    require_memory(bytes_of_point(planned) * samples, query.tolerance, 1.0);
     if (vertices) {
+        samples_.clear();
+        require_memory(bytes_of_point(planned) * samples, query.tolerance, 1.0);
         vertices_of_chains(a, chains_, samples_);
     } else {
-        sample_chains(a, chains_, result.cell, box_b, samples_);
+        sample_boundary(a, box_b, samples, result);
     }
     spread_points(query_, box_b, result);
 }
@@ -136,11 +136,9 @@ std::uint32_t Planner::add_reverse() {
     return index;
 }
 
-void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within,
+void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within, double samples,
                               const ResultSummary& result) {
-    require_memory(bytes_of_point(plan_->queries[query_]) *
-                       most_samples(polygon, chains_, result.cell, within),
-                   result.tolerance, 1.0);
+    require_memory(bytes_of_point(plan_->queries[query_]) * samples, result.tolerance, 1.0);
     samples_.clear();
     sample_chains(polygon, chains_, result.cell, within, samples_);
 }
@@ -162,7 +160,6 @@ void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummar
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
-/// The chains that can hold contacts, and how many samples they take at the most.
 double Planner::find_contact_chains(const PlacedPolygon& a, const PlacedPolygon& b,
                                     double contact_distance, std::vector<localize::Chain>& chains,
                                     ResultSummary& result) {
@@ -175,14 +172,14 @@ double Planner::find_contact_chains(const PlacedPolygon& a, const PlacedPolygon&
 }
 
 void Planner::add_contact_points(std::uint32_t index, double contact_distance,
-                                 const std::vector<localize::Chain>& chains,
+                                 const std::vector<localize::Chain>& chains, double samples,
                                  ResultSummary& result) {
     const PlannedQuery& planned = plan_->queries[index];
     const Box within = grown(PlacedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
     chains_.assign(chains.begin(), chains.end());
     join_chain_boxes(within, 0.0);
     if (!chains_.empty()) {
-        sample_boundary(PlacedPolygon(*planned.a, planned.pose_a), within, result);
+        sample_boundary(PlacedPolygon(*planned.a, planned.pose_a), within, samples, result);
         spread_points(index, within, result);
     }
 }
@@ -210,15 +207,15 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     const PlacedPolygon a(*planned.a, planned.pose_a);
     const PlacedPolygon b(*planned.b, planned.pose_b);
     const double near = query.contact_distance;
-    const double samples = find_contact_chains(a, b, near, chains_of_[0], result) +
-                           find_contact_chains(b, a, near, chains_of_[1], result);
-    planned.edge_by_edge = may_be_by_edge && fits(samples, bytes_of_record, query.tolerance);
+    const double of_a = find_contact_chains(a, b, near, chains_of_[0], result);
+    const double of_b = find_contact_chains(b, a, near, chains_of_[1], result);
+    planned.edge_by_edge = may_be_by_edge && fits(of_a + of_b, bytes_of_record, query.tolerance);
     if (planned.edge_by_edge) {
         return;
     }
     const std::uint32_t reverse = add_reverse();
-    add_contact_points(query_, near, chains_of_[0], result);
-    add_contact_points(reverse, near, chains_of_[1], result);
+    add_contact_points(query_, near, chains_of_[0], of_a, result);
+    add_contact_points(reverse, near, chains_of_[1], of_b, result);
 }
 
 double Planner::find_closest_chains(std::uint32_t index, std::vector<localize::Chain>& chains,
@@ -243,7 +240,7 @@ void Planner::add_closest_points(std::uint32_t index, const std::vector<localize
     const Box everything = grown(a.box(), result.cell);
     chains_.assign(chains.begin(), chains.end());
     join_chain_boxes(everything, 0.0);
-    sample_boundary(a, everything, result);
+    sample_boundary(a, everything, most_samples(a, chains_, result.cell, everything), result);
     // A short chain may lie between two samples.
     for (const localize::Chain& chain : chains_) {
         samples_.push_back({chain.first, 0.0});

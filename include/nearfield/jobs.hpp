@@ -20,7 +20,8 @@ inline constexpr std::uint32_t most_jobs = 256;
 struct JobSystem {
     void* user = nullptr;  ///< handed back with each call
     /// How many jobs at the most a batch is divided into, 1 to `most_jobs`; 0 without `run`. Each
-    /// has memory of its own that is kept from batch to batch. As many as there are threads is a
+    /// has memory of its own that is kept from batch to batch; there are fewer where
+    /// Settings::memory_limit has no room for what each needs. As many as there are threads is a
     /// good number; twice that evens out better what queries take.
     std::uint32_t count = 0;
     /// Calls `job(data, 0)`, ..., `job(data, jobs - 1)`, each once, in any order, on any threads

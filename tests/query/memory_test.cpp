@@ -30,6 +30,26 @@ protected:
         return std::move(context.value());
     }
 
+    /// Calls `check(context with little memory, pair there is much for, the same in the other)`.
+    template <class Check>
+    static void for_each_pair(std::uint64_t seed, const Check& check) {
+        for (const std::uint64_t mebibytes : {12U, 28U}) {
+            SCOPED_TRACE(mebibytes);
+            Context little = with_memory(mebibytes);
+            for_each_case(seed, 4, [&](Random& random) {
+                const Pair pair = finely_sampled(random);
+                check(little, PlacedPair(context(), pair, Technique::cpu),
+                      PlacedPair(little, pair, Technique::cpu));
+            });
+        }
+    }
+
+    static void expect_other_ways(const ResultSummary& much, const ResultSummary& scarce) {
+        ASSERT_TRUE(much.status.ok() && scarce.status.ok()) << scarce.status.text();
+        EXPECT_EQ(much.localization.nodes_evaluated, 0U) << "was localised";
+        EXPECT_GT(scarce.localization.nodes_evaluated, 0U) << "was not localised";
+    }
+
     static void expect_same(std::vector<PenetrationRecord> one,
                             std::vector<PenetrationRecord> other) {
         ASSERT_EQ(one.size(), other.size());
@@ -71,47 +91,31 @@ private:
 };
 
 TEST_F(MemoryLimit, LeavesPenetrationAsItIs) {
-    for (const std::uint64_t mebibytes : {12U, 28U}) {
-        Context little = with_memory(mebibytes);
-        for_each_case(271, 4, [&](Random& random) {
-            const Pair pair = finely_sampled(random);
-            const PlacedPair much(context(), pair, Technique::cpu);
-            const PlacedPair scarce(little, pair, Technique::cpu);
-            const PenetrationResult result = run_alone(context(), much.penetration());
-            const PenetrationResult other = run_alone(little, scarce.penetration());
-            ASSERT_TRUE(result.status.ok() && other.status.ok()) << other.status.text();
-            EXPECT_EQ(result.localization.nodes_evaluated, 0U) << "was localised";
-            EXPECT_GT(other.localization.nodes_evaluated, 0U) << "was not localised";
-            EXPECT_GT(result.count, 1000U);
-            expect_same_summary(result, other);
-            expect_same(result.records, other.records);
+    for_each_pair(271, [](Context& little, const PlacedPair& much, const PlacedPair& scarce) {
+        const PenetrationResult result = run_alone(context(), much.penetration());
+        const PenetrationResult other = run_alone(little, scarce.penetration());
+        expect_other_ways(result, other);
+        EXPECT_GT(result.count, 1000U);
+        expect_same_summary(result, other);
+        expect_same(result.records, other.records);
 
-            PenetrationQuery summary = scarce.penetration();
-            summary.records = false;
-            expect_same_summary(result, run_alone(little, summary));
-        });
-    }
+        PenetrationQuery summary = scarce.penetration();
+        summary.records = false;
+        expect_same_summary(result, run_alone(little, summary));
+    });
 }
 
 TEST_F(MemoryLimit, LeavesContactsAsTheyAre) {
-    for (const std::uint64_t mebibytes : {12U, 28U}) {
-        Context little = with_memory(mebibytes);
-        for_each_case(577, 4, [&](Random& random) {
-            const Pair pair = finely_sampled(random);
-            const PlacedPair much(context(), pair, Technique::cpu);
-            const PlacedPair scarce(little, pair, Technique::cpu);
-            const double near = 100.0 * pair.tolerance;
-            const ContactResult result = run_alone(context(), much.contacts(near));
-            const ContactResult other = run_alone(little, scarce.contacts(near));
-            ASSERT_TRUE(result.status.ok() && other.status.ok()) << other.status.text();
-            EXPECT_EQ(result.localization.nodes_evaluated, 0U) << "was localised";
-            EXPECT_GT(other.localization.nodes_evaluated, 0U) << "was not localised";
-            EXPECT_GT(result.count, 500U);
-            EXPECT_EQ(result.intersects, other.intersects);
-            EXPECT_EQ(result.manifold.size(), other.manifold.size());
-            expect_same(result.records, other.records);
-        });
-    }
+    for_each_pair(577, [](Context& little, const PlacedPair& much, const PlacedPair& scarce) {
+        const double near = 100.0 * much.tolerance();
+        const ContactResult result = run_alone(context(), much.contacts(near));
+        const ContactResult other = run_alone(little, scarce.contacts(near));
+        expect_other_ways(result, other);
+        EXPECT_GT(result.count, 500U);
+        EXPECT_EQ(result.intersects, other.intersects);
+        EXPECT_EQ(result.manifold.size(), other.manifold.size());
+        expect_same(result.records, other.records);
+    });
 }
 
 }  // namespace

@@ -173,13 +173,13 @@ TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
     penetration_.technique = Technique::cpu;
     penetration_.tolerance = 1.0;
     run({penetration_});
-    EXPECT_GT(plan_.most_jobs, 100.0);
+    EXPECT_GT(plan_.most_jobs, 100U);
     penetration_.tolerance = 0.001;
     penetration_.records = false;
     run({penetration_});
     EXPECT_TRUE(plan_.queries[0].edge_by_edge);
-    EXPECT_GE(plan_.most_jobs, 1.0);
-    EXPECT_LT(plan_.most_jobs, 4.0);
+    EXPECT_GE(plan_.most_jobs, 1U);
+    EXPECT_LT(plan_.most_jobs, 4U);
 }
 
 TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
