@@ -2,28 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nearfield::exact {
 
 using geometry::Vector;
-
-namespace {
-
-/// True where the ray from `point` towards growing coordinate `along` crosses the edge. Half open
-/// across, so that a vertex on the ray counts once.
-bool crosses(const Vector& start, const Vector& end, const Vector& point, int along) {
-    const int across = 1 - along;
-    if ((start[across] > point[across]) == (end[across] > point[across])) {
-        return false;
-    }
-    const double side = geometry::cross(end - start, point - start);
-    const bool upward = end[across] > start[across];
-    // Left of an edge that goes up means before it on the x axis; on the y axis it is after.
-    return along == 0 ? (side > 0.0) == upward : (side < 0.0) == upward;
-}
-
-}  // namespace
 
 void Boundary::set(const PlacedEdges& edges) {
     edges_ = &edges;
@@ -97,20 +79,12 @@ Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
     }
     const Vector left(-direction.y() / length, direction.x() / length);
     // The ray leaves the edge across its longer extent; what lies just beyond the edge decides.
-    const int along = std::abs(direction.y()) >= std::abs(direction.x()) ? 0 : 1;
-    const bool inside_ahead = crossings_are_odd(start + parameter * direction, along, edge);
-    const bool left_is_ahead = left[along] > 0.0;
+    const bool upwards = std::abs(direction.y()) < std::abs(direction.x());
+    const Vector point = start + parameter * direction;
+    const bool inside_ahead =
+        kernels::crossings_are_odd(*tree_, point.x(), point.y(), upwards, edge);
+    const bool left_is_ahead = left[upwards ? 1 : 0] > 0.0;
     return inside_ahead == left_is_ahead ? Vector(-left) : left;
-}
-
-bool Boundary::crossings_are_odd(const Vector& point, int along, std::uint32_t left_out) {
-    Extent ray{point.x(), point.y(), point.x(), point.y()};
-    (along == 0 ? ray.high_x : ray.high_y) = std::numeric_limits<double>::infinity();
-    const std::uint32_t count = kernels::find_edges_in(*tree_, ray, near_.data());
-    const auto crossed = std::count_if(near_.begin(), near_.begin() + count, [&](std::uint32_t i) {
-        return i != left_out && crosses(edges_->start(i), edges_->end(i), point, along);
-    });
-    return crossed % 2 != 0;
 }
 
 }  // namespace nearfield::exact

@@ -72,9 +72,6 @@ private:
                                                         const geometry::Vector& point) const {
         return geometry::nearest_on_segment(point, edges_->start(edge), edges_->end(edge));
     }
-    /// Of the ray from a point along an axis with all edges but one.
-    [[nodiscard]] bool crossings_are_odd(const geometry::Vector& point, int along,
-                                         std::uint32_t left_out);
 
     const PlacedEdges* edges_ = nullptr;
     std::optional<BoxTree> tree_;      // over them

@@ -70,20 +70,19 @@ HWY_INLINE EdgesAlong edges_along(const EdgeArrays& edges, std::size_t i) {
 }
 
 /// Calls `use(i)` for the first edge of each box of the lowest level that is entered with all boxes
-/// above it, as long as it says so; `enter(boxes)` says which of some boxes are.
-template <class Enter, class Use>
-HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& use) {
+/// above it, as long as it says so; `open(level, first)` says which of eight boxes are, a bit each.
+template <class Open, class Use>
+HWY_INLINE void for_leaves_opened(const BoxTree& tree, const Open& open, const Use& use) {
     // A stack of what is left of eight boxes, a level each.
     std::uint32_t bits[10];
     std::uint32_t first[10];
-    const auto open = [&](std::uint32_t level, std::uint32_t begin) HWY_ATTR {
+    const auto descend_to = [&](std::uint32_t level, std::uint32_t begin) HWY_ATTR {
         first[level] = begin;
-        bits[level] = bits_of_eight(
-            [&](std::size_t i) HWY_ATTR { return enter(boxes_at(tree.level(level), begin + i)); });
+        bits[level] = open(level, begin);
     };
     const std::uint32_t top = tree.top_level();
     std::uint32_t level = top;
-    open(top, 0);
+    descend_to(top, 0);
     for (;;) {
         if (bits[level] == 0) {
             if (level == top) {
@@ -101,9 +100,22 @@ HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& u
             }
         } else {
             --level;
-            open(level, child);
+            descend_to(level, child);
         }
     }
+}
+
+/// The same where `enter(boxes)` says which of some boxes are.
+template <class Enter, class Use>
+HWY_INLINE void for_leaves(const BoxTree& tree, const Enter& enter, const Use& use) {
+    for_leaves_opened(
+        tree,
+        [&](std::uint32_t level, std::uint32_t first) HWY_ATTR {
+            return bits_of_eight([&](std::size_t i) HWY_ATTR {
+                return enter(boxes_at(tree.level(level), first + i));
+            });
+        },
+        use);
 }
 
 // Of tree_kernels.cpp, for other kernels of the same instruction set.

@@ -10,7 +10,7 @@ constexpr std::uint32_t boxes_over(std::uint32_t count) {
 }  // namespace
 
 std::size_t BoxTree::room(std::uint32_t edges) {
-    std::size_t room = 0;
+    std::size_t room = 2 * padded(boxes_over(edges));
     std::uint32_t count = edges;
     do {
         count = boxes_over(count);
@@ -21,6 +21,8 @@ std::size_t BoxTree::room(std::uint32_t edges) {
 
 BoxTree::BoxTree(const EdgeArrays& edges, const double* boxes) : edges_(edges) {
     std::uint32_t count = boxes_over(edges.count);
+    ring_starts_ = {count, boxes, boxes + padded(count)};
+    boxes += 2 * padded(count);
     for (;; ++top_level_) {
         const std::size_t length = padded(count);
         levels_[top_level_] = {count, boxes, boxes + length, boxes + 2 * length,

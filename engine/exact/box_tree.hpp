@@ -19,28 +19,32 @@ struct BoxArrays {
 };
 
 /// Boxes over every eight edges that follow each other in their arrays, over every eight of those
-/// boxes, and so on up to eight or fewer: nothing but their coordinates is kept, so that building
-/// them anew each frame is one pass over the edges, and eight are looked at together. Rings do not
-/// count: where one begins its edges share a box with the last of the ring before.
+/// boxes, and so on up to eight or fewer: hardly more than their coordinates is kept, so that
+/// building them anew each frame is one pass over the edges, and eight are looked at together. Rings
+/// do not count: where one begins its edges share a box with the last of the ring before.
 class BoxTree {
 public:
     static constexpr std::uint32_t fan_out = 8;
 
-    /// How many doubles the boxes over so many edges take.
+    /// How many doubles the boxes over so many edges take, and what is kept with them.
     [[nodiscard]] static std::size_t room(std::uint32_t edges);
 
-    /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote.
+    /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote after the
+    /// places of ring_starts(): first x, then y, each with room for whole lanes.
     BoxTree(const EdgeArrays& edges, const double* boxes);
 
     [[nodiscard]] const EdgeArrays& edges() const { return edges_; }
     /// The lowest, 0, are boxes over edges.
     [[nodiscard]] std::uint32_t top_level() const { return top_level_; }
     [[nodiscard]] const BoxArrays& level(std::uint32_t level) const { return levels_[level]; }
+    /// For each of the lowest boxes where the ring begins that its first edge is of.
+    [[nodiscard]] const PointArrays& ring_starts() const { return ring_starts_; }
 
 private:
     static constexpr std::size_t most_levels = 10;  // over more edges than 32 bits can count
 
     EdgeArrays edges_;
+    PointArrays ring_starts_;
     std::array<BoxArrays, most_levels> levels_;
     std::uint32_t top_level_ = 0;
 };
@@ -68,11 +72,16 @@ namespace kernels {
 // As their namesakes of edge_kernels.hpp, but inverse lengths are not read, and what fills up the
 // arrays of edges is an edge of no length at the last edge's end.
 
-/// Writes the boxes of a BoxTree.
+/// Writes the boxes of a BoxTree, not its ring starts.
 void find_boxes(const EdgeArrays& edges, double* boxes);
 
 /// True where an even-odd ray says so, as contain().
 [[nodiscard]] bool contain(const BoxTree& tree, double x, double y);
+
+/// True where the ray from a point to the right, or upwards, crosses an odd number of edges other
+/// than one, on which the point may lie.
+[[nodiscard]] bool crossings_are_odd(const BoxTree& tree, double x, double y, bool upwards,
+                                     std::uint32_t left_out);
 
 /// An edge nearer to a point than `guess`, the nearest of them, or `guess` where there is none.
 [[nodiscard]] NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess);

@@ -41,6 +41,21 @@ void copy_ends(const Polygon& polygon, const double* start, double* end) {
     }
 }
 
+/// Writes BoxTree::ring_starts().
+void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges, double* starts) {
+    const std::size_t length = padded((edges.count + BoxTree::fan_out - 1) / BoxTree::fan_out);
+    std::uint32_t ring = 0;
+    for (std::uint32_t i = 0; i < edges.count; i += BoxTree::fan_out) {
+        while (i >= polygon.ring_end(ring)) {
+            ++ring;
+        }
+        const std::uint32_t first = polygon.ring_begin(ring);
+        *starts = edges.start_x[first];
+        starts[length] = edges.start_y[first];
+        ++starts;
+    }
+}
+
 }  // namespace
 
 bool contains(const PlacedEdges& edges, const geometry::Vector& point) {
@@ -174,7 +189,9 @@ void PlacedInstances::complete(std::uint32_t index) {
     }
     entry.first_boxes = grow(BoxTree::room(count) / most_lanes);
     find_arrays(entry);
-    kernels::find_boxes(entry.edges, coordinates_[entry.first_boxes].values);
+    double* const boxes = coordinates_[entry.first_boxes].values;
+    write_ring_starts(entry.edges.placed.polygon(), entry.edges, boxes);
+    kernels::find_boxes(entry.edges, boxes);
 }
 
 Box PlacedInstances::write_arrays(const Entry& entry) {

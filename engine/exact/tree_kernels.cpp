@@ -59,6 +59,7 @@ void FindBoxesOver(const BoxArrays& below, double* boxes, std::size_t length) {
 
 void FindBoxes(const EdgeArrays& edges, double* boxes) {
     const BoxTree tree(edges, boxes);
+    boxes += 2 * padded(tree.ring_starts().count);
     for (std::uint32_t level = 0; level <= tree.top_level(); ++level) {
         const std::uint32_t count = tree.level(level).count;
         const std::size_t length = padded(count);
@@ -77,26 +78,6 @@ void FindBoxes(const EdgeArrays& edges, double* boxes) {
 }
 
 // ---- one point -----------------------------------------------------------------------------
-
-bool ContainByTree(const BoxTree& tree, double point_x, double point_y) {
-    const Tag tag;
-    const Lanes x = hn::Set(tag, point_x);
-    const Lanes y = hn::Set(tag, point_y);
-    Lanes odd = hn::Zero(tag);
-    for_leaves(
-        tree,
-        [&](const LanesOfExtent& boxes) HWY_ATTR {
-            return hn::And(hn::Ge(boxes.high_x, x),
-                           hn::And(hn::Le(boxes.low_y, y), hn::Ge(boxes.high_y, y)));
-        },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-                odd = hn::Xor(odd, crossings(EdgeLanes(tree.edges(), leaf + i), x, y));
-            }
-            return true;
-        });
-    return (std::popcount(bits_of(are_negative(odd))) & 1) != 0;
-}
 
 std::uint32_t FindEdgesWithinByTree(const BoxTree& tree, double point_x, double point_y,
                                     double most, std::uint32_t enough, std::uint32_t* found) {
@@ -254,7 +235,6 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::exact::kernels {
 
 HWY_EXPORT(FindBoxes);
-HWY_EXPORT(ContainByTree);
 HWY_EXPORT(FindNearer);
 HWY_EXPORT(FindEdgesWithinByTree);
 HWY_EXPORT(FindEdgesInByTree);
@@ -263,10 +243,6 @@ HWY_EXPORT(Meets);
 
 void find_boxes(const EdgeArrays& edges, double* boxes) {
     HWY_DYNAMIC_DISPATCH(FindBoxes)(edges, boxes);
-}
-
-bool contain(const BoxTree& tree, double x, double y) {
-    return HWY_DYNAMIC_DISPATCH(ContainByTree)(tree, x, y);
 }
 
 NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess) {

@@ -1,0 +1,133 @@
+#include "shape_samples.hpp"
+
+#include <engine/exact/placed_edges.hpp>
+#include <engine/geometry/segment.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace nearfield::exact {
+namespace {
+
+using geometry::Polygon;
+using geometry::Vector;
+
+constexpr std::uint32_t none = ~0U;
+
+/// True where the ray from `point` towards growing coordinate `along` crosses the edge. Half open
+/// across, so that a vertex on the ray counts once.
+bool crosses(const Vector& start, const Vector& end, const Vector& point, int along) {
+    const int across = 1 - along;
+    if ((start[across] > point[across]) == (end[across] > point[across])) {
+        return false;
+    }
+    const double side = geometry::cross(end - start, point - start);
+    const bool upward = end[across] > start[across];
+    // Left of an edge that goes up means before it on the x axis; on the y axis it is after.
+    return along == 0 ? (side > 0.0) == upward : (side < 0.0) == upward;
+}
+
+bool are_odd_one_by_one(const PlacedEdges& edges, const Vector& point, int along,
+                        std::uint32_t left_out) {
+    bool odd = false;
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        odd ^= i != left_out && crosses(edges.start(i), edges.end(i), point, along);
+    }
+    return odd;
+}
+
+/// Rings on whole numbers, whatever they cross, some far apart and some longer than others: rays
+/// meet vertices and run along edges, and no number rounds.
+samples::Rings rings_on_a_grid(samples::Random& random, std::uint32_t count, std::uint32_t most) {
+    samples::Rings rings;
+    while (rings.size() < count) {
+        const double x = random.below(40);
+        const double y = random.below(40);
+        Ring ring;
+        for (std::uint32_t i = 0, size = 3 + random.below(most); i < size; ++i) {
+            ring.push_back({x + random.below(12), y + random.below(12)});
+        }
+        const std::vector<Ring> alone{ring};
+        if (Polygon polygon; polygon.assign(alone).ok()) {
+            rings.push_back(ring);
+        }
+    }
+    return rings;
+}
+
+template <class Check>
+void for_each_grid_shape(const Check& check) {
+    samples::Random random(19);
+    for (const std::uint32_t count : {1U, 2U, 3U, 7U, 40U, 300U}) {
+        for (const std::uint32_t most : {1U, 9U, 100U}) {
+            SCOPED_TRACE(std::to_string(count) + " rings of at most " + std::to_string(most + 2));
+            const Polygon polygon = samples::polygon(rings_on_a_grid(random, count, most));
+            PlacedInstances instances;
+            const std::uint32_t index = instances.place(polygon, {});
+            instances.complete(index);
+            check(instances[index], random);
+        }
+    }
+}
+
+TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
+    int odd = 0;
+    int all = 0;
+    for_each_grid_shape([&](const PlacedEdges& edges, samples::Random& random) {
+        for (int i = 0; i < 400; ++i) {
+            const Vector point(0.5 * random.below(110), 0.5 * random.below(110));
+            for (const int along : {0, 1}) {
+                const bool expected = are_odd_one_by_one(edges, point, along, none);
+                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), point.x(), point.y(),
+                                                     along == 1, none),
+                          expected)
+                    << point.transpose() << ", along " << along;
+                odd += expected ? 1 : 0;
+                ++all;
+            }
+        }
+    });
+    EXPECT_GT(odd, all / 10);
+}
+
+TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllOthers) {
+    for_each_grid_shape([&](const PlacedEdges& edges, samples::Random& random) {
+        for (int i = 0; i < 400; ++i) {
+            const std::uint32_t edge = random.below(edges.count);
+            const Vector point = edges.at(edge, 0.25 * random.below(4));
+            for (const int along : {0, 1}) {
+                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), point.x(), point.y(),
+                                                     along == 1, edge),
+                          are_odd_one_by_one(edges, point, along, edge))
+                    << "edge " << edge << " at " << point.transpose() << ", along " << along;
+            }
+        }
+    });
+}
+
+/// A place on an edge rounds: it may come to lie behind all that the edge's own box holds.
+TEST(CrossingKernels, LeaveAnEdgeOutThatSeemsToLieAhead) {
+    const samples::Rings comb = [] {
+        Ring ring{{0.0, -1.0}, {200.0, -1.0}};
+        for (int i = 99; i >= 0; --i) {
+            ring.insert(ring.end(), {{2.0 * i + 1.5, 0.0}, {2.0 * i + 1.0, 5.0}, {2.0 * i, 0.0}});
+        }
+        return samples::Rings{ring};
+    }();
+    const Polygon polygon = samples::polygon(comb);
+    PlacedInstances instances;
+    const std::uint32_t index = instances.place(polygon, {});
+    instances.complete(index);
+    const PlacedEdges& edges = instances[index];
+    for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+        const Vector on_edge = edges.at(edge, 0.5);
+        const Vector behind(on_edge.x() - 3.0, on_edge.y());
+        EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), behind.x(), behind.y(), false, edge),
+                  are_odd_one_by_one(edges, behind, 0, edge))
+            << "edge " << edge;
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::exact
