@@ -199,16 +199,19 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         if (hn::AllFalse(d, near)) {
             continue;
         }
+        // In registers: compressed into memory, some processors take a hundred times as long.
         const auto keep = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
-            hn::CompressStore(numbers, near, d, edges.number(number) + pushed);
+            hn::StoreU(hn::Compress(numbers, near), d, edges.number(number) + pushed);
         };
         keep(EdgeStack::start_x, some.start_x);
         keep(EdgeStack::start_y, some.start_y);
         keep(EdgeStack::along_x, some.along_x);
         keep(EdgeStack::along_y, some.along_y);
         keep(EdgeStack::inverse, some.inverse);
-        pushed += hn::CompressStore(hn::LoadU(words, edges.indices() + i),
-                                    hn::RebindMask(words, near), words, edges.indices() + pushed);
+        hn::StoreU(
+            hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, near)), words,
+            edges.indices() + pushed);
+        pushed += hn::CountTrue(d, near);
     }
     edges.resize(pushed);
 }
