@@ -20,6 +20,11 @@ namespace nearfield::exact::kernels::HWY_NAMESPACE {
 
 constexpr std::uint32_t fan_out = BoxTree::fan_out;
 
+/// A bit for each of up to eight edges.
+HWY_INLINE std::uint32_t bits_of_range(const EdgeRange& edges) {
+    return ~0U >> (32 - (edges.end - edges.first));
+}
+
 /// The bits of eight comparisons; `compare(i)` makes those of lanes i, i + 1, ...
 template <class Compare>
 HWY_INLINE std::uint32_t bits_of_eight(const Compare& compare) {
@@ -69,8 +74,8 @@ HWY_INLINE EdgesAlong edges_along(const EdgeArrays& edges, std::size_t i) {
     return along;
 }
 
-/// Calls `use(i)` for the first edge of each box of the lowest level that is entered with all boxes
-/// above it, as long as it says so; `open(level, first)` says which of eight boxes are, a bit each.
+/// Calls `use(box)` for each box of the lowest level that is entered with all boxes above it, as
+/// long as it says so; `open(level, first)` says which of eight boxes are, a bit each.
 template <class Open, class Use>
 HWY_INLINE void for_leaves_opened(const BoxTree& tree, const Open& open, const Use& use) {
     // A stack of what is left of eight boxes, a level each.
@@ -91,16 +96,16 @@ HWY_INLINE void for_leaves_opened(const BoxTree& tree, const Open& open, const U
             ++level;
             continue;
         }
-        const std::uint32_t child =
-            fan_out * (first[level] + static_cast<std::uint32_t>(std::countr_zero(bits[level])));
+        const std::uint32_t box =
+            first[level] + static_cast<std::uint32_t>(std::countr_zero(bits[level]));
         bits[level] &= bits[level] - 1;
         if (level == 0) {
-            if (!use(child)) {
+            if (!use(box)) {
                 return;
             }
         } else {
             --level;
-            descend_to(level, child);
+            descend_to(level, fan_out * box);
         }
     }
 }

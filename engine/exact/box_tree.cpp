@@ -1,26 +1,20 @@
 #include <engine/exact/box_tree.hpp>
 
 namespace nearfield::exact {
-namespace {
 
-constexpr std::uint32_t boxes_over(std::uint32_t count) {
-    return count / BoxTree::fan_out + (count % BoxTree::fan_out != 0 ? 1 : 0);
-}
-
-}  // namespace
-
-std::size_t BoxTree::room(std::uint32_t edges) {
-    std::size_t room = 2 * padded(boxes_over(edges));
-    std::uint32_t count = edges;
-    do {
+std::size_t BoxTree::room(std::uint32_t lowest) {
+    std::size_t room = 2 * padded(lowest) + 4 * padded(lowest);
+    for (std::uint32_t count = lowest; count > fan_out;) {
         count = boxes_over(count);
         room += 4 * padded(count);
-    } while (count > fan_out);
+    }
     return room;
 }
 
-BoxTree::BoxTree(const EdgeArrays& edges, const double* boxes) : edges_(edges) {
-    std::uint32_t count = boxes_over(edges.count);
+BoxTree::BoxTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes)
+    : edges_(edges), pieces_(pieces) {
+    std::uint32_t count =
+        pieces.empty() ? boxes_over(edges.count) : static_cast<std::uint32_t>(pieces.size());
     ring_starts_ = {count, boxes, boxes + padded(count)};
     boxes += 2 * padded(count);
     for (;; ++top_level_) {

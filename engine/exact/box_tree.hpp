@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace nearfield::exact {
 
@@ -18,22 +19,46 @@ struct BoxArrays {
     const double* high_y = nullptr;
 };
 
+/// Edges that follow each other in their arrays.
+struct EdgeRange {
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+};
+
 /// Boxes over every eight edges that follow each other in their arrays, over every eight of those
 /// boxes, and so on up to eight or fewer: hardly more than their coordinates is kept, so that
-/// building them anew each frame is one pass over the edges, and eight are looked at together. Rings
-/// do not count: where one begins its edges share a box with the last of the ring before.
+/// building them anew each frame is one pass over the edges, and eight are looked at together.
+///
+/// Of few rings where one begins does not count: its edges share a box with the last of the ring
+/// before. Many rings, which may come in any order, are cut into pieces of up to eight edges; the
+/// lowest boxes are over those, rings that are near each other next to each other.
 class BoxTree {
 public:
     static constexpr std::uint32_t fan_out = 8;
 
-    /// How many doubles the boxes over so many edges take, and what is kept with them.
-    [[nodiscard]] static std::size_t room(std::uint32_t edges);
+    /// How many boxes there are over so many edges, or over so many boxes.
+    [[nodiscard]] static constexpr std::uint32_t boxes_over(std::uint32_t count) {
+        return count / fan_out + (count % fan_out != 0 ? 1 : 0);
+    }
+    /// How many doubles the boxes take, with so many lowest ones, and what is kept with them.
+    [[nodiscard]] static std::size_t room(std::uint32_t lowest);
 
     /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote after the
-    /// places of ring_starts(): first x, then y, each with room for whole lanes.
-    BoxTree(const EdgeArrays& edges, const double* boxes);
+    /// places of ring_starts(): first x, then y, each with room for whole lanes. `pieces`: one a
+    /// lowest box; none where these are over every eight edges.
+    BoxTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes);
 
     [[nodiscard]] const EdgeArrays& edges() const { return edges_; }
+    /// True where the lowest boxes come in the order of the edges.
+    [[nodiscard]] bool is_in_order() const { return pieces_.empty(); }
+    /// What a lowest box is over: at least one edge.
+    [[nodiscard]] EdgeRange edges_of(std::uint32_t box) const {
+        if (!pieces_.empty()) {
+            return pieces_[box];
+        }
+        const std::uint32_t first = fan_out * box;
+        return {first, edges_.count - first < fan_out ? edges_.count : first + fan_out};
+    }
     /// The lowest, 0, are boxes over edges.
     [[nodiscard]] std::uint32_t top_level() const { return top_level_; }
     [[nodiscard]] const BoxArrays& level(std::uint32_t level) const { return levels_[level]; }
@@ -44,6 +69,7 @@ private:
     static constexpr std::size_t most_levels = 10;  // over more edges than 32 bits can count
 
     EdgeArrays edges_;
+    std::span<const EdgeRange> pieces_;
     PointArrays ring_starts_;
     std::array<BoxArrays, most_levels> levels_;
     std::uint32_t top_level_ = 0;
@@ -70,18 +96,26 @@ struct VertexAndEdgeSink {
 namespace kernels {
 
 // As their namesakes of edge_kernels.hpp, but inverse lengths are not read, and what fills up the
-// arrays of edges is an edge of no length at the last edge's end.
+// arrays of edges, up to a lane less than a vector more than whole ones, is an edge of no length at
+// the last edge's end.
 
 /// Writes the boxes of a BoxTree, not its ring starts.
-void find_boxes(const EdgeArrays& edges, double* boxes);
+void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes);
 
 /// True where an even-odd ray says so, as contain().
 [[nodiscard]] bool contain(const BoxTree& tree, double x, double y);
 
-/// True where the ray from a point to the right, or upwards, crosses an odd number of edges other
-/// than one, on which the point may lie.
-[[nodiscard]] bool crossings_are_odd(const BoxTree& tree, double x, double y, bool upwards,
-                                     std::uint32_t left_out);
+/// Where a ray starts and which way it goes.
+struct Ray {
+    double x = 0.0;
+    double y = 0.0;
+    bool upwards = false;  ///< else to the right
+};
+
+/// True where a ray crosses an odd number of edges other than one, which the ray's start lies on,
+/// or from which it is no farther away than `rounding`.
+[[nodiscard]] bool crossings_are_odd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out,
+                                     double rounding);
 
 /// An edge nearer to a point than `guess`, the nearest of them, or `guess` where there is none.
 [[nodiscard]] NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess);

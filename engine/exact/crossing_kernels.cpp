@@ -24,39 +24,36 @@ HWY_INLINE LanesOfExtent turned(const LanesOfExtent& boxes) {
     return upwards ? LanesOfExtent{boxes.low_y, boxes.low_x, boxes.high_y, boxes.high_x} : boxes;
 }
 
-/// Counts how often a ray crosses the edges, modulo 2. Boxes that follow each other and lie ahead of
-/// the point need no closer look: they hold a piece of the boundary, which crosses the ray an odd
-/// number of times just where its ends lie on different sides. So only boxes around the point are
-/// entered, however many lie on the ray.
+/// Counts how often a ray crosses the edges, modulo 2. Boxes that follow each other and lie ahead
+/// of the point need no closer look: they hold a piece of the boundary, which crosses the ray an
+/// odd number of times just where its ends lie on different sides. So only boxes around the point
+/// are entered, however many lie on the ray.
 template <bool upwards>
 class RayCrossings {
 public:
-    HWY_INLINE RayCrossings(const BoxTree& tree, double x, double y, std::uint32_t left_out)
+    HWY_INLINE RayCrossings(const BoxTree& tree, double x, double y, std::uint32_t left_out,
+                            double rounding)
         : tree_(tree),
           edges_(turned<upwards>(tree.edges())),
           ring_starts_(upwards ? tree.ring_starts().x : tree.ring_starts().y),
           x_(upwards ? y : x),
           y_(upwards ? x : y),
-          left_out_(left_out) {}
+          left_out_(left_out),
+          rounding_(rounding) {}
 
     HWY_INLINE bool AreOdd() {
         for_leaves_opened(
             tree_,
             [this](std::uint32_t level, std::uint32_t first)
                 HWY_ATTR { return Open(level, first); },
-            [this](std::uint32_t leaf) HWY_ATTR {
-                CountEdges(leaf);
+            [this](std::uint32_t box) HWY_ATTR {
+                CountEdges(tree_.edges_of(box));
                 return true;
             });
         return (crossed_ & 1U) != 0;
     }
 
 private:
-    /// A box of a level holds two to the power of this edges.
-    static constexpr std::uint32_t edges_bits(std::uint32_t level) {
-        return static_cast<std::uint32_t>(std::countr_zero(fan_out)) * (level + 1);
-    }
-
     /// Counts those of eight boxes that lie ahead; returns which of them are to be entered.
     HWY_INLINE std::uint32_t Open(std::uint32_t level, std::uint32_t first) {
         const Tag tag;
@@ -67,16 +64,11 @@ private:
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
             const LanesOfExtent boxes = turned<upwards>(boxes_at(tree_.level(level), first + i));
             const LaneMask level_with = hn::And(hn::Le(boxes.low_y, y), hn::Ge(boxes.high_y, y));
-            const LaneMask is_ahead = hn::Gt(boxes.low_x, x);
+            // The edge that is left out may seem to lie ahead, by rounding.
+            const LaneMask is_ahead = hn::Gt(boxes.low_x, hn::Set(tag, x_ + rounding_));
             const LaneMask not_behind = hn::Ge(boxes.high_x, x);
             ahead |= bits_of(is_ahead) << i;
             around |= bits_of(hn::AndNot(is_ahead, hn::And(level_with, not_behind))) << i;
-        }
-        // What is left out may seem to lie ahead of a point on it, by rounding.
-        const std::uint32_t own = (left_out_ >> edges_bits(level)) - first;
-        if (own < fan_out) {
-            ahead &= ~(1U << own);
-            around |= 1U << own;
         }
         while (ahead != 0) {
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(ahead));
@@ -88,25 +80,28 @@ private:
         return around;
     }
 
-    /// 1 where a box begins on the other side of the ray's line than its ring does. Of the pieces of
-    /// rings from one box to another the differences tell, whatever whole rings lie between.
+    /// 1 where a box begins on the other side of the ray's line than its ring does. Of the pieces
+    /// of rings from one box to another the differences tell, whatever whole rings lie between.
     [[nodiscard]] HWY_INLINE std::uint32_t RingHasCrossed(std::uint32_t level,
                                                           std::uint32_t box) const {
-        const std::uint64_t edge = std::uint64_t{box} << edges_bits(level);
-        if (edge >= edges_.count) {
+        constexpr auto bits = static_cast<std::uint32_t>(std::countr_zero(fan_out));
+        const std::uint64_t lowest = std::uint64_t{box} << (bits * level);
+        if (lowest >= tree_.level(0).count) {
             return 0;  // all rings have come back
         }
-        return (edges_.start_y[edge] > y_) != (ring_starts_[edge / fan_out] > y_) ? 1U : 0U;
+        const std::uint32_t edge = tree_.edges_of(static_cast<std::uint32_t>(lowest)).first;
+        return (edges_.start_y[edge] > y_) != (ring_starts_[lowest] > y_) ? 1U : 0U;
     }
 
-    HWY_INLINE void CountEdges(std::uint32_t leaf) {
+    HWY_INLINE void CountEdges(const EdgeRange& some) {
         const Tag tag;
         std::uint32_t crossed = bits_of_eight([&](std::size_t i) HWY_ATTR {
             return are_negative(
-                crossings(EdgeLanes(edges_, leaf + i), hn::Set(tag, x_), hn::Set(tag, y_)));
+                crossings(EdgeLanes(edges_, some.first + i), hn::Set(tag, x_), hn::Set(tag, y_)));
         });
-        if (left_out_ - leaf < fan_out) {
-            crossed &= ~(1U << (left_out_ - leaf));
+        crossed &= bits_of_range(some);
+        if (left_out_ - some.first < fan_out) {
+            crossed &= ~(1U << (left_out_ - some.first));
         }
         crossed_ ^= static_cast<std::uint32_t>(std::popcount(crossed));
     }
@@ -117,13 +112,13 @@ private:
     const double x_;
     const double y_;
     const std::uint32_t left_out_;
+    const double rounding_;
     std::uint32_t crossed_ = 0;
 };
 
-bool CrossingsAreOdd(const BoxTree& tree, double x, double y, bool upwards,
-                     std::uint32_t left_out) {
-    return upwards ? RayCrossings<true>(tree, x, y, left_out).AreOdd()
-                   : RayCrossings<false>(tree, x, y, left_out).AreOdd();
+bool CrossingsAreOdd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out, double rounding) {
+    return ray.upwards ? RayCrossings<true>(tree, ray.x, ray.y, left_out, rounding).AreOdd()
+                       : RayCrossings<false>(tree, ray.x, ray.y, left_out, rounding).AreOdd();
 }
 
 }  // namespace nearfield::exact::kernels::HWY_NAMESPACE
@@ -136,12 +131,12 @@ HWY_EXPORT(CrossingsAreOdd);
 
 bool contain(const BoxTree& tree, double x, double y) {
     constexpr std::uint32_t none = ~0U;
-    return crossings_are_odd(tree, x, y, false, none);
+    return crossings_are_odd(tree, {x, y}, none, 0.0);
 }
 
-bool crossings_are_odd(const BoxTree& tree, double x, double y, bool upwards,
-                       std::uint32_t left_out) {
-    return HWY_DYNAMIC_DISPATCH(CrossingsAreOdd)(tree, x, y, upwards, left_out);
+bool crossings_are_odd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out,
+                       double rounding) {
+    return HWY_DYNAMIC_DISPATCH(CrossingsAreOdd)(tree, ray, left_out, rounding);
 }
 
 }  // namespace nearfield::exact::kernels

@@ -41,18 +41,37 @@ void copy_ends(const Polygon& polygon, const double* start, double* end) {
     }
 }
 
-/// Writes BoxTree::ring_starts().
+/// From so many rings on the order in which they come matters.
+constexpr std::uint32_t many_rings = 32;
+
+/// How long each array of edges is. Pieces of rings begin anywhere: a vector more is read.
+std::size_t length_of_arrays(std::uint32_t count) {
+    return padded(count) + (count <= most_edges_one_by_one ? 0 : most_lanes);
+}
+
+/// Writes BoxTree::ring_starts() of boxes over every eight edges.
 void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges, double* starts) {
-    const std::size_t length = padded((edges.count + BoxTree::fan_out - 1) / BoxTree::fan_out);
+    const std::size_t length = padded(BoxTree::boxes_over(edges.count));
     std::uint32_t ring = 0;
-    for (std::uint32_t i = 0; i < edges.count; i += BoxTree::fan_out) {
-        while (i >= polygon.ring_end(ring)) {
+    for (std::uint32_t edge = 0; edge < edges.count; edge += BoxTree::fan_out) {
+        while (edge >= polygon.ring_end(ring)) {
             ++ring;
         }
-        const std::uint32_t first = polygon.ring_begin(ring);
-        *starts = edges.start_x[first];
-        starts[length] = edges.start_y[first];
+        *starts = edges.start_x[polygon.ring_begin(ring)];
+        starts[length] = edges.start_y[polygon.ring_begin(ring)];
         ++starts;
+    }
+}
+
+/// The same of boxes over pieces of rings that come in this order.
+void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges,
+                       std::span<const std::uint32_t> rings, std::size_t length, double* starts) {
+    for (const std::uint32_t ring : rings) {
+        const std::uint32_t first = polygon.ring_begin(ring);
+        const std::uint32_t pieces = BoxTree::boxes_over(polygon.ring_end(ring) - first);
+        std::fill(starts, starts + pieces, edges.start_x[first]);
+        std::fill(starts + length, starts + length + pieces, edges.start_y[first]);
+        starts += pieces;
     }
 }
 
@@ -71,6 +90,7 @@ NearEdge find_nearest(const PlacedEdges& edges, const geometry::Vector& point) {
 
 void PlacedInstances::clear() {
     entries_.clear();
+    pieces_.clear();
     used_ = 0;
     std::fill(slots_.begin(), slots_.end(), empty_slot);
 }
@@ -129,7 +149,7 @@ void PlacedInstances::rehash() {
 void PlacedInstances::find_arrays(Entry& entry) const {
     if (entry.first != nowhere) {
         const std::uint32_t count = entry.edges.count;
-        const std::size_t length = padded(count) / most_lanes;
+        const std::size_t length = length_of_arrays(count) / most_lanes;
         const auto array = [&](std::size_t number) {
             return coordinates_[entry.first + number * length].values;
         };
@@ -141,6 +161,8 @@ void PlacedInstances::find_arrays(Entry& entry) const {
     }
     if (entry.first_boxes != nowhere) {
         entry.edges.boxes = coordinates_[entry.first_boxes].values;
+        entry.edges.pieces =
+            std::span(pieces_).subspan(entry.first_piece, entry.end_piece - entry.first_piece);
     }
 }
 
@@ -162,11 +184,11 @@ std::uint32_t PlacedInstances::place(const PlacedPolygon& placed) {
 
 void PlacedInstances::add(const PlacedPolygon& placed, const Pose& pose) {
     const Polygon& polygon = placed.polygon();
-    Entry& entry = entries_.emplace_back(Entry{pose, nowhere, nowhere, {{}, placed, {}}});
+    Entry& entry = entries_.emplace_back(Entry{pose, nowhere, nowhere, 0, 0, {{}, placed, {}}});
     PlacedEdges& edges = entry.edges;
     edges.count = polygon.size();
     if (is_small(edges)) {
-        entry.first = grow(arrays_of(edges.count) * padded(edges.count) / most_lanes);
+        entry.first = grow(arrays_of(edges.count) * length_of_arrays(edges.count) / most_lanes);
         find_arrays(entry);
         edges.box = write_arrays(entry);
     } else {
@@ -183,21 +205,51 @@ void PlacedInstances::complete(std::uint32_t index) {
     }
     const std::uint32_t count = entry.edges.count;
     if (entry.first == nowhere) {
-        entry.first = grow(arrays_of(count) * padded(count) / most_lanes);
+        entry.first = grow(arrays_of(count) * length_of_arrays(count) / most_lanes);
         find_arrays(entry);
         static_cast<void>(write_arrays(entry));
     }
-    entry.first_boxes = grow(BoxTree::room(count) / most_lanes);
+    const Polygon& polygon = entry.edges.placed.polygon();
+    if (polygon.ring_count() < many_rings) {
+        entry.first_boxes = grow(BoxTree::room(BoxTree::boxes_over(count)) / most_lanes);
+        find_arrays(entry);
+        double* const boxes = coordinates_[entry.first_boxes].values;
+        write_ring_starts(polygon, entry.edges, boxes);
+        kernels::find_boxes(entry.edges, {}, boxes);
+        return;
+    }
+    const std::span rings = ring_order_.find(polygon, entry.edges, entry.edges.box);
+    const std::uint32_t pieces = cut_into_pieces(entry, rings);
+    entry.first_boxes = grow(BoxTree::room(pieces) / most_lanes);
     find_arrays(entry);
     double* const boxes = coordinates_[entry.first_boxes].values;
-    write_ring_starts(entry.edges.placed.polygon(), entry.edges, boxes);
-    kernels::find_boxes(entry.edges, boxes);
+    write_ring_starts(polygon, entry.edges, rings, padded(pieces), boxes);
+    kernels::find_boxes(entry.edges, entry.edges.pieces, boxes);
+}
+
+std::uint32_t PlacedInstances::cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings) {
+    const Polygon& polygon = entry.edges.placed.polygon();
+    const EdgeRange* const before = pieces_.data();
+    entry.first_piece = pieces_.size();
+    for (const std::uint32_t ring : rings) {
+        const std::uint32_t end = polygon.ring_end(ring);
+        for (std::uint32_t i = polygon.ring_begin(ring); i < end; i += BoxTree::fan_out) {
+            pieces_.push_back({i, std::min(i + BoxTree::fan_out, end)});
+        }
+    }
+    entry.end_piece = pieces_.size();
+    if (pieces_.data() != before) {
+        for (Entry& other : entries_) {
+            find_arrays(other);
+        }
+    }
+    return static_cast<std::uint32_t>(entry.end_piece - entry.first_piece);
 }
 
 Box PlacedInstances::write_arrays(const Entry& entry) {
     const Polygon& polygon = entry.edges.placed.polygon();
     const std::uint32_t count = polygon.size();
-    const std::size_t length = padded(count);
+    const std::size_t length = length_of_arrays(count);
     double* const start_x = coordinates_[entry.first].values;
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <engine/exact/box_tree.hpp>
+#include <engine/exact/ring_order.hpp>
 #include <engine/geometry/placed_polygon.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::exact {
@@ -17,12 +19,13 @@ namespace nearfield::exact {
 struct PlacedEdges : EdgeArrays {
     geometry::PlacedPolygon placed;
     geometry::Box box;
-    double rounding = 0.0;          ///< of the vertices: localize::placement_rounding
-    double magnitude = 0.0;         ///< geometry::largest_magnitude
-    const double* boxes = nullptr;  ///< of a BoxTree; null where there are none yet
+    double rounding = 0.0;                   ///< of the vertices: localize::placement_rounding
+    double magnitude = 0.0;                  ///< geometry::largest_magnitude
+    std::span<const EdgeRange> pieces = {};  ///< of a BoxTree
+    const double* boxes = nullptr;           ///< of it; null where there are none yet
 
     /// Precondition: it has boxes.
-    [[nodiscard]] BoxTree tree() const { return {*this, boxes}; }
+    [[nodiscard]] BoxTree tree() const { return {*this, pieces, boxes}; }
 
     [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
         return {start_x[edge], start_y[edge]};
@@ -74,6 +77,8 @@ private:
         Pose pose;
         std::size_t first;        // of its arrays, which follow one another
         std::size_t first_boxes;  // nowhere, like the arrays, where there are none yet
+        std::size_t first_piece;  // of its pieces, of which there may be none
+        std::size_t end_piece;
         PlacedEdges edges;
     };
     /// As many as the widest vector has, where it loads them fastest.
@@ -86,6 +91,8 @@ private:
                                  const Pose& pose);
     [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
     void add(const geometry::PlacedPolygon& placed, const Pose& pose);
+    /// Cuts the rings of an entry into pieces, in this order; returns how many.
+    [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
     /// Writes the arrays of an entry, for which there is room; returns the box around them.
     [[nodiscard]] geometry::Box write_arrays(const Entry& entry);
     void rehash();
@@ -97,6 +104,8 @@ private:
     std::vector<Entry> entries_;
     std::vector<Coordinates> coordinates_;  // the first used_ of them; the others wait for more
     std::size_t used_ = 0;
+    std::vector<EdgeRange> pieces_;
+    RingOrder ring_order_;
     std::array<std::uint32_t, 2> recent_{};  // asked for last: pairs come in both orders
     std::vector<std::uint32_t> slots_;       // a hash table of entries, a power of two
 };

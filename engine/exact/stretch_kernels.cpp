@@ -41,11 +41,11 @@ public:
     [[nodiscard]] HWY_INLINE const LanesOfExtent& box() const { return box_; }
     [[nodiscard]] HWY_INLINE std::uint32_t count() const { return count_; }
 
-    /// At the edges i, i + 1, ...; returns whether more can be found.
-    HWY_INLINE bool Look(const EdgeArrays& others, std::size_t i) {
+    /// At the edges i, i + 1, ... before `end`; returns whether more can be found.
+    HWY_INLINE bool Look(const EdgeArrays& others, std::size_t i, std::size_t end) {
         const Tag tag;
         const EdgeLanes lanes(others, i);
-        LaneMask near = hn::And(meet(box_, lanes), hn::FirstN(tag, others.count - i));
+        LaneMask near = hn::And(meet(box_, lanes), hn::FirstN(tag, end - i));
         if (hn::AllFalse(tag, near)) {
             return true;
         }
@@ -126,7 +126,7 @@ std::uint32_t FindStretchesNear(const EdgeArrays& edges, std::uint32_t edge,
                                 const EdgeArrays& others, double reach, Stretch* found) {
     StretchSearch search(edges, edge, reach, found);
     for (std::size_t i = 0; i < others.count; i += hn::Lanes(Tag())) {
-        if (!search.Look(others, i)) {
+        if (!search.Look(others, i, others.count)) {
             break;
         }
     }
@@ -138,11 +138,10 @@ std::uint32_t FindStretchesNearTree(const EdgeArrays& edges, std::uint32_t edge,
     StretchSearch search(edges, edge, reach, found);
     for_leaves(
         others, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, search.box()); },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            const std::size_t end =
-                std::min<std::size_t>(std::size_t{leaf} + fan_out, others.edges().count);
-            for (std::size_t i = leaf; i < end; i += hn::Lanes(Tag())) {
-                if (!search.Look(others.edges(), i)) {
+        [&](std::uint32_t box) HWY_ATTR {
+            const EdgeRange some = others.edges_of(box);
+            for (std::size_t i = some.first; i < some.end; i += hn::Lanes(Tag())) {
+                if (!search.Look(others.edges(), i, some.end)) {
                     return false;
                 }
             }

@@ -1,5 +1,6 @@
 #include <engine/exact/box_tree.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -39,6 +40,23 @@ void FindEdgeBoxes(const EdgeArrays& edges, double* boxes, std::size_t length) {
     }
 }
 
+void FindPieceBoxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes,
+                    std::size_t length) {
+    for (const EdgeRange& piece : pieces) {
+        Extent box = extent_of(edges, piece.first, 0.0);
+        for (std::uint32_t i = piece.first + 1; i < piece.end; ++i) {
+            // Where it starts is where the one before ends.
+            box = {std::min(box.low_x, edges.end_x[i]), std::min(box.low_y, edges.end_y[i]),
+                   std::max(box.high_x, edges.end_x[i]), std::max(box.high_y, edges.end_y[i])};
+        }
+        boxes[0] = box.low_x;
+        boxes[length] = box.low_y;
+        boxes[2 * length] = box.high_x;
+        boxes[3 * length] = box.high_y;
+        ++boxes;
+    }
+}
+
 /// Boxes over eight boxes each, which are `length` apart from side to side.
 void FindBoxesOver(const BoxArrays& below, double* boxes, std::size_t length) {
     const Tag tag;
@@ -57,14 +75,16 @@ void FindBoxesOver(const BoxArrays& below, double* boxes, std::size_t length) {
     }
 }
 
-void FindBoxes(const EdgeArrays& edges, double* boxes) {
-    const BoxTree tree(edges, boxes);
+void FindBoxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes) {
+    const BoxTree tree(edges, pieces, boxes);
     boxes += 2 * padded(tree.ring_starts().count);
     for (std::uint32_t level = 0; level <= tree.top_level(); ++level) {
         const std::uint32_t count = tree.level(level).count;
         const std::size_t length = padded(count);
-        if (level == 0) {
+        if (level == 0 && tree.is_in_order()) {
             FindEdgeBoxes(edges, boxes, length);
+        } else if (level == 0) {
+            FindPieceBoxes(edges, pieces, boxes, length);
         } else {
             FindBoxesOver(tree.level(level - 1), boxes, length);
         }
@@ -79,6 +99,14 @@ void FindBoxes(const EdgeArrays& edges, double* boxes) {
 
 // ---- one point -----------------------------------------------------------------------------
 
+/// A list of edges as they follow each other in their arrays.
+HWY_INLINE std::uint32_t in_order(const BoxTree& tree, std::uint32_t* found, std::uint32_t count) {
+    if (!tree.is_in_order()) {
+        std::sort(found, found + count);
+    }
+    return count;
+}
+
 std::uint32_t FindEdgesWithinByTree(const BoxTree& tree, double point_x, double point_y,
                                     double most, std::uint32_t enough, std::uint32_t* found) {
     const Tag tag;
@@ -89,25 +117,25 @@ std::uint32_t FindEdgesWithinByTree(const BoxTree& tree, double point_x, double 
         tree,
         [&](const LanesOfExtent& boxes)
             HWY_ATTR { return hn::Le(squared_between(boxes, point), limit); },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
-                const Lanes squared = squared_distances(edges_along(tree.edges(), leaf + i),
-                                                        point.low_x, point.low_y);
-                count = append_lanes(hn::Le(squared, limit), leaf + i, tree.edges().count, found,
-                                     count);
+        [&](std::uint32_t box) HWY_ATTR {
+            const EdgeRange edges = tree.edges_of(box);
+            for (std::size_t i = edges.first; i < edges.end; i += hn::Lanes(tag)) {
+                const Lanes squared =
+                    squared_distances(edges_along(tree.edges(), i), point.low_x, point.low_y);
+                count = append_lanes(hn::Le(squared, limit), i, edges.end, found, count);
             }
             return count <= enough;
         });
-    return count;
+    return in_order(tree, found, count);
 }
 
-/// Appends those of eight edges whose boxes meet a box.
-HWY_INLINE std::uint32_t append_edges_in(const BoxTree& tree, std::uint32_t first,
+/// Appends those of the edges under a lowest box whose own boxes meet a box.
+HWY_INLINE std::uint32_t append_edges_in(const BoxTree& tree, std::uint32_t box,
                                          const LanesOfExtent& bounds, std::uint32_t* found,
                                          std::uint32_t count) {
-    for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
-        count = append_lanes(meet(bounds, EdgeLanes(tree.edges(), first + i)), first + i,
-                             tree.edges().count, found, count);
+    const EdgeRange edges = tree.edges_of(box);
+    for (std::size_t i = edges.first; i < edges.end; i += hn::Lanes(Tag())) {
+        count = append_lanes(meet(bounds, EdgeLanes(tree.edges(), i)), i, edges.end, found, count);
     }
     return count;
 }
@@ -117,11 +145,11 @@ std::uint32_t FindEdgesInByTree(const BoxTree& tree, const Extent& box, std::uin
     std::uint32_t count = 0;
     for_leaves(
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            count = append_edges_in(tree, leaf, bounds, found, count);
+        [&](std::uint32_t of_edges) HWY_ATTR {
+            count = append_edges_in(tree, of_edges, bounds, found, count);
             return true;
         });
-    return count;
+    return in_order(tree, found, count);
 }
 
 bool Meets(const BoxTree& tree, const Extent& box) {
@@ -129,10 +157,12 @@ bool Meets(const BoxTree& tree, const Extent& box) {
     bool found = false;
     for_leaves(
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            found = bits_of_eight([&](std::size_t i) HWY_ATTR {
-                        return meet(bounds, EdgeLanes(tree.edges(), leaf + i));
-                    }) != 0;
+        [&](std::uint32_t of_edges) HWY_ATTR {
+            const EdgeRange edges = tree.edges_of(of_edges);
+            const std::uint32_t bits = bits_of_eight([&](std::size_t i) HWY_ATTR {
+                return meet(bounds, EdgeLanes(tree.edges(), edges.first + i));
+            });
+            found = (bits & bits_of_range(edges)) != 0;
             return !found;
         });
     return found;
@@ -144,13 +174,13 @@ std::uint32_t FindEdgesNear(const BoxTree& tree, const Extent& box, const BoxTre
     std::uint32_t count = 0;
     for_leaves(
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
-        [&](std::uint32_t leaf) HWY_ATTR {
-            if (Meets(others, grown(box_at(tree.level(0), leaf / fan_out), reach))) {
-                count = append_edges_in(tree, leaf, bounds, found, count);
+        [&](std::uint32_t of_edges) HWY_ATTR {
+            if (Meets(others, grown(box_at(tree.level(0), of_edges), reach))) {
+                count = append_edges_in(tree, of_edges, bounds, found, count);
             }
             return true;
         });
-    return count;
+    return in_order(tree, found, count);
 }
 
 /// The nearest edge to a point, the nearest box first.
@@ -205,14 +235,15 @@ private:
         const EdgeArrays& edges = tree_.edges();
         const Lanes x = hn::Set(tag, point_.low_x);
         const Lanes y = hn::Set(tag, point_.low_y);
-        for (std::size_t i = std::size_t{fan_out} * box; i < fan_out * (box + 1);
-             i += hn::Lanes(tag)) {
+        const EdgeRange range = tree_.edges_of(box);
+        for (std::size_t i = range.first; i < range.end; i += hn::Lanes(tag)) {
             const Lanes squared = squared_distances(edges_along(edges, i), x, y);
             if (hn::AllFalse(tag, hn::Lt(squared, hn::Set(tag, best_.squared)))) {
                 continue;
             }
             best_ = least_of(squared, hn::Iota(tag, static_cast<double>(i)));
-            // What fills up the lanes is no nearer than the last edge, but for its rounding.
+            // What fills up the lanes is no nearer than the last edge, but for its rounding; edges
+            // of other boxes do no harm.
             best_.edge = best_.edge < edges.count ? best_.edge : edges.count - 1;
         }
     }
@@ -241,8 +272,8 @@ HWY_EXPORT(FindEdgesInByTree);
 HWY_EXPORT(FindEdgesNear);
 HWY_EXPORT(Meets);
 
-void find_boxes(const EdgeArrays& edges, double* boxes) {
-    HWY_DYNAMIC_DISPATCH(FindBoxes)(edges, boxes);
+void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes) {
+    HWY_DYNAMIC_DISPATCH(FindBoxes)(edges, pieces, boxes);
 }
 
 NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess) {

@@ -74,7 +74,7 @@ private:
     bool Visit(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
                std::uint32_t box_b) {
         if (level_a == 0 && level_b == 0) {
-            return leaves_.Use(fan_out * box_a, fan_out * box_b);
+            return leaves_.Use(box_a, box_b);
         }
         return level_a >= level_b ? OpenA(level_a - 1, fan_out * box_a, level_b, box_b)
                                   : OpenB(level_a, box_a, level_b - 1, fan_out * box_b);
@@ -94,28 +94,27 @@ public:
     /// Boxes so much apart along both axes are twice that apart, squared, and a little more.
     [[nodiscard]] HWY_INLINE double squared_bound() const { return 8.0 * margin_ * margin_; }
 
-    bool Use(std::uint32_t first_a, std::uint32_t first_b) {
+    bool Use(std::uint32_t box_a, std::uint32_t box_b) {
         const EdgeArrays& a = a_.edges();
         const EdgeArrays& b = b_.edges();
-        const LanesOfExtent box =
-            lanes_of(grown(box_at(b_.level(0), first_b / fan_out), 2.0 * margin_));
+        const EdgeRange of_a = a_.edges_of(box_a);
+        const EdgeRange of_b = b_.edges_of(box_b);
+        const LanesOfExtent box = lanes_of(grown(box_at(b_.level(0), box_b), 2.0 * margin_));
         std::uint32_t near = bits_of_eight(
-            [&](std::size_t i) HWY_ATTR { return meet(box, EdgeLanes(a, first_a + i)); });
-        for (; near != 0; near &= near - 1) {
-            const std::uint32_t edge = first_a + static_cast<std::uint32_t>(std::countr_zero(near));
-            if (edge >= a.count) {
-                break;
-            }
+            [&](std::size_t i) HWY_ATTR { return meet(box, EdgeLanes(a, of_a.first + i)); });
+        for (near &= bits_of_range(of_a); near != 0; near &= near - 1) {
+            const std::uint32_t edge =
+                of_a.first + static_cast<std::uint32_t>(std::countr_zero(near));
             // Twice the margin: what two boxes are compared by rounds too.
             const LanesOfExtent bounds = lanes_of(extent_of(a, edge, 2.0 * margin_));
             std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
-                const EdgeLanes others(b, first_b + i);
+                const EdgeLanes others(b, of_b.first + i);
                 return hn::And(meet(bounds, others), may_meet(a, edge, others, margin_));
             });
-            for (; found != 0; found &= found - 1) {
+            for (found &= bits_of_range(of_b); found != 0; found &= found - 1) {
                 const std::uint32_t other =
-                    first_b + static_cast<std::uint32_t>(std::countr_zero(found));
-                if (other < b.count && !sink_.use(sink_.user, {edge, other})) {
+                    of_b.first + static_cast<std::uint32_t>(std::countr_zero(found));
+                if (!sink_.use(sink_.user, {edge, other})) {
                     return false;
                 }
             }
@@ -145,9 +144,9 @@ public:
     [[nodiscard]] HWY_INLINE double squared_bound() const { return bound_; }
     [[nodiscard]] HWY_INLINE double least() const { return least_; }
 
-    bool Use(std::uint32_t first_a, std::uint32_t first_b) {
-        FindNear(a_, first_a, b_, first_b, true);
-        FindNear(b_, first_b, a_, first_a, false);
+    bool Use(std::uint32_t box_a, std::uint32_t box_b) {
+        FindNear(a_, box_a, b_, box_b, true);
+        FindNear(b_, box_b, a_, box_a, false);
         return true;
     }
 
@@ -158,28 +157,28 @@ private:
     }
 
     /// The vertices of some edges against other edges.
-    void FindNear(const BoxTree& of_vertices, std::uint32_t first_vertex, const BoxTree& of_edges,
-                  std::uint32_t first_edge, bool vertices_are_of_a) {
+    void FindNear(const BoxTree& of_vertices, std::uint32_t box_of_vertices,
+                  const BoxTree& of_edges, std::uint32_t box_of_edges, bool vertices_are_of_a) {
         const Tag tag;
         const EdgeArrays& vertices = of_vertices.edges();
         const EdgeArrays& edges = of_edges.edges();
-        const LanesOfExtent box = lanes_of(box_at(of_edges.level(0), first_edge / fan_out));
+        const EdgeRange some_vertices = of_vertices.edges_of(box_of_vertices);
+        const EdgeRange some_edges = of_edges.edges_of(box_of_edges);
+        const LanesOfExtent box = lanes_of(box_at(of_edges.level(0), box_of_edges));
         std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
-            const Lanes x = hn::LoadU(tag, vertices.start_x + first_vertex + i);
-            const Lanes y = hn::LoadU(tag, vertices.start_y + first_vertex + i);
+            const Lanes x = hn::LoadU(tag, vertices.start_x + some_vertices.first + i);
+            const Lanes y = hn::LoadU(tag, vertices.start_y + some_vertices.first + i);
             return hn::Le(squared_between(box, {x, y, x, y}), hn::Set(tag, bound_));
         });
+        near &= bits_of_range(some_vertices);
         if (near == 0) {
             return;
         }
-        for (std::size_t i = first_edge; i < first_edge + fan_out; i += hn::Lanes(tag)) {
+        for (std::size_t i = some_edges.first; i < some_edges.end; i += hn::Lanes(tag)) {
             const EdgesAlong along = edges_along(edges, i);
             for (std::uint32_t left = near; left != 0; left &= left - 1) {
                 const std::uint32_t vertex =
-                    first_vertex + static_cast<std::uint32_t>(std::countr_zero(left));
-                if (vertex >= vertices.count) {
-                    break;
-                }
+                    some_vertices.first + static_cast<std::uint32_t>(std::countr_zero(left));
                 const Lanes squared =
                     squared_distances(along, hn::Set(tag, vertices.start_x[vertex]),
                                       hn::Set(tag, vertices.start_y[vertex]));
@@ -192,7 +191,7 @@ private:
                 for (; found != 0; found &= found - 1) {
                     const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
                     const auto edge = static_cast<std::uint32_t>(i) + lane;
-                    if (edge < edges.count && distances[lane] <= bound_) {
+                    if (edge < some_edges.end && distances[lane] <= bound_) {
                         Take({vertex, edge, vertices_are_of_a, distances[lane]});
                     }
                 }

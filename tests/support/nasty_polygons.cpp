@@ -116,6 +116,15 @@ public:
         }
         return ring;
     }
+    // Some in the tile, some beside it, in any order; more vertices than are looked at one by one.
+    std::vector<Ring> islands() {
+        std::vector<Ring> rings;
+        for (std::size_t i = count(32, 60); i > 0; --i) {
+            rings.push_back(
+                moved(star(count(3, 20), 0.02, 0.3), uniform(-0.6, 0.6), uniform(-0.6, 0.6)));
+        }
+        return rings;
+    }
     Ring around() {
         return {{-2.0 * width_, -3.0 * height_},
                 {3.0 * width_, -2.0 * height_},
@@ -159,7 +168,8 @@ std::vector<NastyPolygon> nasty_polygons(std::uint32_t width, std::uint32_t heig
                   {"right", {make.moved(make.star(20, 0.3, 1.0), 1.2, 0.0)}},
                   {"left", {make.moved(make.star(20, 0.3, 1.0), -1.2, 0.0)}},
                   {"below", {make.moved(make.star(20, 0.3, 1.0), 0.3, -1.1)}},
-                  {"above", {make.moved(make.star(20, 0.3, 1.0), 0.0, 1.1)}}},
+                  {"above", {make.moved(make.star(20, 0.3, 1.0), 0.0, 1.1)}},
+                  {"islands", make.islands()}},
                  width, height, seed);
 }
 

@@ -14,7 +14,7 @@ struct NastyPolygon {
 
 /// Polygons meant to break things, in cells of a tile of width x height: one of each kind for a
 /// seed (self-crossing, stars, combs, slivers, spikes, duplicate vertices, collinear runs, vertices
-/// on pixel centres, holes, tiny, around the tile, beside it).
+/// on pixel centres, holes, tiny, around the tile, beside it, islands in any order).
 [[nodiscard]] std::vector<NastyPolygon> nasty_polygons(std::uint32_t width, std::uint32_t height,
                                                        std::uint32_t seed);
 

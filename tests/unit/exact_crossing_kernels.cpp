@@ -79,8 +79,8 @@ TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
             const Vector point(0.5 * random.below(110), 0.5 * random.below(110));
             for (const int along : {0, 1}) {
                 const bool expected = are_odd_one_by_one(edges, point, along, none);
-                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), point.x(), point.y(),
-                                                     along == 1, none),
+                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
+                                                     {point.x(), point.y(), along == 1}, none, 0.0),
                           expected)
                     << point.transpose() << ", along " << along;
                 odd += expected ? 1 : 0;
@@ -97,8 +97,8 @@ TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllOthers) {
             const std::uint32_t edge = random.below(edges.count);
             const Vector point = edges.at(edge, 0.25 * random.below(4));
             for (const int along : {0, 1}) {
-                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), point.x(), point.y(),
-                                                     along == 1, edge),
+                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
+                                                     {point.x(), point.y(), along == 1}, edge, 0.0),
                           are_odd_one_by_one(edges, point, along, edge))
                     << "edge " << edge << " at " << point.transpose() << ", along " << along;
             }
@@ -123,7 +123,7 @@ TEST(CrossingKernels, LeaveAnEdgeOutThatSeemsToLieAhead) {
     for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
         const Vector on_edge = edges.at(edge, 0.5);
         const Vector behind(on_edge.x() - 3.0, on_edge.y());
-        EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), behind.x(), behind.y(), false, edge),
+        EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), {behind.x(), behind.y()}, edge, 3.5),
                   are_odd_one_by_one(edges, behind, 0, edge))
             << "edge " << edge;
     }

@@ -82,6 +82,78 @@ void check_point(const PlacedEdges& placed, const Edges& edges, const Vector& po
     EXPECT_EQ(near, expected);
 }
 
+/// Every lowest box is around its edges, and every edge under one of them.
+void check_lowest_boxes(const PlacedEdges& edges) {
+    const BoxTree tree = edges.tree();
+    const BoxArrays& boxes = tree.level(0);
+    std::vector<int> times(edges.count);
+    for (std::uint32_t box = 0; box < boxes.count; ++box) {
+        const EdgeRange some = tree.edges_of(box);
+        ASSERT_LT(some.first, some.end);
+        ASSERT_LE(some.end, std::min(some.first + BoxTree::fan_out, edges.count));
+        Box around;
+        for (std::uint32_t i = some.first; i < some.end; ++i) {
+            around.extend(edges.start(i)).extend(edges.end(i));
+            ++times[i];
+        }
+        EXPECT_EQ(around.min(), Vector(boxes.low_x[box], boxes.low_y[box]));
+        EXPECT_EQ(around.max(), Vector(boxes.high_x[box], boxes.high_y[box]));
+    }
+    EXPECT_EQ(times, std::vector<int>(edges.count, 1));
+}
+
+TEST(PlacedEdges, HaveLowestBoxesAroundEachOnce) {
+    int in_pieces = 0;
+    for_each_shape([&](const PlacedEdges& edges, const PlacedPolygon&, samples::Random&) {
+        check_lowest_boxes(edges);
+        in_pieces += edges.tree().is_in_order() ? 0 : 1;
+    });
+    EXPECT_GT(in_pieces, 0);
+}
+
+/// Of a lattice of squares that come in any order the lowest boxes next to each other are near each
+/// other: those above them are hardly larger than what they have to hold.
+TEST(PlacedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
+    constexpr std::uint32_t side = 40;
+    samples::Rings squares;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        const double x = i % side;
+        const double y = i / side;  // NOLINT(bugprone-integer-division): a row
+        squares.push_back({{x, y}, {x + 0.5, y}, {x + 0.5, y + 0.5}, {x, y + 0.5}});
+    }
+    samples::Random random(3);
+    for (std::uint32_t i = side * side - 1; i > 0; --i) {
+        std::swap(squares[i], squares[random.below(i + 1)]);
+    }
+    const Polygon polygon = samples::polygon(squares);
+    PlacedInstances instances;
+    const std::uint32_t index = instances.place(polygon, {});
+    instances.complete(index);
+    const BoxTree tree = instances[index].tree();
+    const BoxArrays& boxes = tree.level(1);
+    ASSERT_EQ(boxes.count, side * side / BoxTree::fan_out);
+    double area = 0.0;
+    for (std::uint32_t i = 0; i < boxes.count; ++i) {
+        area += (boxes.high_x[i] - boxes.low_x[i]) * (boxes.high_y[i] - boxes.low_y[i]);
+    }
+    EXPECT_LT(area, 3.0 * side * side);
+}
+
+/// Instances keep their pieces while others are completed.
+TEST(PlacedEdges, KeepTheirPiecesWhereOthersGetSome) {
+    samples::Random random(5);
+    const Polygon polygon = samples::polygon(samples::assorted_shapes(random).back().rings);
+    PlacedInstances instances;
+    constexpr std::uint32_t many = 20;
+    for (std::uint32_t i = 0; i < many; ++i) {
+        instances.complete(instances.place(polygon, {{3.0 * i, 0.0}, 0.1 * i}));
+    }
+    for (std::uint32_t i = 0; i < many; ++i) {
+        ASSERT_FALSE(instances[i].tree().is_in_order());
+        check_lowest_boxes(instances[i]);
+    }
+}
+
 TEST(PlacedEdges, ContainAndFindTheNearestAsOneByOne) {
     int small = 0;
     for_each_shape([&](const PlacedEdges& edges, const PlacedPolygon& placed,

@@ -146,6 +146,14 @@ inline std::vector<NamedRings> assorted_shapes(Random& random) {
         }
     }
     shapes.push_back({"many parts", parts});
+    Rings islands;
+    while (islands.size() < 50) {
+        const std::uint32_t size = 3 + random.below(18);
+        const Ring ring = star(random, size, 0.05, 0.2);
+        islands.push_back(
+            moved({ring}, random.between(-0.9, 0.9), random.between(-0.9, 0.9)).front());
+    }
+    shapes.push_back({"islands in any order", islands});
     return shapes;
 }
 
