@@ -266,7 +266,7 @@ void FieldSolver::solve_block_at(const Square& square, const EdgeList& edges) {
     block.nearest = output_.nearest.empty() ? nullptr : output_.nearest.data() + first;
     block.stride = grid_.width;
     block.margin = static_cast<float>(output_.margin);
-    largest_ = std::max(largest_, static_cast<double>(solve_block(edges, block)));
+    largest_ = std::max(largest_, static_cast<double>(solve_block(edges, block, scratch_)));
 }
 
 }  // namespace nearfield::exact

@@ -88,6 +88,7 @@ private:
     geometry::Vector near_origin_ = geometry::Vector::Zero();  // the same of near ones
     std::vector<EdgeList> levels_;                             // by depth of the quadtree
     std::vector<float> squared_;                               // scratch
+    BlockScratch scratch_;
 };
 
 }  // namespace nearfield::exact

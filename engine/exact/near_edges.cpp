@@ -151,14 +151,82 @@ void least_squared(const EdgeList& edges, const Block& block, float* squared) {
     }
 }
 
+/// Edges that follow each other in a list are mostly near each other: so many are a run.
+constexpr std::size_t edges_of_run = 8;
+
+void find_runs(const EdgeList& edges, geometry::FloatArrays<3>& runs) {
+    const hn::CappedTag<float, edges_of_run> d;
+    runs.clear();
+    for (std::size_t first = 0; first < edges.size(); first += edges_of_run) {
+        const std::size_t end = std::min(first + edges_of_run, edges.size());
+        const std::size_t middle = first + (end - first) / 2;
+        const float x = edges.number(EdgeList::start_x)[middle];
+        const float y = edges.number(EdgeList::start_y)[middle];
+        auto farthest = hn::Zero(d);
+        for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+            const auto number = [&](std::size_t which) {
+                return hn::LoadU(d, edges.number(which) + i);
+            };
+            const auto start_x = hn::Sub(number(EdgeList::start_x), hn::Set(d, x));
+            const auto start_y = hn::Sub(number(EdgeList::start_y), hn::Set(d, y));
+            const auto end_x = hn::Add(start_x, number(EdgeList::along_x));
+            const auto end_y = hn::Add(start_y, number(EdgeList::along_y));
+            const auto farther = hn::Max(hn::MulAdd(start_x, start_x, hn::Mul(start_y, start_y)),
+                                         hn::MulAdd(end_x, end_x, hn::Mul(end_y, end_y)));
+            farthest = hn::Max(farthest, hn::IfThenElseZero(hn::FirstN(d, end - i), farther));
+        }
+        runs.push({x, y, std::sqrt(hn::GetLane(hn::MaxOfLanes(d, farthest)))}, 0);
+    }
+}
+
+/// Puts into `near` the edges of those runs that can hold the nearest one to some points, or one as
+/// near up to `margin` and what single precision can tell.
+void select_runs(const EdgeList& edges, const geometry::FloatArrays<3>& runs, Vector x, Vector y,
+                 float margin, EdgeList& near) {
+    const Floats d;
+    const auto squared_to = [&](std::size_t run) {
+        const Vector off_x = hn::Sub(x, hn::Set(d, runs.number(0)[run]));
+        const Vector off_y = hn::Sub(y, hn::Set(d, runs.number(1)[run]));
+        return hn::MulAdd(off_x, off_x, hn::Mul(off_y, off_y));
+    };
+    Vector least = squared_to(0);
+    for (std::size_t run = 1; run < runs.size(); ++run) {
+        least = hn::Min(least, squared_to(run));
+    }
+    // The vertex is no nearer than the nearest edge. A little more, for rounding.
+    const Vector distance = hn::Sqrt(least);
+    const Vector reach =
+        hn::Add(hn::MulAdd(distance, hn::Set(d, 0x1p-16F), distance), hn::Set(d, margin + 0.01F));
+    near.clear();
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        const Vector limit = hn::Add(reach, hn::Set(d, runs.number(2)[run]));
+        if (!hn::AllFalse(d, hn::Le(squared_to(run), hn::Mul(limit, limit)))) {
+            const std::size_t first = edges_of_run * run;
+            near.append(edges, first, std::min(first + edges_of_run, edges.size()));
+        }
+    }
+}
+
 /// The same, and the edge that is nearest to each cell, flagged where no other is as near.
-void find_nearest(const EdgeList& edges, const Block& block, float* squared,
+void find_nearest(const EdgeList& all, const Block& block, BlockScratch& scratch, float* squared,
                   std::uint32_t* nearest) {
+    // From so many edges on it is quicker to pick those that matter to a vector of cells.
+    constexpr std::size_t many_edges = 64;
     const Floats d;
     const Words words;
+    bool pick = all.size() >= many_edges;
+    if (pick) {
+        find_runs(all, scratch.runs);
+    }
     for (std::size_t first = 0; first < cells; first += hn::Lanes(d)) {
         const Vector x = hn::Add(hn::Set(d, block.x), hn::LoadU(d, offsets.x.data() + first));
         const Vector y = hn::Add(hn::Set(d, block.y), hn::LoadU(d, offsets.y.data() + first));
+        if (pick) {
+            select_runs(all, scratch.runs, x, y, block.margin, scratch.near);
+            // Runs of spikes are long: where most of them matter, picking costs more than it saves.
+            pick = scratch.near.size() < all.size() / 2;
+        }
+        const EdgeList& edges = pick ? scratch.near : all;
         Vector least = hn::Set(d, std::numeric_limits<float>::infinity());
         Away best{hn::Zero(d), hn::Zero(d)};
         auto edge = hn::Zero(words);
@@ -196,13 +264,13 @@ void find_nearest(const EdgeList& edges, const Block& block, float* squared,
     }
 }
 
-float solve_block(const EdgeList& edges, const Block& block) {
+float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch) {
     alignas(64) std::array<float, cells> squared;
     alignas(64) std::array<std::uint32_t, cells> nearest;
     if (block.nearest == nullptr) {
         least_squared(edges, block, squared.data());
     } else {
-        find_nearest(edges, block, squared.data(), nearest.data());
+        find_nearest(edges, block, scratch, squared.data(), nearest.data());
         for (std::size_t row = 0; row < block.rows; ++row) {
             for (std::size_t column = 0; column < block.columns; ++column) {
                 const std::size_t cell = row * block_side + column;
@@ -254,8 +322,8 @@ float select_near(const EdgeList& from, const Disc& disc, float slack, std::vect
     return HWY_DYNAMIC_DISPATCH(select_near)(from, disc, slack, squared.data(), to);
 }
 
-float solve_block(const EdgeList& edges, const Block& block) {
-    return HWY_DYNAMIC_DISPATCH(solve_block)(edges, block);
+float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch) {
+    return HWY_DYNAMIC_DISPATCH(solve_block)(edges, block, scratch);
 }
 
 }  // namespace nearfield::exact

@@ -60,8 +60,14 @@ struct Block {
 inline constexpr std::uint32_t nearest_inside = 1U << 31U;
 inline constexpr std::uint32_t nearest_unique = 1U << 30U;
 
+/// What solve_block() works on, kept from block to block.
+struct BlockScratch {
+    geometry::FloatArrays<3> runs;  ///< of edges: x and y of a vertex, and how far the others are
+    EdgeList near;                  ///< to some cells
+};
+
 /// Distances and nearest edges at the cells of a block, among the edges given. Returns the largest
 /// distance, 0 where none is asked for.
-float solve_block(const EdgeList& edges, const Block& block);
+float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch);
 
 }  // namespace nearfield::exact

@@ -50,6 +50,32 @@ Solved solve(const geometry::PlacedPolygon& polygon, const FieldGrid& grid) {
     return solved;
 }
 
+void check_by_boundary(const Solved& solved, const geometry::PlacedPolygon& polygon,
+                       const FieldGrid& grid) {
+    Boundary boundary;
+    boundary.set(polygon);
+    for (std::uint32_t i = 0; i < solved.distances.size(); ++i) {
+        const std::uint32_t row = i / grid.width;
+        const geometry::Vector centre =
+            grid.origin + grid.cell * geometry::Vector(i % grid.width + 0.5, row + 0.5);
+        const double exact =
+            std::sqrt(boundary.nearest(centre).on_edge.squared_distance) / grid.cell;
+        const double bound = 0x1p-12 + FieldSolver::relative_rounding * exact;
+        ASSERT_NEAR(static_cast<double>(std::abs(solved.distances[i])), exact, bound) << i;
+        const bool inside = (solved.nearest[i] & nearest_inside) != 0;
+        ASSERT_EQ(std::signbit(solved.distances[i]), inside) << i;
+        ASSERT_TRUE(inside == boundary.contains(centre) || exact < bound) << i;
+        const std::uint32_t edge = solved.nearest[i] & ~(nearest_inside | nearest_unique);
+        ASSERT_LT(edge, polygon.polygon().size());
+        const double named =
+            std::sqrt(geometry::nearest_on_segment(centre, polygon.vertex(edge),
+                                                   polygon.vertex(polygon.polygon().next(edge)))
+                          .squared_distance) /
+            grid.cell;
+        ASSERT_NEAR(named, exact, 2.0 * bound) << i;
+    }
+}
+
 TEST_F(Targets, AllGiveTheDistancesOfTheExactBoundary) {
     test::Random random(field_seed);
     geometry::Polygon shape;
@@ -57,36 +83,43 @@ TEST_F(Targets, AllGiveTheDistancesOfTheExactBoundary) {
     const geometry::PlacedPolygon polygon(shape, {{3e5, -2e5}, 0.7});
     // No whole number of blocks or squares, and part of it outside.
     const FieldGrid grid{polygon.translation() - geometry::Vector(1.3, 0.9), 0.02, 133, 71};
-    Boundary boundary;
-    boundary.set(polygon);
-    for_each([&] {
-        const Solved solved = solve(polygon, grid);
-        for (std::uint32_t i = 0; i < solved.distances.size(); ++i) {
-            const std::uint32_t row = i / grid.width;
-            const geometry::Vector centre =
-                grid.origin + grid.cell * geometry::Vector(i % grid.width + 0.5, row + 0.5);
-            const double exact =
-                std::sqrt(boundary.nearest(centre).on_edge.squared_distance) / grid.cell;
-            const double bound = 0x1p-12 + FieldSolver::relative_rounding * exact;
-            ASSERT_NEAR(static_cast<double>(std::abs(solved.distances[i])), exact, bound) << i;
-            const bool inside = (solved.nearest[i] & nearest_inside) != 0;
-            ASSERT_EQ(std::signbit(solved.distances[i]), inside) << i;
-            ASSERT_TRUE(inside == boundary.contains(centre) || exact < bound) << i;
-            const std::uint32_t edge = solved.nearest[i] & ~(nearest_inside | nearest_unique);
-            ASSERT_LT(edge, shape.size());
-            const double named =
-                std::sqrt(geometry::nearest_on_segment(centre, polygon.vertex(edge),
-                                                       polygon.vertex(shape.next(edge)))
-                              .squared_distance) /
-                grid.cell;
-            ASSERT_NEAR(named, exact, 2.0 * bound) << i;
-        }
-    });
+    for_each([&] { check_by_boundary(solve(polygon, grid), polygon, grid); });
 }
 
-TEST_F(Targets, AllFlagWhatIsNotUnique) {
+/// Edges much shorter than cells, smooth and rough, so that runs of them are looked at.
+TEST_F(Targets, AllGiveTheDistancesOfManyShortEdges) {
+    test::Random random(field_seed);
+    for (const double least_radius : {0.999, 0.95, 0.3}) {
+        SCOPED_TRACE(least_radius);
+        geometry::Polygon shape;
+        ASSERT_TRUE(shape.assign(test::star(random, 6001, least_radius)).ok());
+        const geometry::PlacedPolygon polygon(shape, {{3e3, -2e3}, 0.7});
+        const FieldGrid grid{polygon.translation() - geometry::Vector(1.3, 0.9), 0.04, 67, 43};
+        for_each([&] { check_by_boundary(solve(polygon, grid), polygon, grid); });
+    }
+}
+
+/// A square, its sides cut into so many edges.
+std::vector<Ring> square_of(int edges_a_side) {
+    Ring ring;
+    const std::vector<Vector2> corners{{-8, -8}, {8, -8}, {8, 8}, {-8, 8}};
+    for (std::size_t side = 0; side < 4; ++side) {
+        const Vector2 from = corners[side];
+        const Vector2 to = corners[(side + 1) % 4];
+        for (int i = 0; i < edges_a_side; ++i) {
+            const double t = static_cast<double>(i) / edges_a_side;
+            ring.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
+        }
+    }
+    return {ring};
+}
+
+class SquareField : public Targets, public testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(OfEdgesASide, SquareField, testing::Values(1, 64, 1000));
+
+TEST_P(SquareField, AllFlagWhatIsNotUnique) {
     geometry::Polygon square;
-    ASSERT_TRUE(square.assign(std::vector<Ring>{{{-8, -8}, {8, -8}, {8, 8}, {-8, 8}}}).ok());
+    ASSERT_TRUE(square.assign(square_of(GetParam())).ok());
     const geometry::PlacedPolygon polygon(square, {});
     const FieldGrid grid{{-12.5, -12.5}, 1.0, 25, 25};
     for_each([&] {
