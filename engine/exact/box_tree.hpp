@@ -89,7 +89,7 @@ struct EdgePairSink {
     void* user = nullptr;
 };
 struct VertexAndEdgeSink {
-    void (*use)(void* user, const VertexAndEdge& found) = nullptr;
+    bool (*use)(void* user, const VertexAndEdge& found) = nullptr;
     void* user = nullptr;
 };
 
@@ -142,10 +142,15 @@ bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margi
 
 /// Calls `sink` for every vertex of either shape and edge of the other whose distance is no more
 /// than `margin` above the least of all, up to rounding, and for others that were the closest so
-/// far. Precondition: some are no farther apart than the root of `most`. Returns the square of the
-/// least distance.
+/// far, until it says no. Precondition: some are no farther apart than the root of `most`. Returns
+/// the square of the least distance so far.
 double for_closest(const BoxTree& first, const BoxTree& second, double most, double margin,
                    const VertexAndEdgeSink& sink);
+
+/// Calls `sink` for every vertex of either shape and edge of the other whose squared distance is up
+/// to rounding at most `most`, until it says no; returns whether it did.
+bool for_within(const BoxTree& first, const BoxTree& second, double most,
+                const VertexAndEdgeSink& sink);
 
 }  // namespace kernels
 

@@ -14,6 +14,10 @@ using geometry::Vector;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Of walls that run in parallel very many pairs are as close up to a margin. More than so many are
+/// not kept.
+constexpr std::size_t most_kept = 4096;
+
 /// The square of a length that is longer by so much.
 double square_longer(double squared, double by) {
     const double longer = std::sqrt(squared) + by;
@@ -45,15 +49,15 @@ ClosestPair ClosestPairFinder::find(const PlacedEdges& a, const PlacedEdges& b, 
                                     double margin) {
     a_ = &a;
     b_ = &b;
-    near_.clear();
     // More than what the kernels, or placing the vertices, may have rounded.
     const double rounding = a.rounding + b.rounding;
-    const double most = std::min(at_most * at_most, squared_bound());
-    const auto keep = [](void* near, const VertexAndEdge& found) {
-        static_cast<std::vector<VertexAndEdge>*>(near)->push_back(found);
-    };
-    const double least =
-        kernels::for_closest(a.tree(), b.tree(), most, 2.0 * rounding + margin, {keep, &near_});
+    double least = std::min(at_most * at_most, squared_bound());
+    least = keep_near(least, 2.0 * rounding + margin, most_kept);
+    keeps_all_ = near_.size() <= most_kept;
+    if (!keeps_all_) {
+        margin = 0.0;
+        least = keep_near(least, 2.0 * rounding, std::numeric_limits<std::size_t>::max());
+    }
     const double loose = square_longer(least, 2.0 * rounding + margin);
     std::erase_if(near_, [loose](const VertexAndEdge& found) { return found.squared > loose; });
     // In what order they came depends on how many the machine looks at together.
@@ -73,6 +77,20 @@ ClosestPair ClosestPairFinder::find(const PlacedEdges& a, const PlacedEdges& b, 
         }
     }
     return best;
+}
+
+double ClosestPairFinder::keep_near(double most, double margin, std::size_t most_pairs) {
+    struct Kept {
+        std::vector<VertexAndEdge>& near;
+        std::size_t most;
+    } kept{near_, most_pairs};
+    const auto keep = [](void* user, const VertexAndEdge& found) {
+        Kept& to = *static_cast<Kept*>(user);
+        to.near.push_back(found);
+        return to.near.size() <= to.most;
+    };
+    near_.clear();
+    return kernels::for_closest(a_->tree(), b_->tree(), most, margin, {keep, &kept});
 }
 
 ClosestPair ClosestPairFinder::pair_of(const VertexAndEdge& found) const {
@@ -100,13 +118,23 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     const double squared_apart = apart * apart;
     // Where more than one pair is closest, a vertex is in another: the distance of two straight
     // edges is least at an end of one of them, and where not only there they run in parallel.
-    return std::none_of(near_.begin(), near_.end(), [&](const VertexAndEdge& found) {
+    const auto is_rival = [&](const VertexAndEdge& found) {
         const ClosestPair other = pair_of(found);
         const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
                                (side == Side::either &&
                                 (other.point_b - closest.point_b).squaredNorm() > squared_apart);
         return other.squared_distance <= limit && elsewhere;
-    });
+    };
+    if (keeps_all_) {
+        return std::none_of(near_.begin(), near_.end(), is_rival);
+    }
+    const auto go_on = [](void* user, const VertexAndEdge& found) {
+        return !(*static_cast<decltype(is_rival)*>(user))(found);
+    };
+    auto asked = is_rival;
+    return !kernels::for_within(a_->tree(), b_->tree(),
+                                square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
+                                {go_on, &asked});
 }
 
 }  // namespace nearfield::exact

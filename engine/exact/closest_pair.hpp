@@ -2,6 +2,7 @@
 
 #include <engine/exact/placed_edges.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -45,10 +46,14 @@ private:
     [[nodiscard]] ClosestPair pair_of(const VertexAndEdge& found) const;
     /// Of some vertices to edges near them: no less than the least distance.
     [[nodiscard]] double squared_bound() const;
+    /// Keeps what is as close as the closest and a margin, and some more; stops once there are more
+    /// than `most_pairs`. Returns the square of the least distance so far.
+    [[nodiscard]] double keep_near(double most, double margin, std::size_t most_pairs);
 
     const PlacedEdges* a_ = nullptr;
     const PlacedEdges* b_ = nullptr;
-    std::vector<VertexAndEdge> near_;  // all that may be as close as the closest and the margin
+    std::vector<VertexAndEdge> near_;  // those that may be the closest, and as close up to a margin
+    bool keeps_all_ = true;            // of the latter
 };
 
 }  // namespace nearfield::exact

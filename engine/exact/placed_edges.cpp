@@ -52,14 +52,12 @@ std::size_t length_of_arrays(std::uint32_t count) {
 /// Writes BoxTree::ring_starts() of boxes over every eight edges.
 void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges, double* starts) {
     const std::size_t length = padded(BoxTree::boxes_over(edges.count));
-    std::uint32_t ring = 0;
-    for (std::uint32_t edge = 0; edge < edges.count; edge += BoxTree::fan_out) {
-        while (edge >= polygon.ring_end(ring)) {
-            ++ring;
-        }
-        *starts = edges.start_x[polygon.ring_begin(ring)];
-        starts[length] = edges.start_y[polygon.ring_begin(ring)];
-        ++starts;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t first = polygon.ring_begin(ring);
+        const std::uint32_t begin = BoxTree::boxes_over(first);
+        const std::uint32_t end = BoxTree::boxes_over(polygon.ring_end(ring));
+        std::fill(starts + begin, starts + end, edges.start_x[first]);
+        std::fill(starts + length + begin, starts + length + end, edges.start_y[first]);
     }
 }
 

@@ -135,29 +135,24 @@ bool ForMeetingPairs(const BoxTree& first, const BoxTree& second, double margin,
     return !PairWalk<MeetingLeaves>(first, second, leaves).Run();
 }
 
-class ClosestLeaves {
+/// Vertices of either shape and edges of the other that are no farther apart than a bound, which
+/// `Bound` lowers by what is found.
+template <class Bound>
+class NearLeaves {
 public:
-    HWY_INLINE ClosestLeaves(const BoxTree& a, const BoxTree& b, double most, double margin,
-                             const VertexAndEdgeSink& sink)
-        : a_(a), b_(b), margin_(margin), sink_(sink), least_(most), bound_(longer(most)) {}
+    HWY_INLINE NearLeaves(const BoxTree& a, const BoxTree& b, Bound& bound,
+                          const VertexAndEdgeSink& sink)
+        : a_(a), b_(b), bound_(bound), sink_(sink) {}
 
-    [[nodiscard]] HWY_INLINE double squared_bound() const { return bound_; }
-    [[nodiscard]] HWY_INLINE double least() const { return least_; }
+    [[nodiscard]] HWY_INLINE double squared_bound() const { return bound_.squared(); }
 
     bool Use(std::uint32_t box_a, std::uint32_t box_b) {
-        FindNear(a_, box_a, b_, box_b, true);
-        FindNear(b_, box_b, a_, box_a, false);
-        return true;
+        return FindNear(a_, box_a, b_, box_b, true) && FindNear(b_, box_b, a_, box_a, false);
     }
 
 private:
-    [[nodiscard]] HWY_INLINE double longer(double squared) const {
-        const double length = std::sqrt(squared) + margin_;
-        return length * length;
-    }
-
-    /// The vertices of some edges against other edges.
-    void FindNear(const BoxTree& of_vertices, std::uint32_t box_of_vertices,
+    /// The vertices of some edges against other edges; whether to go on.
+    bool FindNear(const BoxTree& of_vertices, std::uint32_t box_of_vertices,
                   const BoxTree& of_edges, std::uint32_t box_of_edges, bool vertices_are_of_a) {
         const Tag tag;
         const EdgeArrays& vertices = of_vertices.edges();
@@ -168,11 +163,11 @@ private:
         std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
             const Lanes x = hn::LoadU(tag, vertices.start_x + some_vertices.first + i);
             const Lanes y = hn::LoadU(tag, vertices.start_y + some_vertices.first + i);
-            return hn::Le(squared_between(box, {x, y, x, y}), hn::Set(tag, bound_));
+            return hn::Le(squared_between(box, {x, y, x, y}), hn::Set(tag, squared_bound()));
         });
         near &= bits_of_range(some_vertices);
         if (near == 0) {
-            return;
+            return true;
         }
         for (std::size_t i = some_edges.first; i < some_edges.end; i += hn::Lanes(tag)) {
             const EdgesAlong along = edges_along(edges, i);
@@ -182,7 +177,7 @@ private:
                 const Lanes squared =
                     squared_distances(along, hn::Set(tag, vertices.start_x[vertex]),
                                       hn::Set(tag, vertices.start_y[vertex]));
-                std::uint32_t found = bits_of(hn::Le(squared, hn::Set(tag, bound_)));
+                std::uint32_t found = bits_of(hn::Le(squared, hn::Set(tag, squared_bound())));
                 if (found == 0) {
                     continue;
                 }
@@ -191,35 +186,73 @@ private:
                 for (; found != 0; found &= found - 1) {
                     const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
                     const auto edge = static_cast<std::uint32_t>(i) + lane;
-                    if (edge < some_edges.end && distances[lane] <= bound_) {
-                        Take({vertex, edge, vertices_are_of_a, distances[lane]});
+                    if (edge >= some_edges.end || distances[lane] > squared_bound()) {
+                        continue;
+                    }
+                    bound_.Take(distances[lane]);
+                    if (!sink_.use(sink_.user,
+                                   {vertex, edge, vertices_are_of_a, distances[lane]})) {
+                        return false;
                     }
                 }
             }
         }
-    }
-
-    void Take(const VertexAndEdge& found) {
-        sink_.use(sink_.user, found);
-        if (found.squared < least_) {
-            least_ = found.squared;
-            bound_ = longer(least_);
-        }
+        return true;
     }
 
     const BoxTree& a_;
     const BoxTree& b_;
-    double margin_;
+    Bound& bound_;
     const VertexAndEdgeSink& sink_;
+};
+
+/// The least distance so far, and a margin.
+class LeastBound {
+public:
+    HWY_INLINE LeastBound(double most, double margin) : margin_(margin), least_(most) {
+        Take(most);
+    }
+
+    [[nodiscard]] HWY_INLINE double squared() const { return squared_; }
+    [[nodiscard]] HWY_INLINE double least() const { return least_; }
+    HWY_INLINE void Take(double squared) {
+        if (squared <= least_) {
+            least_ = squared;
+            const double length = std::sqrt(squared) + margin_;
+            squared_ = length * length;
+        }
+    }
+
+private:
+    double margin_;
     double least_;
-    double bound_;
+    double squared_ = 0.0;
+};
+
+class FixedBound {
+public:
+    HWY_INLINE explicit FixedBound(double squared) : squared_(squared) {}
+
+    [[nodiscard]] HWY_INLINE double squared() const { return squared_; }
+    HWY_INLINE void Take(double /*squared*/) const {}
+
+private:
+    double squared_;
 };
 
 double ForClosest(const BoxTree& first, const BoxTree& second, double most, double margin,
                   const VertexAndEdgeSink& sink) {
-    ClosestLeaves leaves(first, second, most, margin, sink);
-    PairWalk<ClosestLeaves>(first, second, leaves).Run();
-    return leaves.least();
+    LeastBound bound(most, margin);
+    NearLeaves<LeastBound> leaves(first, second, bound, sink);
+    PairWalk<NearLeaves<LeastBound>>(first, second, leaves).Run();
+    return bound.least();
+}
+
+bool ForWithin(const BoxTree& first, const BoxTree& second, double most,
+               const VertexAndEdgeSink& sink) {
+    FixedBound bound(most);
+    NearLeaves<FixedBound> leaves(first, second, bound, sink);
+    return !PairWalk<NearLeaves<FixedBound>>(first, second, leaves).Run();
 }
 
 }  // namespace nearfield::exact::kernels::HWY_NAMESPACE
@@ -230,6 +263,7 @@ namespace nearfield::exact::kernels {
 
 HWY_EXPORT(ForMeetingPairs);
 HWY_EXPORT(ForClosest);
+HWY_EXPORT(ForWithin);
 
 bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margin,
                        const EdgePairSink& sink) {
@@ -239,6 +273,11 @@ bool for_meeting_pairs(const BoxTree& first, const BoxTree& second, double margi
 double for_closest(const BoxTree& first, const BoxTree& second, double most, double margin,
                    const VertexAndEdgeSink& sink) {
     return HWY_DYNAMIC_DISPATCH(ForClosest)(first, second, most, margin, sink);
+}
+
+bool for_within(const BoxTree& first, const BoxTree& second, double most,
+                const VertexAndEdgeSink& sink) {
+    return HWY_DYNAMIC_DISPATCH(ForWithin)(first, second, most, sink);
 }
 
 }  // namespace nearfield::exact::kernels

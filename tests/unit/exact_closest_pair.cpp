@@ -131,5 +131,43 @@ TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
 }
 
+/// A rectangle, its upper and lower sides cut into so many edges.
+Ring cut_rectangle(double low_x, double low_y, double high_x, double high_y, int edges) {
+    Ring ring;
+    for (int i = 0; i < edges; ++i) {
+        ring.push_back({low_x + (high_x - low_x) * i / edges, low_y});
+    }
+    for (int i = 0; i < edges; ++i) {
+        ring.push_back({high_x - (high_x - low_x) * i / edges, high_y});
+    }
+    ring.push_back({low_x, high_y});
+    return ring;
+}
+
+/// Tens of thousands of pairs as close as the closest, up to the margin: more than are kept.
+TEST(ClosestPair, UniqueUnlessAnotherIsAsCloseAmongVeryMany) {
+    const Polygon wall = samples::polygon({cut_rectangle(0.0, 0.0, 10.0, 1.0, 5000)});
+    ClosestPairFinder finder;
+    const auto unique = [&](const Ring& ring, double margin) {
+        const Polygon polygon = samples::polygon({ring});
+        const PlacedPair placed(wall, {}, polygon, {});
+        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, margin);
+        EXPECT_EQ(closest.squared_distance,
+                  brute_force_squared_distance(placed.a().placed, placed.b().placed));
+        return finder.is_unique(closest, Side::either, margin, 0.5);
+    };
+    for (const double margin : {0.0, 1e-3}) {
+        EXPECT_TRUE(unique(cut_rectangle(5.0, 2.0, 5.4, 4.0, 500), margin));
+        EXPECT_FALSE(unique(cut_rectangle(5.0, 2.0, 6.0, 4.0, 500), margin));
+    }
+    // Hanging down to the left, so that the other end is farther away by 0.001.
+    Ring tilted = cut_rectangle(5.0, 2.0, 7.0, 4.0, 500);
+    for (Vector2& vertex : tilted) {
+        vertex.y += 5e-4 * (vertex.x - 5.0);
+    }
+    EXPECT_TRUE(unique(tilted, 1e-4));
+    EXPECT_FALSE(unique(tilted, 5e-4));
+}
+
 }  // namespace
 }  // namespace nearfield::exact
