@@ -208,9 +208,8 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         keep(EdgeStack::along_x, some.along_x);
         keep(EdgeStack::along_y, some.along_y);
         keep(EdgeStack::inverse, some.inverse);
-        hn::StoreU(
-            hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, near)), words,
-            edges.indices() + pushed);
+        hn::StoreU(hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, near)),
+                   words, edges.indices() + pushed);
         pushed += hn::CountTrue(d, near);
     }
     edges.resize(pushed);

@@ -117,8 +117,9 @@ TEST(PlacedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
     constexpr std::uint32_t side = 40;
     samples::Rings squares;
     for (std::uint32_t i = 0; i < side * side; ++i) {
+        const std::uint32_t row = i / side;
         const double x = i % side;
-        const double y = i / side;  // NOLINT(bugprone-integer-division): a row
+        const double y = row;
         squares.push_back({{x, y}, {x + 0.5, y}, {x + 0.5, y + 0.5}, {x, y + 0.5}});
     }
     samples::Random random(3);
