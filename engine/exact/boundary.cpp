@@ -81,8 +81,8 @@ Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
     // The ray leaves the edge across its longer extent; what lies just beyond the edge decides.
     const bool upwards = std::abs(direction.y()) < std::abs(direction.x());
     const Vector point = start + parameter * direction;
-    const bool inside_ahead =
-        kernels::crossings_are_odd(*tree_, {point.x(), point.y(), upwards}, edge, edges_->rounding);
+    const bool inside_ahead = kernels::crossings_of_others_are_odd(
+        *tree_, {point.x(), point.y(), upwards}, {direction.x(), direction.y(), edges_->rounding});
     const bool left_is_ahead = left[upwards ? 1 : 0] > 0.0;
     return inside_ahead == left_is_ahead ? Vector(-left) : left;
 }

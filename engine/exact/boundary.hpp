@@ -63,8 +63,8 @@ public:
 
     /// The unit normal of an edge that points out of the polygon at a place on the edge,
     /// `parameter` of the way along it; the side changes where the boundary crosses itself. Where
-    /// both sides are inside, or neither is (edges that coincide), either may come. An edge of no
-    /// length gives zero.
+    /// both sides are inside, or neither is (an even number of edges that coincide), either may
+    /// come. An edge of no length gives zero.
     [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge, double parameter);
 
 private:

@@ -95,9 +95,8 @@ struct VertexAndEdgeSink {
 
 namespace kernels {
 
-// As their namesakes of edge_kernels.hpp, but inverse lengths are not read, and what fills up the
-// arrays of edges, up to a lane less than a vector more than whole ones, is an edge of no length at
-// the last edge's end.
+// As their namesakes of edge_kernels.hpp, but inverse lengths are not read. Where there are pieces,
+// arrays of edges may be read, not used, up to a vector more than whole lanes.
 
 /// Writes the boxes of a BoxTree, not its ring starts.
 void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes);
@@ -112,10 +111,21 @@ struct Ray {
     bool upwards = false;  ///< else to the right
 };
 
-/// True where a ray crosses an odd number of edges other than one, which the ray's start lies on,
-/// or from which it is no farther away than `rounding`.
-[[nodiscard]] bool crossings_are_odd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out,
-                                     double rounding);
+/// The line of an edge that a ray starts on.
+struct LineOfEdge {
+    double along_x = 0.0;
+    double along_y = 0.0;
+    double rounding = 0.0;  ///< what vertices and the ray's start may be off by
+};
+
+/// True where a ray crosses an odd number of edges.
+[[nodiscard]] bool crossings_are_odd(const BoxTree& tree, const Ray& ray);
+
+/// The same of all edges but those that run along a line through the ray's start: the edge that it
+/// starts on, and others where that lies on them too. Precondition: the ray leaves the line at an
+/// angle of 45 degrees or more.
+[[nodiscard]] bool crossings_of_others_are_odd(const BoxTree& tree, const Ray& ray,
+                                               const LineOfEdge& line);
 
 /// An edge nearer to a point than `guess`, the nearest of them, or `guess` where there is none.
 [[nodiscard]] NearEdge find_nearer(const BoxTree& tree, double x, double y, const NearEdge& guess);

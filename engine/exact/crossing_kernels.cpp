@@ -27,19 +27,18 @@ HWY_INLINE LanesOfExtent turned(const LanesOfExtent& boxes) {
 /// Counts how often a ray crosses the edges, modulo 2. Boxes that follow each other and lie ahead
 /// of the point need no closer look: they hold a piece of the boundary, which crosses the ray an
 /// odd number of times just where its ends lie on different sides. So only boxes around the point
-/// are entered, however many lie on the ray.
-template <bool upwards>
+/// are entered, however many lie on the ray. `LeftOut` tells of edges about the point that do not
+/// count.
+template <bool upwards, class LeftOut>
 class RayCrossings {
 public:
-    HWY_INLINE RayCrossings(const BoxTree& tree, double x, double y, std::uint32_t left_out,
-                            double rounding)
+    HWY_INLINE RayCrossings(const BoxTree& tree, const Ray& ray, const LeftOut& left_out)
         : tree_(tree),
           edges_(turned<upwards>(tree.edges())),
           ring_starts_(upwards ? tree.ring_starts().x : tree.ring_starts().y),
-          x_(upwards ? y : x),
-          y_(upwards ? x : y),
-          left_out_(left_out),
-          rounding_(rounding) {}
+          x_(upwards ? ray.y : ray.x),
+          y_(upwards ? ray.x : ray.y),
+          left_out_(left_out) {}
 
     HWY_INLINE bool AreOdd() {
         for_leaves_opened(
@@ -64,8 +63,8 @@ private:
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
             const LanesOfExtent boxes = turned<upwards>(boxes_at(tree_.level(level), first + i));
             const LaneMask level_with = hn::And(hn::Le(boxes.low_y, y), hn::Ge(boxes.high_y, y));
-            // The edge that is left out may seem to lie ahead, by rounding.
-            const LaneMask is_ahead = hn::Gt(boxes.low_x, hn::Set(tag, x_ + rounding_));
+            // An edge that is left out may seem to lie ahead, by rounding.
+            const LaneMask is_ahead = hn::Gt(boxes.low_x, hn::Set(tag, x_ + left_out_.Reach()));
             const LaneMask not_behind = hn::Ge(boxes.high_x, x);
             ahead |= bits_of(is_ahead) << i;
             around |= bits_of(hn::AndNot(is_ahead, hn::And(level_with, not_behind))) << i;
@@ -95,15 +94,13 @@ private:
 
     HWY_INLINE void CountEdges(const EdgeRange& some) {
         const Tag tag;
-        std::uint32_t crossed = bits_of_eight([&](std::size_t i) HWY_ATTR {
-            return are_negative(
-                crossings(EdgeLanes(edges_, some.first + i), hn::Set(tag, x_), hn::Set(tag, y_)));
+        const Lanes x = hn::Set(tag, x_);
+        const Lanes y = hn::Set(tag, y_);
+        const std::uint32_t crossed = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            const EdgeLanes edges(edges_, some.first + i);
+            return hn::AndNot(left_out_.Are(edges, x, y), are_negative(crossings(edges, x, y)));
         });
-        crossed &= bits_of_range(some);
-        if (left_out_ - some.first < fan_out) {
-            crossed &= ~(1U << (left_out_ - some.first));
-        }
-        crossed_ ^= static_cast<std::uint32_t>(std::popcount(crossed));
+        crossed_ ^= static_cast<std::uint32_t>(std::popcount(crossed & bits_of_range(some)));
     }
 
     const BoxTree& tree_;
@@ -111,14 +108,59 @@ private:
     const double* const ring_starts_;
     const double x_;
     const double y_;
-    const std::uint32_t left_out_;
-    const double rounding_;
+    const LeftOut& left_out_;
     std::uint32_t crossed_ = 0;
 };
 
-bool CrossingsAreOdd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out, double rounding) {
-    return ray.upwards ? RayCrossings<true>(tree, ray.x, ray.y, left_out, rounding).AreOdd()
-                       : RayCrossings<false>(tree, ray.x, ray.y, left_out, rounding).AreOdd();
+struct NoneLeftOut {
+    [[nodiscard]] HWY_INLINE double Reach() const { return 0.0; }
+    [[nodiscard]] HWY_INLINE LaneMask Are(const EdgeLanes& /*edges*/, Lanes x, Lanes /*y*/) const {
+        return hn::Lt(x, x);
+    }
+};
+
+/// Those that run along a line through the point, as far as what they and the point are off by lets
+/// that be told.
+class LineLeftOut {
+public:
+    HWY_INLINE LineLeftOut(const LineOfEdge& line, bool upwards)
+        : along_x_(hn::Set(Tag(), upwards ? line.along_y : line.along_x)),
+          along_y_(hn::Set(Tag(), upwards ? line.along_x : line.along_y)),
+          reach_(4.0 * line.rounding) {}
+
+    [[nodiscard]] HWY_INLINE double Reach() const { return reach_; }
+    [[nodiscard]] HWY_INLINE LaneMask Are(const EdgeLanes& edges, Lanes x, Lanes y) const {
+        const Lanes reach = hn::Set(Tag(), reach_);
+        const Lanes edge_x = hn::Sub(edges.end_x, edges.start_x);
+        const Lanes edge_y = hn::Sub(edges.end_y, edges.start_y);
+        // The sum of the coordinates is no less than the length, and costs no root.
+        const Lanes length = hn::Add(hn::Abs(edge_x), hn::Abs(edge_y));
+        const Lanes lengths = hn::Add(length, hn::Add(hn::Abs(along_x_), hn::Abs(along_y_)));
+        const Lanes beside = hn::Abs(
+            cross_lanes(edge_x, edge_y, hn::Sub(x, edges.start_x), hn::Sub(y, edges.start_y)));
+        const Lanes aslant = hn::Abs(cross_lanes(along_x_, along_y_, edge_x, edge_y));
+        return hn::And(hn::Le(beside, hn::Mul(reach, length)),
+                       hn::Le(aslant, hn::Mul(reach, lengths)));
+    }
+
+private:
+    Lanes along_x_;
+    Lanes along_y_;
+    double reach_;
+};
+
+template <class LeftOut>
+HWY_INLINE bool are_odd(const BoxTree& tree, const Ray& ray, const LeftOut& left_out) {
+    return ray.upwards ? RayCrossings<true, LeftOut>(tree, ray, left_out).AreOdd()
+                       : RayCrossings<false, LeftOut>(tree, ray, left_out).AreOdd();
+}
+
+bool CrossingsAreOdd(const BoxTree& tree, const Ray& ray) {
+    return are_odd(tree, ray, NoneLeftOut());
+}
+
+bool CrossingsOfOthersAreOdd(const BoxTree& tree, const Ray& ray, const LineOfEdge& line) {
+    return are_odd(tree, ray, LineLeftOut(line, ray.upwards));
 }
 
 }  // namespace nearfield::exact::kernels::HWY_NAMESPACE
@@ -128,15 +170,18 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::exact::kernels {
 
 HWY_EXPORT(CrossingsAreOdd);
+HWY_EXPORT(CrossingsOfOthersAreOdd);
 
 bool contain(const BoxTree& tree, double x, double y) {
-    constexpr std::uint32_t none = ~0U;
-    return crossings_are_odd(tree, {x, y}, none, 0.0);
+    return crossings_are_odd(tree, {x, y});
 }
 
-bool crossings_are_odd(const BoxTree& tree, const Ray& ray, std::uint32_t left_out,
-                       double rounding) {
-    return HWY_DYNAMIC_DISPATCH(CrossingsAreOdd)(tree, ray, left_out, rounding);
+bool crossings_are_odd(const BoxTree& tree, const Ray& ray) {
+    return HWY_DYNAMIC_DISPATCH(CrossingsAreOdd)(tree, ray);
+}
+
+bool crossings_of_others_are_odd(const BoxTree& tree, const Ray& ray, const LineOfEdge& line) {
+    return HWY_DYNAMIC_DISPATCH(CrossingsOfOthersAreOdd)(tree, ray, line);
 }
 
 }  // namespace nearfield::exact::kernels

@@ -44,9 +44,13 @@ void copy_ends(const Polygon& polygon, const double* start, double* end) {
 /// From so many rings on the order in which they come matters.
 constexpr std::uint32_t many_rings = 32;
 
+bool is_in_pieces(const Polygon& polygon) {
+    return polygon.ring_count() >= many_rings;
+}
+
 /// How long each array of edges is. Pieces of rings begin anywhere: a vector more is read.
-std::size_t length_of_arrays(std::uint32_t count) {
-    return padded(count) + (count <= most_edges_one_by_one ? 0 : most_lanes);
+std::size_t length_of_arrays(const Polygon& polygon) {
+    return padded(polygon.size()) + (is_in_pieces(polygon) ? most_lanes : 0);
 }
 
 /// Writes BoxTree::ring_starts() of boxes over every eight edges.
@@ -147,7 +151,7 @@ void PlacedInstances::rehash() {
 void PlacedInstances::find_arrays(Entry& entry) const {
     if (entry.first != nowhere) {
         const std::uint32_t count = entry.edges.count;
-        const std::size_t length = length_of_arrays(count) / most_lanes;
+        const std::size_t length = length_of_arrays(entry.edges.placed.polygon()) / most_lanes;
         const auto array = [&](std::size_t number) {
             return coordinates_[entry.first + number * length].values;
         };
@@ -186,7 +190,7 @@ void PlacedInstances::add(const PlacedPolygon& placed, const Pose& pose) {
     PlacedEdges& edges = entry.edges;
     edges.count = polygon.size();
     if (is_small(edges)) {
-        entry.first = grow(arrays_of(edges.count) * length_of_arrays(edges.count) / most_lanes);
+        entry.first = grow(arrays_of(edges.count) * length_of_arrays(polygon) / most_lanes);
         find_arrays(entry);
         edges.box = write_arrays(entry);
     } else {
@@ -202,13 +206,13 @@ void PlacedInstances::complete(std::uint32_t index) {
         return;
     }
     const std::uint32_t count = entry.edges.count;
+    const Polygon& polygon = entry.edges.placed.polygon();
     if (entry.first == nowhere) {
-        entry.first = grow(arrays_of(count) * length_of_arrays(count) / most_lanes);
+        entry.first = grow(arrays_of(count) * length_of_arrays(polygon) / most_lanes);
         find_arrays(entry);
         static_cast<void>(write_arrays(entry));
     }
-    const Polygon& polygon = entry.edges.placed.polygon();
-    if (polygon.ring_count() < many_rings) {
+    if (!is_in_pieces(polygon)) {
         entry.first_boxes = grow(BoxTree::room(BoxTree::boxes_over(count)) / most_lanes);
         find_arrays(entry);
         double* const boxes = coordinates_[entry.first_boxes].values;
@@ -227,7 +231,7 @@ void PlacedInstances::complete(std::uint32_t index) {
 
 std::uint32_t PlacedInstances::cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings) {
     const Polygon& polygon = entry.edges.placed.polygon();
-    const EdgeRange* const before = pieces_.data();
+    const std::size_t room_before = pieces_.capacity();
     entry.first_piece = pieces_.size();
     for (const std::uint32_t ring : rings) {
         const std::uint32_t end = polygon.ring_end(ring);
@@ -236,7 +240,7 @@ std::uint32_t PlacedInstances::cut_into_pieces(Entry& entry, std::span<const std
         }
     }
     entry.end_piece = pieces_.size();
-    if (pieces_.data() != before) {
+    if (pieces_.capacity() != room_before) {
         for (Entry& other : entries_) {
             find_arrays(other);
         }
@@ -247,7 +251,7 @@ std::uint32_t PlacedInstances::cut_into_pieces(Entry& entry, std::span<const std
 Box PlacedInstances::write_arrays(const Entry& entry) {
     const Polygon& polygon = entry.edges.placed.polygon();
     const std::uint32_t count = polygon.size();
-    const std::size_t length = length_of_arrays(count);
+    const std::size_t length = length_of_arrays(polygon);
     double* const start_x = coordinates_[entry.first].values;
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;

@@ -237,14 +237,13 @@ private:
         const Lanes y = hn::Set(tag, point_.low_y);
         const EdgeRange range = tree_.edges_of(box);
         for (std::size_t i = range.first; i < range.end; i += hn::Lanes(tag)) {
-            const Lanes squared = squared_distances(edges_along(edges, i), x, y);
-            if (hn::AllFalse(tag, hn::Lt(squared, hn::Set(tag, best_.squared)))) {
-                continue;
+            // What else is in the lanes may be as near.
+            const Lanes squared = hn::IfThenElse(
+                hn::FirstN(tag, range.end - i), squared_distances(edges_along(edges, i), x, y),
+                hn::Set(tag, std::numeric_limits<double>::infinity()));
+            if (!hn::AllFalse(tag, hn::Lt(squared, hn::Set(tag, best_.squared)))) {
+                best_ = least_of(squared, hn::Iota(tag, static_cast<double>(i)));
             }
-            best_ = least_of(squared, hn::Iota(tag, static_cast<double>(i)));
-            // What fills up the lanes is no nearer than the last edge, but for its rounding; edges
-            // of other boxes do no harm.
-            best_.edge = best_.edge < edges.count ? best_.edge : edges.count - 1;
         }
     }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace nearfield::exact {
@@ -12,8 +13,6 @@ namespace {
 
 using geometry::Polygon;
 using geometry::Vector;
-
-constexpr std::uint32_t none = ~0U;
 
 /// True where the ray from `point` towards growing coordinate `along` crosses the edge. Half open
 /// across, so that a vertex on the ray counts once.
@@ -28,11 +27,12 @@ bool crosses(const Vector& start, const Vector& end, const Vector& point, int al
     return along == 0 ? (side > 0.0) == upward : (side < 0.0) == upward;
 }
 
+template <class Counts>
 bool are_odd_one_by_one(const PlacedEdges& edges, const Vector& point, int along,
-                        std::uint32_t left_out) {
+                        const Counts& counts) {
     bool odd = false;
     for (std::uint32_t i = 0; i < edges.count; ++i) {
-        odd ^= i != left_out && crosses(edges.start(i), edges.end(i), point, along);
+        odd ^= counts(i) && crosses(edges.start(i), edges.end(i), point, along);
     }
     return odd;
 }
@@ -78,10 +78,11 @@ TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
         for (int i = 0; i < 400; ++i) {
             const Vector point(0.5 * random.below(110), 0.5 * random.below(110));
             for (const int along : {0, 1}) {
-                const bool expected = are_odd_one_by_one(edges, point, along, none);
-                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
-                                                     {point.x(), point.y(), along == 1}, none, 0.0),
-                          expected)
+                const bool expected =
+                    are_odd_one_by_one(edges, point, along, [](std::uint32_t) { return true; });
+                EXPECT_EQ(
+                    kernels::crossings_are_odd(edges.tree(), {point.x(), point.y(), along == 1}),
+                    expected)
                     << point.transpose() << ", along " << along;
                 odd += expected ? 1 : 0;
                 ++all;
@@ -91,40 +92,65 @@ TEST(CrossingKernels, CountFromAnyPointAsOneByOne) {
     EXPECT_GT(odd, all / 10);
 }
 
-TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllOthers) {
+/// The axis that is more across a direction than along it.
+int across(const Vector& direction) {
+    return std::abs(direction.y()) >= std::abs(direction.x()) ? 0 : 1;
+}
+
+TEST(CrossingKernels, CountFromAPlaceOnAnEdgeAllButThoseAlongIt) {
+    int more_left_out = 0;
     for_each_grid_shape([&](const PlacedEdges& edges, samples::Random& random) {
         for (int i = 0; i < 400; ++i) {
             const std::uint32_t edge = random.below(edges.count);
-            const Vector point = edges.at(edge, 0.25 * random.below(4));
-            for (const int along : {0, 1}) {
-                EXPECT_EQ(kernels::crossings_are_odd(edges.tree(),
-                                                     {point.x(), point.y(), along == 1}, edge, 0.0),
-                          are_odd_one_by_one(edges, point, along, edge))
-                    << "edge " << edge << " at " << point.transpose() << ", along " << along;
+            const Vector direction = edges.end(edge) - edges.start(edge);
+            if (direction.isZero()) {
+                continue;
             }
+            const Vector point = edges.at(edge, 0.25 * random.below(4));  // where nothing rounds
+            const int along = across(direction);
+            int left_out = 0;
+            const bool expected = are_odd_one_by_one(edges, point, along, [&](std::uint32_t other) {
+                const Vector along_other = edges.end(other) - edges.start(other);
+                const bool on_line =
+                    geometry::cross(direction, along_other) == 0.0 &&
+                    geometry::cross(along_other, point - edges.start(other)) == 0.0;
+                left_out += on_line ? 1 : 0;
+                return !on_line;
+            });
+            more_left_out += left_out > 1 ? 1 : 0;
+            EXPECT_EQ(kernels::crossings_of_others_are_odd(edges.tree(),
+                                                           {point.x(), point.y(), along == 1},
+                                                           {direction.x(), direction.y(), 1e-12}),
+                      expected)
+                << "edge " << edge << " at " << point.transpose();
         }
     });
+    EXPECT_GT(more_left_out, 100);
 }
 
 /// A place on an edge rounds: it may come to lie behind all that the edge's own box holds.
-TEST(CrossingKernels, LeaveAnEdgeOutThatSeemsToLieAhead) {
-    const samples::Rings comb = [] {
-        Ring ring{{0.0, -1.0}, {200.0, -1.0}};
-        for (int i = 99; i >= 0; --i) {
-            ring.insert(ring.end(), {{2.0 * i + 1.5, 0.0}, {2.0 * i + 1.0, 5.0}, {2.0 * i, 0.0}});
-        }
-        return samples::Rings{ring};
-    }();
-    const Polygon polygon = samples::polygon(comb);
+TEST(CrossingKernels, LeaveOutWhatSeemsToLieAhead) {
+    Ring comb{{0.0, -1.0}, {200.0, -1.0}};
+    for (int i = 99; i >= 0; --i) {
+        comb.insert(comb.end(), {{2.0 * i + 1.5, 0.0}, {2.0 * i + 1.0, 5.0}, {2.0 * i, 0.0}});
+    }
+    const Polygon polygon = samples::polygon({comb});
     PlacedInstances instances;
     const std::uint32_t index = instances.place(polygon, {});
     instances.complete(index);
     const PlacedEdges& edges = instances[index];
     for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+        const Vector direction = edges.end(edge) - edges.start(edge);
+        if (across(direction) != 0) {
+            continue;
+        }
+        constexpr double rounding = 1e-3;
         const Vector on_edge = edges.at(edge, 0.5);
-        const Vector behind(on_edge.x() - 3.0, on_edge.y());
-        EXPECT_EQ(kernels::crossings_are_odd(edges.tree(), {behind.x(), behind.y()}, edge, 3.5),
-                  are_odd_one_by_one(edges, behind, 0, edge))
+        EXPECT_EQ(kernels::crossings_of_others_are_odd(edges.tree(),
+                                                       {on_edge.x() - 2.0 * rounding, on_edge.y()},
+                                                       {direction.x(), direction.y(), rounding}),
+                  are_odd_one_by_one(edges, on_edge, 0,
+                                     [edge](std::uint32_t other) { return other != edge; }))
             << "edge " << edge;
     }
 }

@@ -94,6 +94,17 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
     return said;
 }
 
+/// Squares on a grid, in any order, many of which touch: the nearest edge is one of several.
+samples::Rings squares_on_a_grid(samples::Random& random) {
+    samples::Rings squares;
+    while (squares.size() < 40) {
+        const double x = 0.25 * random.below(10) - 1.25;
+        const double y = 0.25 * random.below(10) - 1.25;
+        squares.push_back({{x, y}, {x + 0.25, y}, {x + 0.25, y + 0.25}, {x, y + 0.25}});
+    }
+    return squares;
+}
+
 TEST(EdgeKernels, SayTheSameOnEveryInstructionSet) {
     samples::Random random(91);
     std::vector<std::int64_t> targets;
@@ -102,12 +113,15 @@ TEST(EdgeKernels, SayTheSameOnEveryInstructionSet) {
     }
     for (int i = 0; i < 60; ++i) {
         const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 120.0)); };
-        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
+        const Polygon a =
+            samples::polygon(i % 4 == 0 ? squares_on_a_grid(random)
+                                        : samples::Rings{samples::star(random, size(), 0.3, 1.0)});
         const Polygon b = samples::polygon({samples::star(random, size(), 0.1, 0.9)});
         const Pose pose{{random.between(-1.5, 1.5), random.between(-1.5, 1.5)}, 0.4};
         std::vector<Vector> points;
         for (int k = 0; k < 20; ++k) {
             points.emplace_back(random.between(-1.2, 1.2), random.between(-1.2, 1.2));
+            points.emplace_back(0.125 * random.below(20) - 1.25, 0.125 * random.below(20) - 1.25);
         }
         const std::vector<double> expected = said_of(a, b, pose, points);
         for (const std::int64_t target : targets) {

@@ -143,7 +143,13 @@ TEST(PlacedEdges, HaveSmallBoxesWhateverTheOrderOfRings) {
 /// Instances keep their pieces while others are completed.
 TEST(PlacedEdges, KeepTheirPiecesWhereOthersGetSome) {
     samples::Random random(5);
-    const Polygon polygon = samples::polygon(samples::assorted_shapes(random).back().rings);
+    samples::Rings triangles;
+    for (int i = 0; i < 60; ++i) {
+        triangles.push_back(samples::moved({samples::star(random, 3, 0.05, 0.2)},
+                                           random.between(-0.9, 0.9), random.between(-0.9, 0.9))
+                                .front());
+    }
+    const Polygon polygon = samples::polygon(triangles);
     PlacedInstances instances;
     constexpr std::uint32_t many = 20;
     for (std::uint32_t i = 0; i < many; ++i) {

@@ -154,6 +154,17 @@ inline std::vector<NamedRings> assorted_shapes(Random& random) {
             moved({ring}, random.between(-0.9, 0.9), random.between(-0.9, 0.9)).front());
     }
     shapes.push_back({"islands in any order", islands});
+    Rings triangles;
+    for (int i = 39; i >= 0; --i) {
+        const double x = 0.2 * (i % 8) - 0.8;
+        const double y = 0.3 * (i / 8) - 0.7;
+        triangles.push_back({{x, y}, {x + 0.1, y}, {x, y + 0.2}});
+    }
+    shapes.push_back({"many rings of few edges", triangles});
+    // Of three walls on one line an odd number or two, over different stretches.
+    shapes.push_back({"walls on each other",
+                      {rectangle(0.0, 0.0, 0.8, 0.2), rectangle(0.2, 0.0, 1.0, 0.4),
+                       rectangle(-0.2, 0.0, 0.6, 0.6)}});
     return shapes;
 }
 
