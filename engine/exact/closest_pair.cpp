@@ -118,7 +118,7 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     const double squared_apart = apart * apart;
     // Where more than one pair is closest, a vertex is in another: the distance of two straight
     // edges is least at an end of one of them, and where not only there they run in parallel.
-    const auto is_rival = [&](const VertexAndEdge& found) {
+    auto is_rival = [&](const VertexAndEdge& found) {
         const ClosestPair other = pair_of(found);
         const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
                                (side == Side::either &&
@@ -131,10 +131,9 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     const auto go_on = [](void* user, const VertexAndEdge& found) {
         return !(*static_cast<decltype(is_rival)*>(user))(found);
     };
-    auto asked = is_rival;
     return !kernels::for_within(a_->tree(), b_->tree(),
                                 square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
-                                {go_on, &asked});
+                                {go_on, &is_rival});
 }
 
 }  // namespace nearfield::exact

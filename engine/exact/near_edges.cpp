@@ -86,7 +86,7 @@ float select_near(const EdgeList& from, const Disc& disc, float slack, float* sq
         if (hn::AllFalse(d, near)) {
             continue;
         }
-        // In registers: compressed into memory, some processors take a hundred times as long.
+        // In registers: compressed into memory, some processors take many times as long.
         for (std::size_t number = 0; number < EdgeList::numbers; ++number) {
             hn::StoreU(hn::Compress(hn::LoadU(d, from.number(number) + i), near), d,
                        to.number(number) + count);

@@ -212,20 +212,20 @@ void PlacedInstances::complete(std::uint32_t index) {
         find_arrays(entry);
         static_cast<void>(write_arrays(entry));
     }
-    if (!is_in_pieces(polygon)) {
-        entry.first_boxes = grow(BoxTree::room(BoxTree::boxes_over(count)) / most_lanes);
-        find_arrays(entry);
-        double* const boxes = coordinates_[entry.first_boxes].values;
-        write_ring_starts(polygon, entry.edges, boxes);
-        kernels::find_boxes(entry.edges, {}, boxes);
-        return;
+    std::span<const std::uint32_t> rings;
+    std::uint32_t lowest = BoxTree::boxes_over(count);
+    if (is_in_pieces(polygon)) {
+        rings = ring_order_.find(polygon, entry.edges, entry.edges.box);
+        lowest = cut_into_pieces(entry, rings);
     }
-    const std::span rings = ring_order_.find(polygon, entry.edges, entry.edges.box);
-    const std::uint32_t pieces = cut_into_pieces(entry, rings);
-    entry.first_boxes = grow(BoxTree::room(pieces) / most_lanes);
+    entry.first_boxes = grow(BoxTree::room(lowest) / most_lanes);
     find_arrays(entry);
     double* const boxes = coordinates_[entry.first_boxes].values;
-    write_ring_starts(polygon, entry.edges, rings, padded(pieces), boxes);
+    if (is_in_pieces(polygon)) {
+        write_ring_starts(polygon, entry.edges, rings, padded(lowest), boxes);
+    } else {
+        write_ring_starts(polygon, entry.edges, boxes);
+    }
     kernels::find_boxes(entry.edges, entry.edges.pieces, boxes);
 }
 

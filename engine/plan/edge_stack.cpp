@@ -199,7 +199,7 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         if (hn::AllFalse(d, near)) {
             continue;
         }
-        // In registers: compressed into memory, some processors take a hundred times as long.
+        // In registers: compressed into memory, some processors take many times as long.
         const auto keep = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
             hn::StoreU(hn::Compress(numbers, near), d, edges.number(number) + pushed);
         };
