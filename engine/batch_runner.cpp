@@ -24,11 +24,11 @@ std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
 
 }  // namespace
 
-BatchRunner::BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer)
+BatchRunner::BatchRunner(Planning& planning, Renderer* renderer)
     : planning_(&planning),
-      renderer_(&renderer),
-      slot_(renderer.make_slot()),
-      decoder_(gradient_format, planning.answers) {}
+      renderer_(renderer),
+      slot_(renderer == nullptr ? nullptr : renderer->make_slot()),
+      decoder_(renderer == nullptr ? "" : renderer->gradient_format(), planning.answers) {}
 
 void BatchRunner::copy(std::span<const AnyQuery> queries) {
     queries_.clear();
@@ -89,7 +89,7 @@ void BatchRunner::keep_off_the_device() {
 /// Up to the point where rounds are ready to be recorded.
 void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                         plan::Submissions submissions) {
-    if (slot_->flight() == Flight::submitted) {
+    if (flight() == Flight::submitted) {
         slot_->wait();  // for a batch that failed half-way
     }
     late_failure_ = nullptr;
@@ -134,7 +134,7 @@ void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShap
         renderer_->submit(*slot_, order, results_.timings);
         submitted_ = {};
         device_milliseconds_.reset();
-    } else {
+    } else if (slot_ != nullptr) {
         slot_->submit_semaphores(order);
     }
     // Once it is submitted the host has to know: semaphores are on their way.
@@ -196,10 +196,10 @@ ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
 }
 
 bool BatchRunner::is_done() {
-    if (!slot_->is_done()) {
+    if (slot_ != nullptr && !slot_->is_done()) {
         return false;
     }
-    if (slot_->flight() == Flight::submitted && !device_milliseconds_) {
+    if (flight() == Flight::submitted && !device_milliseconds_) {
         device_milliseconds_ = submitted_.milliseconds();
     }
     return true;
@@ -213,7 +213,7 @@ void BatchRunner::wait() {
 
 void BatchRunner::collect() {
     Timings& timings = results_.timings;
-    while (slot_->flight() != Flight::none) {
+    while (flight() != Flight::none) {
         wait();
         const Stopwatch start;
         for (const std::uint32_t number : slot_->running()) {
@@ -227,7 +227,9 @@ void BatchRunner::collect() {
             device_milliseconds_.reset();
         }
     }
-    slot_->release();
+    if (slot_ != nullptr) {
+        slot_->release();
+    }
     if (late_failure_) {
         std::rethrow_exception(std::exchange(late_failure_, nullptr));
     }

@@ -29,7 +29,10 @@ struct Planning {
     AnswerJobs answers;
 
     Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
-        : chooser(costs), planner(limits), builder(limits.subpixel), answers(jobs) {}
+        : chooser(costs, limits.techniques),
+          planner(limits),
+          builder(limits.subpixel),
+          answers(jobs) {}
 };
 
 /// One batch from queries to results, in two steps: what is done up to its submission, and what is
@@ -38,8 +41,9 @@ struct Planning {
 /// to batch.
 class BatchRunner {
 public:
-    /// Planning and renderer are shared with other runners and must outlive this one.
-    BatchRunner(Planning& planning, const char* gradient_format, Renderer& renderer);
+    /// Planning and renderer are shared with other runners and must outlive this one. Without a
+    /// renderer (null) there is no device: the planner must refuse whatever needs one.
+    BatchRunner(Planning& planning, Renderer* renderer);
 
     /// Copies the queries, picks their techniques, plans them and submits their rounds with the
     /// semaphores of `order`; where nothing is to be rendered, the semaphores alone, if any. Then
@@ -54,7 +58,9 @@ public:
                 VkCommandBuffer commands, std::uint32_t stamp);
 
     /// Whose part is left to do.
-    [[nodiscard]] Flight flight() const { return slot_->flight(); }
+    [[nodiscard]] Flight flight() const {
+        return slot_ == nullptr ? Flight::none : slot_->flight();
+    }
     /// collect() would not wait for what was submitted.
     [[nodiscard]] bool is_done();
     /// Waits for the device and makes the results; what was recorded has to be done. Normals of
@@ -96,7 +102,7 @@ private:
 
     Planning* planning_;
     Renderer* renderer_;
-    std::unique_ptr<RenderSlot> slot_;
+    std::unique_ptr<RenderSlot> slot_;  // null without a renderer
     std::vector<AnyQuery> queries_;
     std::vector<Vector2> points_;            // of the queries
     std::vector<plan::QueryShapes> shapes_;  // by query

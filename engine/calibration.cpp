@@ -112,17 +112,6 @@ constexpr std::array<Kind, 5> kinds{{
     {&TechniqueCost::features, 0.2, 0.015, features},
 }};
 
-struct NamedTechnique {
-    Technique technique;
-    TechniqueCost CostModel::*cost;
-};
-
-constexpr std::array<NamedTechnique, 3> every_technique{{
-    {Technique::raster, &CostModel::raster},
-    {Technique::compute, &CostModel::compute},
-    {Technique::cpu, &CostModel::cpu},
-}};
-
 /// Runs workloads in a context.
 class Calibration {
 public:
@@ -144,11 +133,17 @@ public:
     Calibration(const Calibration&) = delete;
     Calibration& operator=(const Calibration&) = delete;
 
-    CostModel run() {
-        CostModel costs;
-        for (const auto& [technique, cost] : every_technique) {
-            costs.*cost = measure(technique);
+    CostModel run(const DeviceTechniques& techniques) {
+        CostModel costs = context_->costs();
+        count_ =
+            kinds.size() * (1U + (techniques.raster ? 1U : 0U) + (techniques.compute ? 1U : 0U));
+        if (techniques.raster) {
+            costs.raster = measure(Technique::raster);
         }
+        if (techniques.compute) {
+            costs.compute = measure(Technique::compute);
+        }
+        costs.cpu = measure(Technique::cpu);
         return costs;
     }
 
@@ -170,6 +165,7 @@ private:
     Star many_;
     Batch batch_;
     Results results_;
+    std::size_t count_ = 0;  // of workloads to measure
     std::size_t measured_ = 0;
 };
 
@@ -214,8 +210,7 @@ Calibration::KindTimes Calibration::measure(Technique technique, const Kind& kin
     times.samples = median_microseconds(technique, kind.query(few_.handle, kind.fine), 1);
     ++measured_;
     if (*progress_) {
-        (*progress_)(static_cast<double>(measured_) /
-                     static_cast<double>(kinds.size() * every_technique.size()));
+        (*progress_)(static_cast<double>(measured_) / static_cast<double>(count_));
     }
     return times;
 }
@@ -249,8 +244,9 @@ TechniqueCost Calibration::measure(Technique technique) {
 
 }  // namespace
 
-CostModel measure_costs(Context& context, const std::function<void(double)>& progress) {
-    return Calibration(context, progress).run();
+CostModel measure_costs(Context& context, const DeviceTechniques& techniques,
+                        const std::function<void(double)>& progress) {
+    return Calibration(context, progress).run(techniques);
 }
 
 }  // namespace nearfield

@@ -5,7 +5,6 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 #include <engine/gpu/submission.hpp>
-#include <engine/graph/format.hpp>
 #include <engine/guarded.hpp>
 #include <engine/host_input.hpp>
 #include <engine/localize/broad_phase.hpp>
@@ -30,25 +29,42 @@ geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
     return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
 }
 
-plan::PlanLimits plan_limits(const gpu::Device& device, const Settings& settings) {
+/// `device` is null in a context without one.
+plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings) {
     plan::PlanLimits limits;
-    limits.subpixel = subpixel_grid(device);
-    limits.largest_atlas = std::min(limits.largest_atlas, device.limits().maxImageDimension2D);
-    limits.largest_image = device.limits().maxImageDimension2D;
-    limits.largest_range = device.limits().maxStorageBufferRange;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
+    limits.bounding_volume = settings.bounding_volume;
+    limits.techniques = {true, settings.techniques.raster, settings.techniques.compute};
+    if (device == nullptr) {
+        limits.techniques.device = false;
+        return limits;
+    }
+    limits.subpixel = subpixel_grid(*device);
+    limits.largest_atlas = std::min(limits.largest_atlas, device->limits().maxImageDimension2D);
+    limits.largest_image = device->limits().maxImageDimension2D;
+    limits.largest_range = device->limits().maxStorageBufferRange;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         limits.missing_for_strategy[i] =
-            gpu::missing_for(static_cast<IntersectionStrategy>(i), device.strategy_support());
+            gpu::missing_for(static_cast<IntersectionStrategy>(i), device->strategy_support());
     }
-    limits.bounding_volume = settings.bounding_volume;
     return limits;
 }
 
-CostModel costs_of(const gpu::Device& device, const Settings& settings) {
-    return settings.costs.value_or(choose::default_costs(
-        device.is_software() ? choose::DeviceClass::software : choose::DeviceClass::hardware));
+CostModel costs_of(const gpu::Device* device, const Settings& settings) {
+    return settings.costs.value_or(choose::default_costs(device == nullptr || device->is_software()
+                                                             ? choose::DeviceClass::software
+                                                             : choose::DeviceClass::hardware));
+}
+
+Settings without_device(Settings settings) {
+    settings.techniques = {.raster = false, .compute = false};
+    return settings;
+}
+
+Status no_device(const char* call) {
+    return {StatusCode::no_device,
+            std::string(call) + ": this context has no device (Context::create_cpu)"};
 }
 
 Status lost_device() {
@@ -56,44 +72,50 @@ Status lost_device() {
             "the device was lost in an earlier batch; destroy this context and make another"};
 }
 
-const char* gradient_format(const gpu::Device& device) {
-    return graph::find_format(device.gradient_format())->name;
-}
-
 }  // namespace
 
 class Context::Implementation {
     /// Everything made of pipelines and of memory that they work on.
     struct Machinery {
-        Machinery(const gpu::Device& device, const Settings& settings, const CostModel& costs,
+        Machinery(const gpu::Device* device, const Settings& settings, const CostModel& costs,
                   ShapeStore& shapes)
-            : renderer(device),
+            : renderer(device == nullptr
+                           ? nullptr
+                           : std::make_unique<Renderer>(*device, settings.techniques)),
               ring(settings.frames_in_flight, plan_limits(device, settings), costs, settings.jobs,
-                   gradient_format(device), renderer, shapes) {}
+                   renderer.get(), shapes) {}
 
-        Renderer renderer;
+        std::unique_ptr<Renderer> renderer;  // null without a device
         FrameRing ring;
     };
 
 public:
+    /// Without a device.
+    explicit Implementation(const Settings& settings)
+        : settings_(without_device(settings)),
+          costs_(costs_of(nullptr, settings)),
+          machinery_(make_machinery()) {}
+    /// On the host's device, or on one of its own that `host` describes.
     Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
                    const Settings& settings)
         : own_device_(std::move(own)),
-          device_(host),
+          device_(std::make_unique<gpu::Device>(host)),
           settings_(settings),
-          costs_(costs_of(device_, settings)),
+          costs_(costs_of(device_.get(), settings)),
           machinery_(make_machinery()) {
-        device_.log(LogLevel::information, [&] {
-            return "context on '" + device_.name() + "' made in " +
+        device_->log(LogLevel::information, [&] {
+            return "context on '" + device_->name() + "' made in " +
                    std::to_string(making_.milliseconds()) + " ms, for " +
                    std::to_string(settings.frames_in_flight) + " frames in flight";
         });
     }
     ~Implementation() {
-        device_.log(LogLevel::information, [&] {
-            return "context on '" + device_.name() + "' goes; it took at most " +
-                   std::to_string(device_.memory_count().peak()) + " bytes of device memory";
-        });
+        if (device_ != nullptr) {
+            device_->log(LogLevel::information, [&] {
+                return "context on '" + device_->name() + "' goes; it took at most " +
+                       std::to_string(device_->memory_count().peak()) + " bytes of device memory";
+            });
+        }
     }
     Implementation(const Implementation&) = delete;
     Implementation& operator=(const Implementation&) = delete;
@@ -116,9 +138,11 @@ public:
     void list_tiles(std::vector<TileReport>& tiles) const { machinery_->ring.list_tiles(tiles); }
 
     [[nodiscard]] ShapeStore& shapes() { return shapes_; }
-    [[nodiscard]] const gpu::Device& device() const { return device_; }
+    /// Null without a device, as the renderer is.
+    [[nodiscard]] const gpu::Device* device() const { return device_.get(); }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
-    [[nodiscard]] const Renderer& renderer() const { return machinery_->renderer; }
+    [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
+    [[nodiscard]] const Renderer* renderer() const { return machinery_->renderer.get(); }
 
     /// Does something unless the device is lost; remembers where it gets lost.
     template <class Action>
@@ -129,7 +153,8 @@ public:
         Status status = guarded(action);
         if (status.code() == StatusCode::device_lost) {
             lost_ = true;
-            device_.log(LogLevel::error, [&] { return "the device is lost: " + status.message(); });
+            device_->log(LogLevel::error,
+                         [&] { return "the device is lost: " + status.message(); });
         }
         return status;
     }
@@ -140,12 +165,12 @@ public:
 
 private:
     [[nodiscard]] std::unique_ptr<Machinery> make_machinery() {
-        return std::make_unique<Machinery>(device_, settings_, costs_, shapes_);
+        return std::make_unique<Machinery>(device_.get(), settings_, costs_, shapes_);
     }
 
     Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
-    gpu::Device device_;
+    std::unique_ptr<gpu::Device> device_;              // null in a context without one
     const Settings settings_;
     CostModel costs_;
     ShapeStore shapes_;
@@ -154,7 +179,7 @@ private:
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     std::unique_ptr<Machinery> machinery_;
 #ifdef NEARFIELD_SHADER_RELOAD
-    reload::ShaderReload reload_{device_};
+    std::optional<reload::ShaderReload> reload_;
 #endif
     const Status lost_device_ = lost_device();  // made ahead: saying it needs no memory
     bool lost_ = false;
@@ -191,13 +216,20 @@ Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submi
     Ticket ticket;
     Status status = unless_lost([&] {
         const Submission order = adopted(submission);
-        gpu::check_semaphores(device_, order);
+        if (device_ != nullptr) {
+            gpu::check_semaphores(*device_, order);
+        } else if (!order.waits.empty() || !order.signals.empty()) {
+            throw Failure(no_device("submit with semaphores"));
+        }
         ticket = machinery_->ring.submit(batch.queries(), order, memory);
     });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
 Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
+    if (device_ == nullptr) {
+        return no_device("record");
+    }
     Ticket ticket;
     Status status =
         unless_lost([&] { ticket = machinery_->ring.record(batch.queries(), adopted(recording)); });
@@ -214,15 +246,21 @@ Status Context::Implementation::collect(Ticket ticket, Results& results) {
 
 #ifdef NEARFIELD_SHADER_RELOAD
 std::uint32_t Context::Implementation::reload_shaders(const char* folder) {
+    if (device_ == nullptr) {
+        throw Failure(no_device("reload_shaders"));
+    }
     machinery_->ring.require_none_in_flight("reload_shaders");
-    const std::uint32_t changed = reload_.compile_changed(folder);
+    if (!reload_) {
+        reload_.emplace(*device_);
+    }
+    const std::uint32_t changed = reload_->compile_changed(folder);
     if (changed > 0) {
         try {
             auto other = make_machinery();
             other->ring.count_on_from(machinery_->ring);
             machinery_ = std::move(other);
         } catch (...) {
-            reload_.take_back();
+            reload_->take_back();
             throw;
         }
     }
@@ -257,6 +295,16 @@ Expected<Context> Context::create_headless(const HeadlessOptions& options,
         const HostDevice host = own->host();
         implementation = std::make_unique<Implementation>(std::move(own), host, own_settings);
     });
+    if (!status.ok()) {
+        return status;
+    }
+    return Context(std::move(implementation));
+}
+
+Expected<Context> Context::create_cpu(const Settings& settings) {
+    std::unique_ptr<Implementation> implementation;
+    Status status =
+        guarded([&] { implementation = std::make_unique<Implementation>(adopted(settings)); });
     if (!status.ok()) {
         return status;
     }
@@ -335,8 +383,8 @@ Expected<ResidentSamples> Context::resident(Ticket ticket, QueryHandle<Intersect
 
 Expected<CostModel> Context::measure_costs(const std::function<void(double)>& progress) {
     CostModel costs;
-    Status status =
-        implementation_->unless_lost([&] { costs = nearfield::measure_costs(*this, progress); });
+    Status status = implementation_->unless_lost(
+        [&] { costs = nearfield::measure_costs(*this, implementation_->techniques(), progress); });
     return status.ok() ? Expected<CostModel>(costs) : status;
 }
 
@@ -345,12 +393,17 @@ const CostModel& Context::costs() const noexcept {
 }
 
 const std::string& Context::device_name() const noexcept {
-    return implementation_->device().name();
+    static const std::string none;
+    const gpu::Device* const device = implementation_->device();
+    return device == nullptr ? none : device->name();
 }
 
 MemoryUse Context::memory_use() const noexcept {
-    const gpu::MemoryCount& count = implementation_->device().memory_count();
-    return {count.in_use(), count.peak()};
+    const gpu::Device* const device = implementation_->device();
+    if (device == nullptr) {
+        return {};
+    }
+    return {device->memory_count().in_use(), device->memory_count().peak()};
 }
 
 std::string Context::describe_graph(GraphFormat format) const {
@@ -361,7 +414,9 @@ std::string Context::describe_graph(GraphFormat format) const {
                 {StatusCode::invalid_settings, "the format of a graph is no enumerator: " +
                                                    std::to_string(static_cast<int>(format))});
         }
-        text = implementation_->renderer().print(format);
+        if (const Renderer* const renderer = implementation_->renderer(); renderer != nullptr) {
+            text = renderer->print(format);
+        }
     });
     if (!status.ok()) {
         static_cast<void>(guarded([&] { text = status.text(); }));

@@ -10,14 +10,10 @@
 namespace nearfield {
 
 FrameRing::FrameRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
-                     const JobSystem& jobs, const char* gradient_format, Renderer& renderer,
-                     ShapeStore& shapes)
-    : shapes_(&shapes),
-      planning_(limits, costs, jobs),
-      normals_(planning_, gradient_format, renderer) {
+                     const JobSystem& jobs, Renderer* renderer, ShapeStore& shapes)
+    : shapes_(&shapes), planning_(limits, costs, jobs), normals_(planning_, renderer) {
     for (std::uint32_t i = 0; i < frames; ++i) {
-        frames_.push_back(std::make_unique<Frame>(
-            Frame{BatchRunner(planning_, gradient_format, renderer), {}, 0}));
+        frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, 0}));
     }
 }
 

@@ -18,8 +18,7 @@ namespace nearfield {
 class FrameRing {
 public:
     FrameRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
-              const JobSystem& jobs, const char* gradient_format, Renderer& renderer,
-              ShapeStore& shapes);
+              const JobSystem& jobs, Renderer* renderer, ShapeStore& shapes);
 
     /// Throws Failure (ring_full) where there is no room. After any Failure nothing of the batch is
     /// left. `memory`, if given, is swapped for results that the batch will not need.

@@ -23,9 +23,8 @@ Rectangle around(std::span<const Vector2> points, double cell) {
 
 }  // namespace
 
-GradientNormals::GradientNormals(Planning& planning, const char* gradient_format,
-                                 Renderer& renderer)
-    : runner_(planning, gradient_format, renderer) {}
+GradientNormals::GradientNormals(Planning& planning, Renderer* renderer)
+    : runner_(planning, renderer) {}
 
 void GradientNormals::apply(BatchRunner& main) {
     Results& results = main.results();

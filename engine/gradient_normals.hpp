@@ -13,7 +13,7 @@ namespace nearfield {
 /// is a batch of its own, submitted and waited for when the contacts are collected.
 class GradientNormals {
 public:
-    GradientNormals(Planning& planning, const char* gradient_format, Renderer& renderer);
+    GradientNormals(Planning& planning, Renderer* renderer);
 
     /// Writes the contacts of those queries of a collected batch that ask for it.
     void apply(BatchRunner& main);

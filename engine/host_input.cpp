@@ -70,10 +70,10 @@ Recording adopted(const Recording& given) {
 }
 
 Settings adopted(const Settings& given) {
-    const Settings settings =
-        adopted(given, "Settings",
-                {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
-                 offsetof(Settings, costs), offsetof(Settings, jobs)});
+    const Settings settings = adopted(
+        given, "Settings",
+        {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
+         offsetof(Settings, costs), offsetof(Settings, jobs), offsetof(Settings, techniques)});
     if (settings.frames_in_flight < 1 || settings.frames_in_flight > most_frames_in_flight) {
         refuse_setting("frames_in_flight is " + std::to_string(settings.frames_in_flight) +
                        "; it must be at least 1 and at most " +

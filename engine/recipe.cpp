@@ -15,8 +15,8 @@ constexpr graph::Outside read_once_more{{}, graph::Access::storage_read_in_compu
 
 }  // namespace
 
-Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
-               const passes::Frame& frame)
+RasterPasses::RasterPasses(const gpu::Device& device, const passes::ComputeLayout& layout,
+                           const passes::Frame& frame)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
                                                   device.stencil_format(), "stencil")),
       distance_render_pass_(passes::make_prototype(device, passes::number_format,
@@ -38,11 +38,15 @@ Passes::Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
       gradient(device, layout, gradient_render_pass_.get(), frame),
       early_out(device, frame),
       intersect(device, draw_layout_.get(), strategies_, early_out, frame),
-      resolve_points(device, layout, frame),
+      resolve_points(device, layout, frame, passes::ResolvePoints::Source::images),
       resolve_field(device, layout, frame),
       resolve_field_points(device, layout, frame),
       collect_gradients(device, layout, frame),
-      collect(device, layout, frame),
+      collect(device, layout, frame) {}
+
+ComputePasses::ComputePasses(const gpu::Device& device, const passes::ComputeLayout& layout,
+                             const passes::Frame& frame)
+    : resolve_points(device, layout, frame, passes::ResolvePoints::Source::lists),
       masks(device, layout, frame),
       blocks(device, layout, frame) {}
 
@@ -50,18 +54,18 @@ Recipe::Recipe(const gpu::Device& device, const Passes& passes, Needs needs, VkE
     : needs_(needs), extent_(extent) {
     input_ = graph_.import_buffer({"input", true, false});
     if (needs.compute != ComputeNeeds{}) {
-        declare_compute(passes);
+        declare_compute(*passes.compute);
     } else {
-        declare_drawn(passes);
+        declare_drawn(*passes.raster);
     }
     executor_ = graph::make_executor(device, graph_);
 }
 
-void Recipe::declare_compute(const Passes& passes) {
+void Recipe::declare_compute(const ComputePasses& passes) {
     const ComputeNeeds& needs = needs_.compute;
     if (needs.points) {
         results_ = graph_.import_buffer({"point results", false, true});
-        passes.resolve_points.declare_by_lists(graph_, input_, results_);
+        passes.resolve_points.declare(graph_, input_, results_);
     }
     if (!needs.fill && !needs.overlap) {
         return;
@@ -97,13 +101,13 @@ void Recipe::declare_compute(const Passes& passes) {
     }
 }
 
-void Recipe::declare_drawn(const Passes& passes) {
+void Recipe::declare_drawn(const RasterPasses& passes) {
     mesh_ = graph_.import_buffer({"mesh", true, false});
     declare_images(passes);
     if (needs_.points) {
         results_ = graph_.import_buffer({"point results", false, true});
         const auto& [features, sign] = images_.by_encoding.front();
-        passes.resolve_points.declare(graph_, input_, features, sign, results_);
+        passes.resolve_points.declare(graph_, input_, results_, features, sign);
     }
     if (needs_.any_field()) {
         field_ = graph_.import_buffer({"field results", false, true});
@@ -131,7 +135,7 @@ void Recipe::declare_drawn(const Passes& passes) {
 }
 
 /// Points look at the images of the first encoding, the stencil's.
-void Recipe::declare_images(const Passes& passes) {
+void Recipe::declare_images(const RasterPasses& passes) {
     const bool by_stencil = needs_.points || needs_.field_by(SignEncoding::stencil);
     const bool by_color = needs_.field_by(SignEncoding::color);
     auto& [stencil, color, feature_bit] = images_.by_encoding;
@@ -152,7 +156,7 @@ void Recipe::declare_images(const Passes& passes) {
     }
 }
 
-void Recipe::declare_field(const Passes& passes) {
+void Recipe::declare_field(const RasterPasses& passes) {
     passes::FieldImages images = images_;
     if (!needs_.field_by(SignEncoding::stencil)) {
         images.by_encoding.front() = {};  // drawn for points of penetration

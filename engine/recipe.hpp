@@ -27,6 +27,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace nearfield {
@@ -64,11 +65,11 @@ struct Needs {
     friend bool operator==(const Needs&, const Needs&) = default;
 };
 
-/// Every pass with its pipelines. Made once; recipes put them together.
-class Passes {
+/// The passes of the raster technique with their pipelines.
+class RasterPasses {
 public:
-    Passes(const gpu::Device& device, const passes::ComputeLayout& layout,
-           const passes::Frame& frame);
+    RasterPasses(const gpu::Device& device, const passes::ComputeLayout& layout,
+                 const passes::Frame& frame);
 
 private:
     // Render passes that pipelines are made for; those that graphs make are compatible with them.
@@ -94,8 +95,22 @@ public:
     passes::ResolveFieldPoints resolve_field_points;
     passes::CollectGradients collect_gradients;
     passes::Collect collect;
+};
+
+/// The passes of the compute technique with their pipelines.
+struct ComputePasses {
+    ComputePasses(const gpu::Device& device, const passes::ComputeLayout& layout,
+                  const passes::Frame& frame);
+
+    passes::ResolvePoints resolve_points;
     passes::Masks masks;
     passes::Blocks blocks;
+};
+
+/// The passes of the techniques that a context has. Made once; recipes put them together.
+struct Passes {
+    std::optional<RasterPasses> raster;
+    std::optional<ComputePasses> compute;
 };
 
 /// The render graph that answers some needs on an atlas of some size, baked.
@@ -126,10 +141,10 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
-    void declare_drawn(const Passes& passes);
-    void declare_compute(const Passes& passes);
-    void declare_images(const Passes& passes);
-    void declare_field(const Passes& passes);
+    void declare_drawn(const RasterPasses& passes);
+    void declare_compute(const ComputePasses& passes);
+    void declare_images(const RasterPasses& passes);
+    void declare_field(const RasterPasses& passes);
 
     Needs needs_;
     VkExtent2D extent_;

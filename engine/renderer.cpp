@@ -1,3 +1,4 @@
+#include <engine/graph/format.hpp>
 #include <engine/renderer.hpp>
 #include <engine/stopwatch.hpp>
 
@@ -47,14 +48,24 @@ Needs needs_of(const plan::Round& round) {
 
 }  // namespace
 
-Renderer::Renderer(const gpu::Device& device)
+Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques)
     : device_(&device),
       layout_(device),
-      passes_(device, layout_, frame_),
       copy_back_(device),
       hand_over_field_(device, layout_),
       hand_over_records_(device, layout_),
-      hand_over_samples_(device, layout_) {}
+      hand_over_samples_(device, layout_) {
+    if (techniques.raster) {
+        passes_.raster.emplace(device, layout_, frame_);
+    }
+    if (techniques.compute) {
+        passes_.compute.emplace(device, layout_, frame_);
+    }
+}
+
+const char* Renderer::gradient_format() const {
+    return graph::find_format(device_->gradient_format())->name;
+}
 
 std::unique_ptr<RenderSlot> Renderer::make_slot() const {
     return std::make_unique<RenderSlot>(*device_, layout_);
@@ -153,7 +164,9 @@ void Renderer::record_rounds(RenderSlot& slot, VkCommandBuffer commands) {
     for (const std::uint32_t number : slot.running()) {
         const RoundOnDevice& round = slot.round(number);
         frame_ = round.frame;
-        passes_.early_out.reset(commands);
+        if (!frame_.round->by_compute) {
+            passes_.raster->early_out.reset(commands);
+        }
         slot.hand_buffers_to(*round.recipe, number);
         round.recipe->execute(commands, slot.timestamps());
     }

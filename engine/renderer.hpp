@@ -30,7 +30,11 @@ enum class SampleRoom { likely, all };
 /// grow; the steady state allocates nothing and creates nothing.
 class Renderer {
 public:
-    explicit Renderer(const gpu::Device& device);
+    /// Makes the pipelines of these techniques, and no others later.
+    Renderer(const gpu::Device& device, const DeviceTechniques& techniques);
+
+    /// The name of the format that gradients are blended in.
+    [[nodiscard]] const char* gradient_format() const;
 
     /// A slot for this renderer, which must outlive it.
     [[nodiscard]] std::unique_ptr<RenderSlot> make_slot() const;

@@ -7,43 +7,39 @@
 namespace nearfield::passes {
 
 ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
-                             const Frame& frame)
+                             const Frame& frame, Source source)
     : device_(&device),
       layout_(layout.pipeline_layout()),
       frame_(&frame),
-      by_images_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_points_comp,
-                                            "nearfield resolve points")),
-      by_lists_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_points_by_lists_comp,
-                                           "nearfield resolve points by lists")) {}
+      source_(source),
+      pipeline_(source == Source::images
+                    ? gpu::make_compute_pipeline(device, layout_, shaders::resolve_points_comp,
+                                                 "nearfield resolve points")
+                    : gpu::make_compute_pipeline(device, layout_,
+                                                 shaders::resolve_points_by_lists_comp,
+                                                 "nearfield resolve points by lists")) {}
 
-void ResolvePoints::declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
-                            graph::Handle sign, graph::Handle results) const {
+void ResolvePoints::declare(graph::Graph& graph, graph::Handle input, graph::Handle results,
+                            graph::Handle features, graph::Handle sign) const {
+    const bool by_images = source_ == Source::images;
     graph.add_pass(
-        "resolve points", graph::PassKind::compute,
+        by_images ? "resolve points" : "resolve points by lists", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(input, graph::Access::storage_read_in_compute);
-            pass.read(features, graph::Access::sampled_in_compute);
-            pass.read(sign, graph::Access::sampled_in_compute);
+            if (by_images) {
+                pass.read(features, graph::Access::sampled_in_compute);
+                pass.read(sign, graph::Access::sampled_in_compute);
+            }
             static_cast<void>(pass.write(results, graph::Access::storage_write_in_compute));
         },
-        [this](VkCommandBuffer commands) { record(commands, by_images_, frame_->points); });
+        [this](VkCommandBuffer commands) { record(commands); });
 }
 
-void ResolvePoints::declare_by_lists(graph::Graph& graph, graph::Handle input,
-                                     graph::Handle results) const {
-    graph.add_pass(
-        "resolve points by lists", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, graph::Access::storage_read_in_compute);
-            static_cast<void>(pass.write(results, graph::Access::storage_write_in_compute));
-        },
-        [this](VkCommandBuffer commands) { record(commands, by_lists_, frame_->points_by_lists); });
-}
-
-void ResolvePoints::record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
-                           VkDescriptorSet set) const {
+void ResolvePoints::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+    const VkDescriptorSet set =
+        source_ == Source::images ? frame_->points : frame_->points_by_lists;
+    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set,
                                       0, nullptr);
     const auto count = static_cast<std::uint32_t>(frame_->round->points.size());

@@ -10,28 +10,30 @@ namespace nearfield::passes {
 
 /// Point depth (section 2.2.4 of the paper): for every point of the round whether it lies inside B,
 /// which of B's edges is nearest, and whether that is the only answer within the margin.
-/// Reads the feature and sign images, tiles, edge lists and points; writes one word a point
-/// (plan::point_inside and so on).
+/// Reads tiles, edge lists and points; writes one word a point (plan::point_inside and so on).
 class ResolvePoints {
 public:
-    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    /// Where the pass reads which edge is nearest, and what lies inside.
+    enum class Source {
+        images,  ///< the feature and sign images (the raster technique)
+        lists,   ///< the edge lists alone (the compute technique)
+    };
+    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame,
+                  Source source);
 
     /// Adds the pass. Which buffers and images the frame's descriptor set holds is the caller's
-    /// affair.
-    void declare(graph::Graph& graph, graph::Handle input, graph::Handle features,
-                 graph::Handle sign, graph::Handle results) const;
-    /// The same from the lists alone, without images (the compute technique).
-    void declare_by_lists(graph::Graph& graph, graph::Handle input, graph::Handle results) const;
+    /// affair. Without images the last two are left out.
+    void declare(graph::Graph& graph, graph::Handle input, graph::Handle results,
+                 graph::Handle features = {}, graph::Handle sign = {}) const;
 
 private:
-    void record(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
-                VkDescriptorSet set) const;
+    void record(VkCommandBuffer commands) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const Frame* frame_;
-    gpu::Owned<VkPipeline> by_images_;
-    gpu::Owned<VkPipeline> by_lists_;
+    Source source_;
+    gpu::Owned<VkPipeline> pipeline_;
 };
 
 }  // namespace nearfield::passes

@@ -1,6 +1,5 @@
 #include <engine/choose/chooser.hpp>
 #include <engine/choose/work.hpp>
-#include <engine/plan/technique.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +18,16 @@ bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
            (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
 }
 
+void set_technique(AnyQuery& query, Technique technique) {
+    std::visit([technique](auto& asked) { asked.technique = technique; }, query);
+}
+
 }  // namespace
+
+bool Chooser::is_answered_by_any(const AnyQuery& query) const {
+    return std::any_of(by_position.begin(), by_position.end(),
+                       [&](Technique technique) { return can_answer(technique, query); });
+}
 
 Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
                                      std::span<const plan::QueryShapes> shapes) {
@@ -28,8 +36,10 @@ Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
     for (std::size_t index = 0; index < queries.size(); ++index) {
         const Technique asked =
             std::visit([](const auto& query) { return query.technique; }, queries[index]);
-        if (asked == Technique::automatic) {
+        if (asked == Technique::automatic && is_answered_by_any(queries[index])) {
             add_candidate(queries[index], shapes[index]);
+        } else if (asked == Technique::automatic) {
+            set_technique(queries[index], Technique::cpu);  // which the planner refuses
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             others |= asked == by_position[i] ? 1U << i : 0U;
@@ -50,6 +60,11 @@ void Chooser::add_candidate(AnyQuery& query, const plan::QueryShapes& shapes) {
             candidate.most_saved[device] = bounds.most_saved(costs_[cpu], costs_[device]);
         }
     }
+    for (std::uint32_t device = 0; device < cpu; ++device) {
+        if (!available_.has(by_position[device])) {
+            candidate.most_saved[device] = 0.0;
+        }
+    }
 }
 
 void Chooser::estimate(Candidate& candidate) const {
@@ -59,8 +74,8 @@ void Chooser::estimate(Candidate& candidate) const {
     for (std::uint32_t i = 0; i < count; ++i) {
         // Of numbers that are none, which a bad query may bring, no time comes.
         const double time = work.time(costs_[i]);
-        const bool can = plan::answers(by_position[i], query);
-        candidate.times[i] = can ? (time < never ? time : 0.0) : never;
+        candidate.times[i] =
+            can_answer(by_position[i], query) ? (time < never ? time : 0.0) : never;
     }
 }
 
@@ -132,9 +147,8 @@ void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QuerySha
     const Set others = add_candidates(queries, shapes);
     const Set best = cpu_is_best(others) ? 1U << cpu : best_set(others);
     for (const Candidate& candidate : candidates_) {
-        const Technique technique =
-            best == 1U << cpu ? Technique::cpu : by_position[fastest(candidate, best)];
-        std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);
+        set_technique(*candidate.query,
+                      best == 1U << cpu ? Technique::cpu : by_position[fastest(candidate, best)]);
     }
 }
 

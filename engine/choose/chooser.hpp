@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/plan/query_shapes.hpp>
+#include <engine/plan/technique.hpp>
 #include <nearfield/cost.hpp>
 #include <nearfield/query.hpp>
 
@@ -16,7 +17,8 @@ namespace nearfield::choose {
 /// queries use it, so what is best for one query depends on the others.
 class Chooser {
 public:
-    explicit Chooser(const CostModel& costs) : costs_({costs.raster, costs.compute, costs.cpu}) {}
+    Chooser(const CostModel& costs, const plan::AvailableTechniques& available)
+        : costs_({costs.raster, costs.compute, costs.cpu}), available_(available) {}
 
     /// Replaces Technique::automatic by what was picked; `shapes`: of each query. A query that will
     /// be refused gets a technique too.
@@ -61,7 +63,14 @@ private:
     /// ones are used anyway.
     [[nodiscard]] double time_by(Set allowed, Set paid) const;
 
+    /// Whether a technique is there and has an answer.
+    [[nodiscard]] bool can_answer(Technique technique, const AnyQuery& query) const {
+        return available_.has(technique) && plan::answers(technique, query);
+    }
+    [[nodiscard]] bool is_answered_by_any(const AnyQuery& query) const;
+
     std::array<TechniqueCost, count> costs_;
+    plan::AvailableTechniques available_;
     std::vector<Candidate> candidates_;
 };
 

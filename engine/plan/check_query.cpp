@@ -108,8 +108,32 @@ Status check_field(const DistanceFieldQuery& query) {
     return query.rectangle ? check_rectangle(*query.rectangle) : Status();
 }
 
+Status no_technique(Technique technique, const AvailableTechniques& available) {
+    const std::string needs = std::string("the technique ") + to_string(technique);
+    return {StatusCode::unsupported_technique,
+            available.device ? "this context was made without " + needs +
+                                   " (Settings::techniques); add it there, or ask for automatic"
+                             : needs +
+                                   " needs a Vulkan device, and this context has none "
+                                   "(Context::create_cpu); ask for cpu or automatic"};
+}
+
+/// `what` of a query its technique does not answer, which another one might.
+Status no_answer(Technique technique, const char* what, const AvailableTechniques& available) {
+    const std::string lacks =
+        std::string("the technique ") + to_string(technique) + " does not answer " + what;
+    if (available.has_all()) {
+        return invalid(lacks + "; ask for another, or for automatic");
+    }
+    return {StatusCode::unsupported_technique,
+            lacks + (available.device ? "; this context was made without those that may "
+                                        "(Settings::techniques)"
+                                      : "; that needs a Vulkan device, and this context has none "
+                                        "(Context::create_cpu)")};
+}
+
 template <class Query>
-Status check_technique(const Query& query) {
+Status check_technique(const Query& query, const AvailableTechniques& available) {
     switch (query.technique) {
         case Technique::automatic:
         case Technique::raster:
@@ -119,16 +143,15 @@ Status check_technique(const Query& query) {
         default:
             return no_enumerator("the technique is", value_of(query.technique));
     }
-    const char* const what = unanswered(query.technique, query);
-    return what == nullptr
-               ? Status()
-               : invalid(std::string("the technique ") + to_string(query.technique) +
-                         " does not answer " + what + "; ask for another, or for automatic");
+    if (const char* const what = unanswered(query.technique, query); what != nullptr) {
+        return no_answer(query.technique, what, available);
+    }
+    return available.has(query.technique) ? Status() : no_technique(query.technique, available);
 }
 
 template <class Query>
-Status check_pair(const Query& query) {
-    if (Status status = check_technique(query); !status.ok()) {
+Status check_pair(const Query& query, const AvailableTechniques& available) {
+    if (Status status = check_technique(query, available); !status.ok()) {
         return status;
     }
     if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
@@ -144,8 +167,8 @@ Status check_pair(const Query& query) {
 
 }  // namespace
 
-Status check_query(const PenetrationQuery& query) {
-    Status status = check_pair(query);
+Status check_query(const PenetrationQuery& query, const AvailableTechniques& available) {
+    Status status = check_pair(query, available);
     if (status.ok() && query.points != PenetrationPoints::boundary &&
         query.points != PenetrationPoints::vertices) {
         return no_enumerator("the points are", value_of(query.points));
@@ -153,8 +176,8 @@ Status check_query(const PenetrationQuery& query) {
     return status;
 }
 
-Status check_query(const IntersectionQuery& query) {
-    Status status = check_pair(query);
+Status check_query(const IntersectionQuery& query, const AvailableTechniques& available) {
+    Status status = check_pair(query, available);
     if (!status.ok()) {
         return status;
     }
@@ -167,13 +190,13 @@ Status check_query(const IntersectionQuery& query) {
     return {};
 }
 
-Status check_query(const DistanceFieldQuery& query) {
-    Status status = check_pair(query);
+Status check_query(const DistanceFieldQuery& query, const AvailableTechniques& available) {
+    Status status = check_pair(query, available);
     return status.ok() ? check_field(query) : status;
 }
 
-Status check_query(const ContactQuery& query) {
-    Status status = check_pair(query);
+Status check_query(const ContactQuery& query, const AvailableTechniques& available) {
+    Status status = check_pair(query, available);
     if (!status.ok()) {
         return status;
     }
@@ -190,20 +213,20 @@ Status check_query(const ContactQuery& query) {
                : no_length(query.contact_distance, "the contact distance");
 }
 
-Status check_query(const ClosestPointQuery& query) {
-    return check_pair(query);
+Status check_query(const ClosestPointQuery& query, const AvailableTechniques& available) {
+    return check_pair(query, available);
 }
 
-Status check_query(const SeparationQuery& query) {
-    return check_pair(query);
+Status check_query(const SeparationQuery& query, const AvailableTechniques& available) {
+    return check_pair(query, available);
 }
 
-Status check_query(const IntersectionTestQuery& query) {
-    return check_pair(query);
+Status check_query(const IntersectionTestQuery& query, const AvailableTechniques& available) {
+    return check_pair(query, available);
 }
 
-Status check_query(const TimeOfImpactQuery& query) {
-    if (Status status = check_pair(query); !status.ok()) {
+Status check_query(const TimeOfImpactQuery& query, const AvailableTechniques& available) {
+    if (Status status = check_pair(query, available); !status.ok()) {
         return status;
     }
     if (!(query.time_bound > 0.0 && query.time_bound <= 1.0)) {
@@ -224,8 +247,8 @@ Status check_query(const TimeOfImpactQuery& query) {
     return is_usable(query.end_b) ? Status() : unusable(query.end_b, "B's end pose");
 }
 
-Status check_query(const SeparationVectorQuery& query) {
-    return check_pair(query);
+Status check_query(const SeparationVectorQuery& query, const AvailableTechniques& available) {
+    return check_pair(query, available);
 }
 
 Status not_recordable(Technique technique) {

@@ -3,6 +3,7 @@
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/placed_polygon.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/technique.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/status.hpp>
 
@@ -11,16 +12,25 @@
 
 namespace nearfield::plan {
 
-/// What is wrong with a query's own numbers, or success. Shapes are looked up elsewhere.
-[[nodiscard]] Status check_query(const PenetrationQuery& query);
-[[nodiscard]] Status check_query(const IntersectionQuery& query);
-[[nodiscard]] Status check_query(const DistanceFieldQuery& query);
-[[nodiscard]] Status check_query(const ContactQuery& query);
-[[nodiscard]] Status check_query(const ClosestPointQuery& query);
-[[nodiscard]] Status check_query(const SeparationQuery& query);
-[[nodiscard]] Status check_query(const IntersectionTestQuery& query);
-[[nodiscard]] Status check_query(const TimeOfImpactQuery& query);
-[[nodiscard]] Status check_query(const SeparationVectorQuery& query);
+/// What is wrong with a query's own numbers, or with its technique in a context that has these
+/// techniques; or success. Shapes are looked up elsewhere.
+[[nodiscard]] Status check_query(const PenetrationQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const IntersectionQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const DistanceFieldQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const ContactQuery& query, const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const ClosestPointQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const SeparationQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const IntersectionTestQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const TimeOfImpactQuery& query,
+                                 const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const SeparationVectorQuery& query,
+                                 const AvailableTechniques& available);
 
 /// What is said of a query that takes a second submission where there is one command buffer.
 [[nodiscard]] Status not_recordable(Technique technique);

@@ -138,7 +138,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                     }
                 }
                 // Success is not copied: it is what thousands of queries have in common.
-                if (Status status = check_query(query); !status.ok()) {
+                if (Status status = check_query(query, limits_.techniques); !status.ok()) {
                     result.status = std::move(status);
                 }
                 if (submissions == Submissions::one && result.status.ok() &&

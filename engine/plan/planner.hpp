@@ -5,6 +5,7 @@
 #include <engine/plan/plan.hpp>
 #include <engine/plan/point_tiles.hpp>
 #include <engine/plan/query_shapes.hpp>
+#include <engine/plan/technique.hpp>
 #include <nearfield/result.hpp>
 
 #include <array>
@@ -34,6 +35,7 @@ struct PlanLimits {
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
     /// By strategy: what it needs and the device lacks.
     std::array<std::vector<std::string>, intersection_strategies> missing_for_strategy;
+    AvailableTechniques techniques;
 };
 
 /// How often a batch may go to the device.

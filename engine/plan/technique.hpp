@@ -7,6 +7,25 @@
 
 namespace nearfield::plan {
 
+/// The techniques that a context can answer with. The CPU's is always among them.
+struct AvailableTechniques {
+    bool device = true;  ///< false: neither of the two below can be had at all
+    bool raster = true;
+    bool compute = true;
+
+    [[nodiscard]] bool has(Technique technique) const {
+        switch (technique) {
+            case Technique::raster:
+                return raster;
+            case Technique::compute:
+                return compute;
+            default:
+                return true;
+        }
+    }
+    [[nodiscard]] bool has_all() const { return raster && compute; }
+};
+
 /// What the queries of a kind are called that the CPU alone answers; null for other kinds.
 template <class Query>
 inline constexpr const char* answered_by_cpu_alone = nullptr;

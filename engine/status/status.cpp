@@ -36,6 +36,8 @@ const char* to_string(StatusCode code) noexcept {
             return "unsupported_device";
         case StatusCode::unsupported_strategy:
             return "unsupported_strategy";
+        case StatusCode::unsupported_technique:
+            return "unsupported_technique";
         case StatusCode::out_of_memory:
             return "out_of_memory";
         case StatusCode::device_lost:

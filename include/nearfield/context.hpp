@@ -20,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// \file
@@ -29,6 +30,13 @@ namespace nearfield {
 
 /// The most batches that may be in flight at the same time.
 inline constexpr std::uint32_t most_frames_in_flight = 8;
+
+/// The techniques that need a device, of which a context makes pipelines for as many as it is asked
+/// to. Technique::cpu needs none and is always there.
+struct DeviceTechniques {
+    bool raster = true;   ///< Technique::raster
+    bool compute = true;  ///< Technique::compute
+};
 
 /// Limits and settings of a context. One that cannot be used is refused when the context is made
 /// (StatusCode::invalid_settings).
@@ -55,6 +63,10 @@ struct Settings {
     /// Threads of the host for what the CPU answers. What it points to is called for as long as the
     /// context lives. Left out: the thread that calls does all of it.
     JobSystem jobs = {};
+    /// The techniques to make pipelines for, when the context is made; nothing is made for the
+    /// others, Technique::automatic does not choose them, and a query that asks for one is refused
+    /// (StatusCode::unsupported_technique). Without effect in a context without a device.
+    DeviceTechniques techniques = {};
 };
 
 /// What an intersection strategy would need of a device and the device lacks.
@@ -99,7 +111,7 @@ enum class GraphFormat {
     graphviz,  ///< a graph in the DOT language
 };
 
-/// Everything nearfield needs to answer queries on one device.
+/// Everything nearfield needs to answer queries, on one device or on the CPU alone.
 ///
 /// A context is used by one thread at a time; several contexts are independent of each other, on
 /// one device too, as long as their queues are not used at the same time (HostDevice::queue_access
@@ -122,6 +134,13 @@ public:
     /// Makes an instance and a device of its own, with nothing to present to.
     [[nodiscard]] static Expected<Context> create_headless(const HeadlessOptions& options = {},
                                                            const Settings& settings = {});
+
+    /// Makes a context without a device: no Vulkan loader is opened and no driver needed. It
+    /// answers all that Technique::cpu answers, and Technique::automatic means that. A query that
+    /// needs a device (raster, compute, resident, blended gradients) is refused in its own result
+    /// (unsupported_technique). Fails with no_device: record(), reload_shaders(), and submit() with
+    /// semaphores. Settings about devices have no effect.
+    [[nodiscard]] static Expected<Context> create_cpu(const Settings& settings = {});
 
     ~Context();
     /// What is moved from can only be destroyed or assigned to.
@@ -163,6 +182,22 @@ public:
     /// wrong with one query alone (invalid_query, unknown_shape, unsupported_strategy) stands in
     /// that query's result, and the other queries are answered.
     Status run(const Batch& batch, Results& results);
+
+    /// Answers one query: run() with a batch of one. What is wrong with the query is the returned
+    /// status. A program with many queries a frame puts them into one Batch, which goes to the
+    /// device once and keeps its memory.
+    template <class Query>
+    [[nodiscard]] Expected<typename ResultOf<Query>::type> answer(const Query& query) {
+        Batch batch;
+        const QueryHandle<Query> handle = batch.add(query);
+        Results results;
+        if (Status status = run(batch, results); !status.ok()) {
+            return status;
+        }
+        auto& result = results[handle];
+        return result.status.ok() ? Expected<typename ResultOf<Query>::type>(std::move(result))
+                                  : result.status;
+    }
 
     /// Sends a batch to the device and does not wait for it: localises, plans, records all of it
     /// into one command buffer and submits that to the queue; then answers what the CPU answers.
@@ -257,7 +292,8 @@ public:
                                                      QueryHandle<IntersectionQuery> query);
 
     /// Runs every technique on small made-up workloads and measures what each takes, for
-    /// Settings::costs of later contexts on the same machine; nothing changes in this one. Takes
+    /// Settings::costs of later contexts on the same machine; nothing changes in this one.
+    /// Techniques that this context does not have keep their costs(). Takes
     /// seconds, during which nothing else should be busy there. `progress`, if given, is told the
     /// part that is done, up to 1. Needs room for a frame in flight (ring_full otherwise).
     [[nodiscard]] Expected<CostModel> measure_costs(
@@ -266,7 +302,7 @@ public:
     /// What Technique::automatic goes by here.
     [[nodiscard]] const CostModel& costs() const noexcept;
 
-    /// The device's name as its driver gives it.
+    /// The device's name as its driver gives it; empty without a device.
     [[nodiscard]] const std::string& device_name() const noexcept;
 
     /// The device memory that this context has, and had at most.

@@ -30,10 +30,11 @@ enum class StatusCode {
     too_large,       ///< the answer would need more memory than the stated limit
     no_device,       ///< no Vulkan driver, or no device in it, that could be used
     unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
-    unsupported_strategy,  ///< the device lacks what a query's strategy needs; the reasons name it
-    out_of_memory,         ///< host or device memory ran out
-    device_lost,           ///< the device was lost; the context can only be destroyed
-    device_error,          ///< any other Vulkan call failed; the message names the call and result
+    unsupported_strategy,   ///< the device lacks what a query's strategy needs; the reasons name it
+    unsupported_technique,  ///< the context has no device, or was made without a query's technique
+    out_of_memory,          ///< host or device memory ran out
+    device_lost,            ///< the device was lost; the context can only be destroyed
+    device_error,           ///< any other Vulkan call failed; the message names the call and result
     unavailable,     ///< this build of the library does not have it; the message says what would
     invalid_shader,  ///< the source of a shader cannot be compiled; the reasons are the compiler's
 };
@@ -91,14 +92,18 @@ public:
     /// Why there is no value; success where there is one.
     [[nodiscard]] const Status& status() const noexcept { return status_; }
 
-    /// The value, which stays where it is.
-    [[nodiscard]] Value& value() noexcept { return *value_; }
+    /// The value, which stays where it is; moved from where the Expected is a temporary.
+    [[nodiscard]] Value& value() & noexcept { return *value_; }
     /// Likewise.
-    [[nodiscard]] const Value& value() const noexcept { return *value_; }
-    /// The value, as a pointer gives it.
-    [[nodiscard]] Value& operator*() noexcept { return *value_; }
+    [[nodiscard]] const Value& value() const& noexcept { return *value_; }
     /// Likewise.
-    [[nodiscard]] const Value& operator*() const noexcept { return *value_; }
+    [[nodiscard]] Value&& value() && noexcept { return std::move(*value_); }
+    /// The value, as value() gives it.
+    [[nodiscard]] Value& operator*() & noexcept { return *value_; }
+    /// Likewise.
+    [[nodiscard]] const Value& operator*() const& noexcept { return *value_; }
+    /// Likewise.
+    [[nodiscard]] Value&& operator*() && noexcept { return std::move(*value_); }
     /// A member of the value.
     [[nodiscard]] Value* operator->() noexcept { return &*value_; }
     /// Likewise.

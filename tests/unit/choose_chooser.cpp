@@ -53,7 +53,7 @@ protected:
     std::vector<AnyQuery> choose(const CostModel& costs, std::vector<AnyQuery> queries) const {
         std::vector<plan::QueryShapes> shapes;
         plan::find_shapes(queries, find(), shapes);
-        Chooser(costs).choose(queries, shapes);
+        Chooser(costs, {}).choose(queries, shapes);
         return queries;
     }
 

@@ -45,6 +45,9 @@ Machine this_machine() {
 }
 
 std::string driver_of(const std::string& device) {
+    if (device.empty()) {
+        return {};
+    }
     for (const DeviceReport& report : tools::take(list_devices())) {
         if (report.name == device) {
             return report.driver;

@@ -4,6 +4,7 @@
 #include <tools/benchmark/spread.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/paper_tables.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/standard_table.hpp>
@@ -60,7 +61,7 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
     json.key("scene").value(std::string_view(arguments.scene));
-    json.key("device").value(std::string_view(device));
+    json.key("device").value_or_null(device);
     json.key("technique").value(technique);
     json.key("frames").value(std::uint64_t{arguments.frames});
     json.key("median_ms").value(measurement.frame_ms.median);
@@ -73,7 +74,7 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
 
 void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
                          const std::string& device, std::string_view technique) {
-    stream << "device            " << device << '\n'
+    stream << "device            " << device_text(device) << '\n'
            << "technique         " << technique << '\n'
            << "queries           " << scene.queries.size() << '\n'
            << "frames            " << measurement.frame_ms.count << '\n'
@@ -155,7 +156,7 @@ void run_bench(const BenchArguments& arguments) {
         throw InputError(arguments.scene + ": queries: there is none to measure");
     }
     ReportTarget report(arguments.json);
-    Context context = take(Context::create_headless({}, settings));
+    Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, arguments.scene, context);
     const Measurement measurement = measure(runner, arguments);
     if (std::ostream* json = report.json()) {

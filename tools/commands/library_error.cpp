@@ -10,6 +10,7 @@ int LibraryError::program_status() const noexcept {
             return exit_status::bad_input;
         case StatusCode::no_device:
         case StatusCode::unsupported_device:
+        case StatusCode::unsupported_technique:
             return exit_status::no_device;
         default:
             return exit_status::other_error;

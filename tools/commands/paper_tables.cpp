@@ -3,6 +3,7 @@
 #include <tools/commands/paper_tables.hpp>
 #include <tools/commands/query_times.hpp>
 #include <tools/dynamics/rigid_body.hpp>
+#include <tools/output/answer.hpp>
 #include <tools/output/json_writer.hpp>
 #include <tools/output/output_file.hpp>
 #include <tools/output/report_target.hpp>
@@ -152,8 +153,8 @@ void print_tables(std::ostream& stream, const Measured& measured, const benchmar
         " | objects | lines | queries | points | raster | compute | cpu | automatic | GeForce2 | "
         "InfiniteReality2 | ATI Rage Pro LT |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-           << machine.cores << " cores; " << device << " (" << benchmark::driver_of(device)
-           << ")\n\n"
+           << machine.cores << " cores; " << device_text(device) << " ("
+           << benchmark::driver_of(device) << ")\n\n"
            << "Table 2: milliseconds of a frame's proximity queries (points inside each other, "
               "their depths and directions,\nfor every near pair both ways), on average over the "
               "simulation; the last three columns are the paper's.\n\n| demo"
@@ -214,7 +215,7 @@ void write_json(std::ostream& stream, const Measured& measured, const benchmark:
     json.key("date").value(std::string_view(machine.date));
     json.key("processor").value(std::string_view(machine.processor));
     json.key("cores").value(std::uint64_t{machine.cores});
-    json.key("device").value(std::string_view(device));
+    json.key("device").value_or_null(device);
     write_rows(json, "table_2", measured.table_2);
     write_rows(json, "table_3", measured.table_3);
     write_growth(json, "growth_with_lines", "lines", measured.lines);

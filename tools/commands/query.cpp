@@ -1,6 +1,7 @@
 #include <nearfield/context.hpp>
 
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/query.hpp>
 #include <tools/input/input_error.hpp>
 #include <tools/input/outline.hpp>
@@ -367,7 +368,9 @@ void run_query(const QueryArguments& arguments) {
         image.emplace(*arguments.image);
     }
 
-    Context context = take(Context::create_headless({}, settings));
+    AskedTechniques asked;
+    asked.add(request);
+    Context context = open_context(settings, asked);
     const Instance instance_a{take(context.add_shape(a.rings, a.deviation), a.file), a.pose};
     const Instance instance_b{take(context.add_shape(b.rings, b.deviation), b.file), b.pose};
     Batch batch;

@@ -1,4 +1,5 @@
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/query_times.hpp>
 #include <tools/dynamics/proximity.hpp>
 #include <tools/dynamics/world.hpp>
@@ -13,37 +14,42 @@ namespace {
 /// One technique's view of the bodies, and what it has taken so far.
 class Watch {
 public:
-    Watch(Context& context, const dynamics::Scene& scene, double tolerance, Technique technique)
-        : proximity_(context, scene.bodies, tolerance, technique) {}
+    /// Without a context the technique is refused.
+    Watch(std::optional<Context>& context, const dynamics::Scene& scene, double tolerance,
+          Technique technique) {
+        if (context) {
+            proximity_.emplace(*context, scene.bodies, tolerance, technique);
+        }
+    }
 
     /// Asks a frame's queries a few times; the least time counts, which other load disturbs least.
     void ask(int times) {
-        if (refused_) {
+        if (!proximity_) {
             return;
         }
         double least = 0.0;
         for (int i = 0; i < times; ++i) {
-            proximity_.reset_count();
+            proximity_->reset_count();
             points_now_ = 0;
             try {
-                for (const auto& overlap : proximity_.overlaps()) {
+                for (const auto& overlap : proximity_->overlaps()) {
                     points_now_ += overlap.first_in_second->count + overlap.second_in_first->count;
                 }
             } catch (const LibraryError&) {
-                refused_ = true;
+                proximity_.reset();
                 return;
             }
-            const double time = proximity_.count().milliseconds;
+            const double time = proximity_->count().milliseconds;
             least = i == 0 ? time : std::min(least, time);
         }
         milliseconds_ += least;
         points_ += static_cast<double>(points_now_);
-        queries_ += static_cast<double>(proximity_.count().queries);
+        queries_ += static_cast<double>(proximity_->count().queries);
         ++frames_;
     }
 
     void report(QueryTimes& times, std::size_t technique) const {
-        if (!refused_ && frames_ > 0.0) {
+        if (proximity_ && frames_ > 0.0) {
             times.milliseconds[technique] = milliseconds_ / frames_;
             times.points = points_ / frames_;
             times.queries = queries_ / frames_;
@@ -51,8 +57,7 @@ public:
     }
 
 private:
-    dynamics::Proximity proximity_;
-    bool refused_ = false;
+    std::optional<dynamics::Proximity> proximity_;  // none where the technique is refused
     std::size_t points_now_ = 0;
     double milliseconds_ = 0.0;
     double points_ = 0.0;
@@ -69,20 +74,26 @@ const std::array<Technique, techniques_measured>& QueryStopwatch::techniques() {
 }
 
 QueryStopwatch::QueryStopwatch(const Settings& settings) {
-    for (std::size_t i = 0; i < techniques_measured; ++i) {
-        contexts_.push_back(take(Context::create_headless({}, settings)));
+    for (const Technique technique : techniques()) {
+        AskedTechniques asked;
+        asked.add(technique);
+        try {
+            contexts_.emplace_back(open_context(settings, asked));
+        } catch (const LibraryError&) {
+            contexts_.emplace_back();
+        }
     }
 }
 
-const std::string& QueryStopwatch::device_name() const {
-    return contexts_.front().device_name();
+std::string QueryStopwatch::device_name() const {
+    return contexts_.front() ? contexts_.front()->device_name() : std::string();
 }
 
 std::vector<QueryTimes> QueryStopwatch::measure_run(dynamics::Scene scene,
                                                     const std::vector<double>& tolerances) {
     constexpr int frames = 240;
     constexpr int every = 12;  // of these frames is measured
-    Context context = take(Context::create_headless());
+    Context context = take(Context::create_cpu());
     dynamics::World world(context, std::move(scene), dynamics::Response::penalty, Technique::cpu);
     std::vector<std::unique_ptr<Watch>> watches;  // by tolerance, then by technique
     for (const double tolerance : tolerances) {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +38,11 @@ public:
     [[nodiscard]] QueryTimes measure_still(const dynamics::Scene& scene);
 
     [[nodiscard]] static const std::array<Technique, techniques_measured>& techniques();
-    [[nodiscard]] const std::string& device_name() const;
+    /// Empty without a device.
+    [[nodiscard]] std::string device_name() const;
 
 private:
-    std::deque<Context> contexts_;
+    std::vector<std::optional<Context>> contexts_;  // none where the technique lacks a device
 };
 
 }  // namespace nearfield::tools

@@ -1,6 +1,6 @@
 #include <nearfield/context.hpp>
 
-#include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/scene.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/input/scene.hpp>
@@ -38,7 +38,7 @@ void run_scene(const SceneArguments& arguments) {
     Scene scene = read_scene(arguments.scene);
     set_technique(scene, technique);
     ReportTarget report(arguments.json);
-    Context context = take(Context::create_headless({}, settings));
+    Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, arguments.scene, context);
     runner.run_frame();
     runner.require_results();

@@ -1,6 +1,7 @@
 #include <nearfield/context.hpp>
 
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/simulate.hpp>
 #include <tools/commands/simulation_choice.hpp>
@@ -187,8 +188,11 @@ void run_simulate(const SimulateArguments& arguments) {
     if (arguments.image || arguments.video) {
         device.emplace();
     }
-    Context context = take(device ? Context::create(device->gpu.host_device(), settings)
-                                  : Context::create_headless({}, settings));
+    AskedTechniques asked;
+    asked.add(technique);
+    Context context = device && technique != Technique::cpu
+                          ? take(Context::create(device->gpu.host_device(), settings))
+                          : open_context(settings, asked);
     dynamics::World world = make_world(context, arguments, std::move(scene), response, technique);
 
     SimulationReport report = report_of(world, arguments, context, technique);

@@ -1,5 +1,6 @@
 #include <tools/benchmark/spread.hpp>
 #include <tools/commands/simulation_report.hpp>
+#include <tools/output/answer.hpp>
 #include <tools/output/json_writer.hpp>
 #include <tools/output/summary.hpp>
 
@@ -58,7 +59,7 @@ void write_simulation_json(std::ostream& stream, const SimulationReport& report)
     json.key("scene").value(std::string_view(report.scene));
     json.key("response").value(std::string_view(report.response));
     json.key("technique").value(std::string_view(report.technique));
-    json.key("device").value(std::string_view(report.device));
+    json.key("device").value_or_null(report.device);
     json.key("tolerance").value(report.tolerance);
     json.key("objects").value(std::uint64_t{report.objects});
     json.key("lines").value(std::uint64_t{report.lines});
@@ -85,7 +86,8 @@ void write_simulation_summary(std::ostream& stream, const SimulationReport& repo
         stopped += frame.stopped;
     }
     stream << "scene             " << report.scene << ", " << report.response << '\n'
-           << "device            " << report.device << ", technique " << report.technique << '\n'
+           << "device            " << device_text(report.device) << ", technique "
+           << report.technique << '\n'
            << "objects, lines    " << report.objects << ", " << report.lines << '\n'
            << "frames            " << report.frames.size() << ", " << report.steps
            << " steps each; " << short_number(last.time) << " s\n"

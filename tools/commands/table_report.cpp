@@ -1,4 +1,5 @@
 #include <tools/commands/table_report.hpp>
+#include <tools/output/answer.hpp>
 #include <tools/output/json_writer.hpp>
 #include <tools/output/query_json.hpp>
 
@@ -86,8 +87,8 @@ TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : s
     const benchmark::Machine& machine = surroundings.machine;
     stream_
         << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-        << machine.cores << " cores; " << surroundings.device << " (" << surroundings.driver
-        << ")\n\n"
+        << machine.cores << " cores; " << device_text(surroundings.device) << " ("
+        << surroundings.driver << ")\n\n"
         << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
            "quartile - upper quartile);\n"
         << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
@@ -147,7 +148,7 @@ void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
     json.key("date").value(std::string_view(surroundings.machine.date));
     json.key("processor").value(std::string_view(surroundings.machine.processor));
     json.key("cores").value(std::uint64_t{surroundings.machine.cores});
-    json.key("device").value(std::string_view(surroundings.device));
+    json.key("device").value_or_null(surroundings.device);
     json.key("driver").value(std::string_view(surroundings.driver));
     json.key("rows").begin_array(JsonWriter::Layout::lines);
     for (const RowTimes& row : table) {

@@ -1,6 +1,7 @@
 #include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/objects.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/open_context.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/technique_race.hpp>
 #include <tools/input/input_error.hpp>
@@ -136,9 +137,10 @@ std::optional<double> RowTimes::automatic_to_best(double benchmark::Spread::*of)
 TechniqueRace::TechniqueRace(const Settings& settings) {
     for (const std::string_view name : technique_names) {
         Runner runner{
-            std::string(name), std::nullopt, {}, take(Context::create_headless({}, settings))};
-        runner.missing =
-            refusal_of([&] { runner.technique = parse_technique(runner.name, "standard table"); });
+            std::string(name), parse_technique(std::string(name), "standard table"), {}, {}};
+        AskedTechniques asked;
+        asked.add(runner.technique);
+        runner.missing = refusal_of([&] { runner.context.emplace(open_context(settings, asked)); });
         runners_.push_back(std::move(runner));
     }
 }
@@ -153,7 +155,7 @@ RowTimes TechniqueRace::run(const benchmark::Row& row) {
         time.technique = runner.name;
         time.refusal = runner.missing;
         entries.push_back(
-            time.refusal.empty() ? enter(scene, *runner.technique, runner.context, time) : nullptr);
+            time.refusal.empty() ? enter(scene, runner.technique, *runner.context, time) : nullptr);
         if (Entry* const entry = entries.back().get()) {
             contenders.push_back({[entry] { return entry->run_frame(); }, {}});
         }
@@ -168,8 +170,9 @@ RowTimes TechniqueRace::run(const benchmark::Row& row) {
     return times;
 }
 
-const std::string& TechniqueRace::device_name() const {
-    return runners_.front().context.device_name();
+std::string TechniqueRace::device_name() const {
+    const std::optional<Context>& first = runners_.front().context;
+    return first ? first->device_name() : std::string();
 }
 
 }  // namespace nearfield::tools

@@ -56,14 +56,15 @@ public:
 
     [[nodiscard]] RowTimes run(const benchmark::Row& row);
 
-    [[nodiscard]] const std::string& device_name() const;
+    /// Empty without a device.
+    [[nodiscard]] std::string device_name() const;
 
 private:
     struct Runner {
         std::string name;
-        std::optional<Technique> technique;  ///< none: this version has none of that name
-        std::string missing;
-        Context context;
+        Technique technique{};
+        std::string missing;             ///< why there is none
+        std::optional<Context> context;  ///< none where it is missing
     };
 
     std::vector<Runner> runners_;

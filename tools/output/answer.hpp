@@ -27,6 +27,12 @@ struct SceneAnswer {
     const AnyResult& result;
 };
 
+/// A context's device in words for people; `name`: Context::device_name().
+[[nodiscard]] inline const std::string& device_text(const std::string& name) {
+    static const std::string none = "none";
+    return name.empty() ? none : name;
+}
+
 /// The part that every kind of result has.
 [[nodiscard]] inline const ResultSummary& summary_of(const AnyResult& result) {
     return std::visit([](const auto& any) -> const ResultSummary& { return any; }, result);

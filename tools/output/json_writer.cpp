@@ -118,6 +118,10 @@ JsonWriter& JsonWriter::null() {
     return *this;
 }
 
+JsonWriter& JsonWriter::value_or_null(std::string_view text) {
+    return text.empty() ? null() : value(text);
+}
+
 void JsonWriter::write_text(std::string_view text) {
     // A device or file name need not be UTF-8; what is not becomes U+FFFD.
     stream_ << nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

@@ -31,6 +31,7 @@ public:
     JsonWriter& value(const char* text) { return value(std::string_view(text)); }
     JsonWriter& value(Vector2 point);  ///< [x, y]
     JsonWriter& null();
+    JsonWriter& value_or_null(std::string_view text);  ///< null where it is empty
 
 private:
     struct Level {

@@ -277,7 +277,7 @@ void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult
 void write_query_json(std::ostream& stream, const Answer& answer) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("device").value(std::string_view(answer.device));
+    json.key("device").value_or_null(answer.device);
     write_timings(json, answer.timings);
     write_answer(json, answer.request, answer.result);
     if (answer.tiles != nullptr) {
@@ -292,7 +292,7 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
                       std::string_view technique) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("device").value(std::string_view(device));
+    json.key("device").value_or_null(device);
     json.key("technique").value(technique);
     write_timings(json, timings);
     json.key("results").begin_array(JsonWriter::Layout::lines);

@@ -211,7 +211,7 @@ void write_timings_summary(std::ostream& stream, const Timings& timings) {
 void write_summary(std::ostream& stream, const Answer& answer) {
     const ResultSummary& summary = summary_of(answer.result);
     write_item(stream, "query", std::string(name_of(answer.request.type)));
-    write_item(stream, "device", answer.device);
+    write_item(stream, "device", device_text(answer.device));
     write_item(stream, "technique", to_string(summary.technique));
     const std::string bound = short_number(summary.error_bound);
     if (answer.request.type == QueryType::intersection_test) {
@@ -230,7 +230,7 @@ void write_summary(std::ostream& stream, const Answer& answer) {
 void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
                          const Timings& timings, const std::string& device,
                          std::string_view technique) {
-    write_item(stream, "device", device);
+    write_item(stream, "device", device_text(device));
     write_item(stream, "technique", std::string(technique));
     write_item(stream, "queries", std::to_string(answers.size()));
     for (const SceneAnswer& answer : answers) {
