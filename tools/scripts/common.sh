@@ -42,3 +42,11 @@ configure() {
 build() {
     cmake --build "$root/build/$1" "${@:2}"
 }
+
+# Where test.sh leaves the counts of its last run.
+readonly test_counts="$root/build/release/test_counts.txt"
+
+# The counts of the last run of the tests, where there was one.
+print_test_counts() {
+    [[ ! -f $test_counts ]] || { printf '\n== The tests\n' && cat "$test_counts"; }
+}

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 query_penetration() {
     mkdir -p "$root/out"
-    "$root/build/release/tools/nearfield" query penetration \
+    "$root/build/run/tools/nearfield" query penetration \
         "$root/tests/data/iceland_10m.geojson" "$root/tests/data/ireland_10m.geojson" \
         -d 0.8 --pose-b 120,20,30 --image "$root/out/penetration.png"
 }
@@ -14,7 +14,8 @@ query_penetration() {
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" run
 fi
-step "Configure" configure release -DNEARFIELD_BUILD_TESTS=OFF
-step "Build" build release
+step "Configure" configure run
+step "Build" build run --target nearfield_program
 step "Penetration of two coast lines" query_penetration
-printf '\nThe picture: %s\n' "$root/out/penetration.png"
+printf '\nThe picture: %s\nThe program: %s --help\n' \
+    "$root/out/penetration.png" "$root/build/run/tools/nearfield"

@@ -16,7 +16,7 @@ viewer_packages=(libsdl2-dev libimgui-dev ffmpeg)
 test_packages=(
     "${viewer_packages[@]}"
     libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
-    doxygen dpkg-dev gdb python3
+    doxygen dpkg-dev file gdb python3
 )
 # What the examples stand on, and an X server for all windows.
 test_packages+=(

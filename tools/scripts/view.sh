@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and starts the live viewer of simulations.
-#   view.sh [--no-setup] [NAME OPTION...]
+#   view.sh [--no-setup] [NAME] [OPTION...]
 # NAME and what follows go to nearfield_viewer: map, gears, links, cars, wavy, overlap or pour.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -10,6 +10,6 @@ if [[ ${1-} == --no-setup ]]; then
 else
     step "Install what is missing" "$root/tools/scripts/setup.sh" view
 fi
-step "Configure" configure viewer
-step "Build" build viewer --target nearfield_viewer
-exec "$root/build/viewer/tools/viewer/nearfield_viewer" "$@"
+step "Configure" configure view
+step "Build" build run --target nearfield_viewer
+exec "$root/build/run/tools/viewer/nearfield_viewer" "$@"
