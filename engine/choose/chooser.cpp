@@ -18,10 +18,6 @@ bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
            (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
 }
 
-void set_technique(AnyQuery& query, Technique technique) {
-    std::visit([technique](auto& asked) { asked.technique = technique; }, query);
-}
-
 }  // namespace
 
 bool Chooser::is_answered_by_any(const AnyQuery& query) const {
@@ -38,8 +34,6 @@ Chooser::Set Chooser::add_candidates(std::span<AnyQuery> queries,
             std::visit([](const auto& query) { return query.technique; }, queries[index]);
         if (asked == Technique::automatic && is_answered_by_any(queries[index])) {
             add_candidate(queries[index], shapes[index]);
-        } else if (asked == Technique::automatic) {
-            set_technique(queries[index], Technique::cpu);  // which the planner refuses
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             others |= asked == by_position[i] ? 1U << i : 0U;
@@ -147,8 +141,9 @@ void Chooser::choose(std::span<AnyQuery> queries, std::span<const plan::QuerySha
     const Set others = add_candidates(queries, shapes);
     const Set best = cpu_is_best(others) ? 1U << cpu : best_set(others);
     for (const Candidate& candidate : candidates_) {
-        set_technique(*candidate.query,
-                      best == 1U << cpu ? Technique::cpu : by_position[fastest(candidate, best)]);
+        const Technique technique =
+            best == 1U << cpu ? Technique::cpu : by_position[fastest(candidate, best)];
+        std::visit([&](auto& query) { query.technique = technique; }, *candidate.query);
     }
 }
 

@@ -20,8 +20,9 @@ public:
     Chooser(const CostModel& costs, const plan::AvailableTechniques& available)
         : costs_({costs.raster, costs.compute, costs.cpu}), available_(available) {}
 
-    /// Replaces Technique::automatic by what was picked; `shapes`: of each query. A query that will
-    /// be refused gets a technique too.
+    /// Replaces Technique::automatic by what was picked; `shapes`: of each query. It stays where no
+    /// technique that is there has an answer, which the planner refuses. Another query that will be
+    /// refused gets a technique too.
     void choose(std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes);
 
 private:

@@ -118,18 +118,15 @@ Status no_technique(Technique technique, const AvailableTechniques& available) {
                                    "(Context::create_cpu); ask for cpu or automatic"};
 }
 
-/// `what` of a query its technique does not answer, which another one might.
-Status no_answer(Technique technique, const char* what, const AvailableTechniques& available) {
-    const std::string lacks =
-        std::string("the technique ") + to_string(technique) + " does not answer " + what;
-    if (available.has_all()) {
-        return invalid(lacks + "; ask for another, or for automatic");
-    }
-    return {StatusCode::unsupported_technique,
-            lacks + (available.device ? "; this context was made without those that may "
-                                        "(Settings::techniques)"
-                                      : "; that needs a Vulkan device, and this context has none "
-                                        "(Context::create_cpu)")};
+/// `what` of a query needs a technique that this context does not have.
+Status none_answers(const char* what, const AvailableTechniques& available) {
+    return {
+        StatusCode::unsupported_technique,
+        available.device
+            ? std::string("no technique that this context has (Settings::techniques) answers ") +
+                  what
+            : std::string("only a Vulkan device answers ") + what +
+                  ", and this context has none (Context::create_cpu)"};
 }
 
 template <class Query>
@@ -143,8 +140,12 @@ Status check_technique(const Query& query, const AvailableTechniques& available)
         default:
             return no_enumerator("the technique is", value_of(query.technique));
     }
+    if (query.technique == Technique::automatic) {
+        return none_answers(unanswered(Technique::cpu, query), available);
+    }
     if (const char* const what = unanswered(query.technique, query); what != nullptr) {
-        return no_answer(query.technique, what, available);
+        return invalid(std::string("the technique ") + to_string(query.technique) +
+                       " does not answer " + what + "; ask for another, or for automatic");
     }
     return available.has(query.technique) ? Status() : no_technique(query.technique, available);
 }

@@ -51,10 +51,10 @@ public:
     explicit Planner(const PlanLimits& limits);
 
     /// Fills `plan` and, in `results`, everything that is known before rendering: status, bounds,
-    /// regions. What is wrong with one query stands in its result and leaves it without tiles. No
-    /// query has Technique::automatic any more: that was replaced by what was chosen. `shapes`: of
-    /// each query. `submissions`: that the batch may take.
-    /// Throws Failure (too_large) where the batch needs more memory than the limit.
+    /// regions. What is wrong with one query stands in its result and leaves it without tiles. A
+    /// query that still has Technique::automatic is one that no technique of this context answers.
+    /// `shapes`: of each query. `submissions`: that the batch may take. Throws Failure (too_large)
+    /// where the batch needs more memory than the limit.
     void plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes, Plan& plan,
               std::vector<AnyResult>& results, Submissions submissions = Submissions::any);
 

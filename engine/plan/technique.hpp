@@ -23,7 +23,6 @@ struct AvailableTechniques {
                 return true;
         }
     }
-    [[nodiscard]] bool has_all() const { return raster && compute; }
 };
 
 /// What the queries of a kind are called that the CPU alone answers; null for other kinds.

@@ -48,7 +48,8 @@ TEST_F(Device, WithoutADriverTheExitStatusIs3AndNothingIsWritten) {
     const std::string scene = folder_.write("scene.json", R"({
         "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1]]]}},
         "instances": {"A": {"shape": "square"}},
-        "queries": [{"query": "penetration", "a": "A", "b": "A", "tolerance": 0.1}]})");
+        "queries": [{"query": "penetration", "a": "A", "b": "A", "tolerance": 0.1,
+                     "technique": "compute"}]})");
     const Arguments outputs{"--json", folder_.path("answer.json")};
     const auto before = folder_.contents();
     for (const Arguments& arguments :
@@ -62,6 +63,46 @@ TEST_F(Device, WithoutADriverTheExitStatusIs3AndNothingIsWritten) {
         EXPECT_EQ(outcome.out.find('{'), std::string::npos) << outcome.out;
         EXPECT_TRUE(folder_.contents() == before) << command_line(arguments);
     }
+}
+
+TEST_F(Device, WithoutADriverTheCpuAnswersWhereItMay) {
+    const std::string scene = folder_.write("scene.json", R"({
+        "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1]]]}},
+        "instances": {"A": {"shape": "square"}},
+        "queries": [{"query": "penetration", "a": "A", "b": "A", "tolerance": 0.1}]})");
+    const auto run = [](const Arguments& arguments, const char* technique) {
+        return run_program(arguments + Arguments{"--technique", technique, "--json", "-"},
+                           without_driver());
+    };
+    const Arguments query{"query", "separation", a_, b_, "-d", "0.1"};
+    for (const Arguments& command :
+         {query, Arguments{"scene", scene}, Arguments{"bench", "--scene", scene, "--frames", "2"},
+          Arguments{"simulate", "gears", "--frames", "2"}}) {
+        for (const char* technique : {"cpu", "automatic"}) {
+            SCOPED_TRACE(command_line(command) + ", " + technique);
+            const Outcome outcome = run(command, technique);
+            ASSERT_EQ(outcome.status, 0) << outcome.err;
+            EXPECT_TRUE(Json::parse(outcome.out).at("device").is_null());
+            EXPECT_EQ(outcome.err.find("without a device") != std::string::npos,
+                      technique == std::string("automatic"))
+                << outcome.err;
+        }
+        EXPECT_EQ(run(command, "raster").status, 3);
+    }
+    EXPECT_EQ(Json::parse(run(query, "cpu").out).at("technique"), "cpu");
+}
+
+TEST_F(Device, WithTheTechniqueCpuNoDriverIsAsked) {
+    Arguments query{"query", "penetration", a_, b_, "-d", "0.1", "--technique", "cpu"};
+    const Outcome with = run_program(query + Arguments{"--json", "-"});
+    const Outcome without = run_program(query + Arguments{"--json", "-"}, without_driver());
+    ASSERT_EQ(with.status, 0) << with.err;
+    Json of_both[] = {Json::parse(with.out), Json::parse(without.out)};
+    for (Json& json : of_both) {
+        EXPECT_TRUE(json.at("device").is_null());
+        json.erase("timings_ms");
+    }
+    EXPECT_EQ(of_both[0], of_both[1]);
 }
 
 TEST_F(Device, TheTechniquesOfThisVersionAgree) {
