@@ -86,10 +86,10 @@ void parse_motion_request(const QueryArguments& arguments, QueryRequest& request
         request.time_bound = parse_positive(*arguments.time_bound, "--time-bound");
     }
     if (arguments.most_steps) {
-        request.most_steps = parse_count(*arguments.most_steps, "--most-steps");
+        request.most_steps = parse_count(*arguments.most_steps, "--most-steps", {1, 1'000'000'000});
     }
     if (arguments.most_work) {
-        request.most_work = parse_count(*arguments.most_work, "--most-work");
+        request.most_work = parse_count(*arguments.most_work, "--most-work", {1, 1'000'000'000});
     }
 }
 

@@ -65,12 +65,20 @@ Pose end_pose_from_degrees(double x, double y, double degrees, double start_degr
     return {{x, y}, start + (degrees - start_degrees) * (std::numbers::pi / 180.0)};
 }
 
-std::uint32_t parse_count(std::string_view text, const std::string& option) {
-    constexpr double most = 1e9;
+std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(option + ": \"" + std::string(text) + "\" is " + reason);
+    };
     double number = 0.0;
-    if (!parse_finite(text, number) || number != std::floor(number) || number < 1.0 ||
-        number > most) {
-        fail(option, text, "expected a whole number from 1 to 1000000000");
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    const bool too_large = error == std::errc::result_out_of_range;
+    const bool whole = too_large || (std::isfinite(number) && number == std::floor(number));
+    if (error == std::errc::invalid_argument || rest != end || !whole) {
+        refuse("not a whole number in decimal notation");
+    }
+    if (too_large || std::signbit(number) || number < range.min || number > range.max) {
+        refuse("out of range " + std::to_string(range.min) + " to " + std::to_string(range.max));
     }
     return static_cast<std::uint32_t>(number);
 }

@@ -15,8 +15,15 @@ namespace nearfield::tools {
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
 
-/// A whole number from 1 to 1,000,000,000.
-[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option);
+/// What a whole number may be, both ends included.
+struct CountRange {
+    std::uint32_t min = 0;
+    std::uint32_t max = 0;
+};
+
+/// A whole number in decimal notation ("250", "1e6"), without a leading plus sign.
+[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option,
+                                        CountRange range);
 
 /// "X,Y,DEGREES"
 [[nodiscard]] Pose parse_pose(std::string_view text, const std::string& option);
