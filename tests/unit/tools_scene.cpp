@@ -115,10 +115,11 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
 }
 
 TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
-    const Pose pose = parse_pose("-1.5,2e2,720", "--pose-a");
+    const Pose pose = to_pose(parse_pose("-1.5,2e2,720", "--pose-a"));
     EXPECT_EQ(pose.translation, (Vector2{-1.5, 200}));
     EXPECT_EQ(pose.angle, 0.0);
-    EXPECT_DOUBLE_EQ(parse_pose("0,+0,-90", "--pose-a").angle, -std::numbers::pi / 2);
+    EXPECT_DOUBLE_EQ(to_pose(parse_pose("0,+0,-90", "--pose-a")).angle, -std::numbers::pi / 2);
+    EXPECT_DOUBLE_EQ(to_end_pose({0, 0, 450}, 90).angle, 2.5 * std::numbers::pi);
     for (const char* const text :
          {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "1,2,x", "1,2,3 ", " 1,2,3", "nan,0,0",
           "0,inf,0", "1e999,0,0", "0x1,0,0", "1;2;3", "+-1,0,0"}) {

@@ -55,16 +55,6 @@ double parse_positive(std::string_view text, const std::string& option) {
     return number;
 }
 
-Pose pose_from_degrees(double x, double y, double degrees) {
-    const double turn = std::remainder(degrees, 360.0);
-    return {{x, y}, turn * (std::numbers::pi / 180.0)};
-}
-
-Pose end_pose_from_degrees(double x, double y, double degrees, double start_degrees) {
-    const double start = pose_from_degrees(0.0, 0.0, start_degrees).angle;
-    return {{x, y}, start + (degrees - start_degrees) * (std::numbers::pi / 180.0)};
-}
-
 std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {
     const auto refuse = [&](const std::string& reason) {
         throw InputError(option + ": \"" + std::string(text) + "\" is " + reason);
@@ -83,22 +73,20 @@ std::uint32_t parse_count(std::string_view text, const std::string& option, Coun
     return static_cast<std::uint32_t>(number);
 }
 
-Pose parse_pose(std::string_view text, const std::string& option) {
+DegreesPose parse_pose(std::string_view text, const std::string& option) {
     double numbers[3] = {};
     parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
-    return pose_from_degrees(numbers[0], numbers[1], numbers[2]);
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
-Pose parse_end_pose(std::string_view text, const std::optional<std::string>& start,
-                    const std::string& option) {
-    const std::string form = "X,Y,DEGREES (three numbers)";
-    double from[3] = {};
-    if (start) {
-        parse_list(*start, option, form, from);
-    }
-    double to[3] = {};
-    parse_list(text, option, form, to);
-    return end_pose_from_degrees(to[0], to[1], to[2], from[2]);
+Pose to_pose(const DegreesPose& pose) {
+    const double turn = std::remainder(pose.degrees, 360.0);
+    return {{pose.x, pose.y}, turn * (std::numbers::pi / 180.0)};
+}
+
+Pose to_end_pose(const DegreesPose& end, double start_degrees) {
+    const double start = to_pose({.degrees = start_degrees}).angle;
+    return {{end.x, end.y}, start + (end.degrees - start_degrees) * (std::numbers::pi / 180.0)};
 }
 
 Vector2 parse_point(std::string_view text, const std::string& option) {
