@@ -3,18 +3,25 @@
 #include <CLI/CLI.hpp>
 #include <tools/commands/bench.hpp>
 #include <tools/commands/calibrate.hpp>
+#include <tools/commands/help_formatter.hpp>
 #include <tools/commands/info.hpp>
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/query.hpp>
+#include <tools/commands/query_options.hpp>
+#include <tools/commands/query_words.hpp>
 #include <tools/commands/scene.hpp>
 #include <tools/commands/simulate.hpp>
 #include <tools/gpu/gpu.hpp>
 #include <tools/input/input_error.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -31,6 +38,7 @@ int run(int count, char** arguments) {
     program.set_version_flag("--version", std::string("nearfield ") + nearfield::version().text);
     program.footer(
         "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
+    program.formatter(std::make_shared<tools::HelpFormatter>(tools::HelpStyle{}));
     program.require_subcommand(1);
     tools::QueryArguments query_arguments;
     tools::SceneArguments scene_arguments;
@@ -43,8 +51,11 @@ int run(int count, char** arguments) {
     const CLI::App* const calibrate = tools::add_calibrate_command(program, calibrate_arguments);
     const CLI::App* const simulate = tools::add_simulate_command(program, simulate_arguments);
     tools::add_info_command(program);
+    std::vector<std::string> words =
+        tools::with_kind_first(*query, {arguments + std::min(count, 1), arguments + count});
+    std::reverse(words.begin(), words.end());  // the order that CLI11 expects
     try {
-        program.parse(count, arguments);
+        program.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {  // help or version was asked for
             return program.exit(error);
@@ -52,6 +63,9 @@ int run(int count, char** arguments) {
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
                                     "\" is none of query, scene, simulate, bench, calibrate, info");
+        }
+        if (query->parsed()) {
+            tools::explain_refusal(*query);
         }
         return fail(error, exit_status::bad_input);
     }

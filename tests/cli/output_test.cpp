@@ -48,7 +48,7 @@ TEST_F(Output, WithoutOptionsOnlyASummaryIsPrinted) {
 }
 
 TEST_F(Output, PicturesArePngOfTheSizeThatTheHelpStates) {
-    const Outcome help = run_program({"query", "--help"});
+    const Outcome help = run_program({"query", "penetration", "--help"});
     EXPECT_NE(help.out.find("1600 x 1200"), std::string::npos) << help.out;
     for (const auto& query : {"penetration", "intersection", "distance-field"}) {
         const std::string image = std::string(query) + ".png";

@@ -3,35 +3,6 @@
 namespace nearfield::test {
 namespace {
 
-class Help : public CliTest {
-protected:
-    static void expect_names(const Arguments& arguments, const std::vector<std::string>& parts) {
-        const Outcome outcome = run_program(arguments);
-        EXPECT_EQ(outcome.status, 0) << command_line(arguments) << '\n' << outcome.err;
-        EXPECT_EQ(outcome.err, "");
-        for (const std::string& part : parts) {
-            EXPECT_NE(outcome.out.find(part), std::string::npos)
-                << command_line(arguments) << " does not say " << part << '\n'
-                << outcome.out;
-        }
-    }
-};
-
-TEST_F(Help, NamesCommandsOptionsAndExitStatus) {
-    const std::string statuses =
-        "0 done, 2 bad input or usage, 3 no usable device, 1 anything else";
-    expect_names({"--help"}, {"query", "bench", "info", "--version", statuses});
-    expect_names(
-        {"query", "--help"},
-        {"penetration", "intersection", "distance-field", "GeoJSON", "WKT", "-d ", "--pose-a",
-         "--pose-b", "--technique", "--strategy", "--kind", "--points", "--json", "--image",
-         "--rect", "--field", "X,Y,DEGREES", "X0,Y0,X1,Y1", statuses});
-    expect_names({"bench", "--help"},
-                 {"--scene", "--technique", "--frames", "--warmup", "--json", statuses});
-    expect_names({"info", "--help"}, {"devices"});
-    expect_names({"--version"}, {"nearfield "});
-}
-
 class Device : public CliTest {};
 
 TEST_F(Device, InfoListsTheOneThatAnswers) {

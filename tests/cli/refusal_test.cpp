@@ -134,22 +134,6 @@ TEST_F(Refused, GradientsByBlendingOfTheComputeTechnique) {
     expect_refused(asked + blended, {"compute", "blended"});
 }
 
-TEST_F(Refused, OptionsThatBelongToAnotherQuery) {
-    const std::string field = folder_.path("field.npy");
-    const std::vector<std::pair<std::string, Arguments>> pairs{
-        {"penetration", {"--kind", "volume-volume"}},
-        {"penetration", {"--rect", "0,0,1,1"}},
-        {"penetration", {"--field", field}},
-        {"intersection", {"--points", "vertices"}},
-        {"intersection", {"--rect", "0,0,1,1"}},
-        {"intersection", {"--field", field}},
-        {"distance-field", {"--kind", "volume-volume"}},
-        {"distance-field", {"--points", "boundary"}}};
-    for (const auto& [query, option] : pairs) {
-        expect_refused(ask(query, Arguments{"-d", "1"} + option), {option.front(), query});
-    }
-}
-
 TEST_F(Refused, AFieldOfNothingInCommon) {
     expect_refused(ask("distance-field", {"-d", "0.1", "--pose-b", "3,0,0"}),
                    {"nothing in common", "rectangle"});

@@ -6,6 +6,7 @@
 #include <tools/input/scene.hpp>
 #include <tools/input/values.hpp>
 
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -114,10 +115,11 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
 }
 
 TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
-    const Pose pose = parse_pose("-1.5,2e2,720", "--pose-a");
+    const Pose pose = to_pose(parse_pose("-1.5,2e2,720", "--pose-a"));
     EXPECT_EQ(pose.translation, (Vector2{-1.5, 200}));
     EXPECT_EQ(pose.angle, 0.0);
-    EXPECT_DOUBLE_EQ(parse_pose("0,+0,-90", "--pose-a").angle, -std::numbers::pi / 2);
+    EXPECT_DOUBLE_EQ(to_pose(parse_pose("0,+0,-90", "--pose-a")).angle, -std::numbers::pi / 2);
+    EXPECT_DOUBLE_EQ(to_end_pose({0, 0, 450}, 90).angle, 2.5 * std::numbers::pi);
     for (const char* const text :
          {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "1,2,x", "1,2,3 ", " 1,2,3", "nan,0,0",
           "0,inf,0", "1e999,0,0", "0x1,0,0", "1;2;3", "+-1,0,0"}) {
@@ -127,6 +129,32 @@ TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
                   0U)
             << text;
     }
+}
+
+TEST(ToolsValues, CountsAreWholeDecimalNumbersInARange) {
+    EXPECT_EQ(parse_count("1", "--n", {1, 256}), 1U);
+    EXPECT_EQ(parse_count("256", "--n", {1, 256}), 256U);
+    EXPECT_EQ(parse_count("0", "--n", {0, 32}), 0U);
+    EXPECT_EQ(parse_count("010", "--n", {1, 256}), 10U);
+    EXPECT_EQ(parse_count("1e6", "--n", {1, 1'000'000}), 1'000'000U);
+    EXPECT_EQ(parse_count("4294967295", "--n", {0, UINT32_MAX}), UINT32_MAX);
+    for (const char* const text : {"", "x", "0x4", "+5", " 5", "5 ", "5x", "1.5", "nan", "inf",
+                                   "-inf", "-x", "1,0", "1e-1"}) {
+        EXPECT_EQ(input_error([&] {
+                      return parse_count(text, "--n", {1, 256});
+                  }),
+                  std::string("--n: \"") + text + "\" is not a whole number in decimal notation");
+    }
+    for (const char* const text : {"0", "-0", "-1", "257", "1e999", "18446744073709551617"}) {
+        EXPECT_EQ(input_error([&] {
+                      return parse_count(text, "--n", {1, 256});
+                  }),
+                  std::string("--n: \"") + text + "\" is out of range 1 to 256");
+    }
+    EXPECT_EQ(input_error([] {
+                  return parse_count("-0", "--n", {0, 32});
+              }),
+              "--n: \"-0\" is out of range 0 to 32");
 }
 
 TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {

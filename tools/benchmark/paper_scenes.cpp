@@ -28,7 +28,7 @@ tools::Scene gears_scene(std::size_t scale) {
         }
         const Vector2 place = index < 12 ? in_rows(index, 4, {1.8, 1.8}) : Vector2{7.2, 0.0};
         add_object(scene, std::move(rings),
-                   tools::pose_from_degrees(place.x, place.y, 11.0 * static_cast<double>(index)));
+                   tools::to_pose({place.x, place.y, 11.0 * static_cast<double>(index)}));
     }
     return scene;
 }

@@ -6,6 +6,7 @@
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/open_context.hpp>
 #include <tools/commands/paper_tables.hpp>
+#include <tools/commands/parsed_option.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/standard_table.hpp>
 #include <tools/input/input_error.hpp>
@@ -121,15 +122,13 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->type_name("NAME")
         ->needs(scene);
     add_settings_options(*command, arguments.settings);
-    command->add_option("--frames", arguments.frames, "Frames that are measured; default 50")
+    add_count_option(*command, "--frames", arguments.frames, {1, 1'000'000},
+                     "Frames that are measured; default 50")
         ->type_name("COUNT")
-        ->check(CLI::Range(1U, 1'000'000U))
         ->needs(scene);
-    command
-        ->add_option("--warmup", arguments.warm_up,
+    add_count_option(*command, "--warmup", arguments.warm_up, {0, 1'000'000},
                      "Frames before them that are not measured; default 5")
         ->type_name("COUNT")
-        ->check(CLI::Range(0U, 1'000'000U))
         ->needs(scene);
     command
         ->add_option("--json", arguments.json,

@@ -35,155 +35,65 @@ struct PlacedOutline {
     Pose pose;
 };
 
-void refuse_option(const std::optional<std::string>& value, const std::string& option,
-                   const QueryRequest& request, QueryType belongs_to) {
-    if (value && request.type != belongs_to) {
-        throw InputError(option + ": belongs to " + std::string(name_of(belongs_to)) + ", not to " +
-                         std::string(name_of(request.type)));
-    }
-}
-
-/// What only a distance field has.
-void parse_field_request(const QueryArguments& arguments, QueryRequest& request) {
-    if (arguments.sign) {
-        request.sign = parse_sign(*arguments.sign, "--sign");
-    }
-    for (const std::string& point : arguments.at) {
-        request.at.push_back(parse_point(point, "--at"));
-    }
-    if (arguments.show) {
-        request.picture = parse_picture(*arguments.show, "--show");
-        if (!arguments.image) {
-            throw InputError("--show: there is no picture to show it in; add --image FILE.png");
-        }
-    }
+/// What a distance field has to give for the outputs that are asked for.
+void complete_field_request(const QueryArguments& arguments, QueryRequest& request) {
     const auto shown = [&](FieldPicture picture) {
         return arguments.image && request.picture == picture;
     };
     request.features = arguments.features || shown(FieldPicture::voronoi);
     request.gradients = arguments.gradient_field || shown(FieldPicture::gradient);
-    if (arguments.gradient) {
-        request.gradient = parse_gradient(*arguments.gradient, "--gradient");
-        if (!request.gradients && request.at.empty()) {
-            throw InputError(
-                "--gradient: there is no gradient asked for; add --gradient-field, --at or --show "
-                "gradient");
-        }
+    if (arguments.gradient && !request.gradients && request.at.empty()) {
+        throw InputError(
+            "--gradient: there is no gradient asked for; add --gradient-field, --at or --show "
+            "gradient");
     }
     // Distances at every cell come back where something shows them, or where nothing else would.
     request.values = arguments.field || shown(FieldPicture::field) ||
                      (!request.features && !request.gradients && request.at.empty());
 }
 
-/// What only a time of impact or a separation vector has.
-void parse_motion_request(const QueryArguments& arguments, QueryRequest& request) {
+QueryRequest make_request(const QueryArguments& arguments) {
+    QueryRequest request = arguments.request;
+    request.strategy = arguments.strategy.value_or(request.strategy);
+    request.sign = arguments.sign.value_or(request.sign);
+    request.gradient = arguments.gradient.value_or(request.gradient);
+    const bool names_a_way_of_drawing =
+        (request.type == QueryType::intersection && arguments.strategy) || arguments.sign;
+    request.technique = arguments.technique.value_or(names_a_way_of_drawing ? Technique::raster
+                                                                            : Technique::automatic);
+    for (const std::string& point : arguments.at) {
+        request.at.push_back(parse_point(point, "--at"));
+    }
     if (arguments.end_pose_a) {
-        request.end_a = parse_end_pose(*arguments.end_pose_a, arguments.pose_a, "--end-pose-a");
+        request.end_a = to_end_pose(*arguments.end_pose_a, arguments.pose_a.degrees);
     }
     if (arguments.end_pose_b) {
-        request.end_b = parse_end_pose(*arguments.end_pose_b, arguments.pose_b, "--end-pose-b");
+        request.end_b = to_end_pose(*arguments.end_pose_b, arguments.pose_b.degrees);
     }
-    if (arguments.time_bound) {
-        request.time_bound = parse_positive(*arguments.time_bound, "--time-bound");
+    if (request.type == QueryType::distance_field) {
+        complete_field_request(arguments, request);
     }
-    if (arguments.most_steps) {
-        request.most_steps = parse_count(*arguments.most_steps, "--most-steps");
-    }
-    if (arguments.most_work) {
-        request.most_work = parse_count(*arguments.most_work, "--most-work");
-    }
-}
-
-QueryRequest parse_request(const QueryArguments& arguments) {
-    QueryRequest request;
-    request.type = parse_query_type(arguments.type, "query");
-    refuse_option(arguments.points, "--points", request, QueryType::penetration);
-    refuse_option(arguments.kind, "--kind", request, QueryType::intersection);
-    refuse_option(arguments.rectangle, "--rect", request, QueryType::distance_field);
-    refuse_option(arguments.field, "--field", request, QueryType::distance_field);
-    if (request.type != QueryType::time_of_impact) {
-        refuse_option(arguments.contact_distance, "--contact-distance", request,
-                      QueryType::contacts);
-    }
-    refuse_option(arguments.normals, "--normals", request, QueryType::contacts);
-    refuse_option(arguments.sign, "--sign", request, QueryType::distance_field);
-    refuse_option(arguments.gradient, "--gradient", request, QueryType::distance_field);
-    refuse_option(arguments.gradient_field, "--gradient-field", request, QueryType::distance_field);
-    refuse_option(arguments.features, "--features", request, QueryType::distance_field);
-    refuse_option(arguments.show, "--show", request, QueryType::distance_field);
-    refuse_option(arguments.end_pose_a, "--end-pose-a", request, QueryType::time_of_impact);
-    refuse_option(arguments.end_pose_b, "--end-pose-b", request, QueryType::time_of_impact);
-    refuse_option(arguments.time_bound, "--time-bound", request, QueryType::time_of_impact);
-    refuse_option(arguments.most_steps, "--most-steps", request, QueryType::time_of_impact);
-    refuse_option(arguments.most_work, "--most-work", request, QueryType::separation_vector);
-    if (!arguments.at.empty()) {
-        refuse_option(arguments.at.front(), "--at", request, QueryType::distance_field);
-    }
-    if (arguments.tolerance) {
-        request.tolerance = parse_positive(*arguments.tolerance, "-d");
-    } else if (request.type != QueryType::intersection_test) {
-        throw InputError("-d: the tolerance is required");
-    }
-    if (arguments.technique) {
-        request.technique = parse_technique(*arguments.technique, "--technique");
-    }
-    if (arguments.strategy) {
-        request.strategy = parse_strategy(*arguments.strategy, "--strategy");
-    }
-    const bool names_a_way_of_drawing =
-        (request.type == QueryType::intersection && arguments.strategy) ||
-        (request.type == QueryType::distance_field && arguments.sign);
-    if (names_a_way_of_drawing && !arguments.technique) {
-        request.technique = Technique::raster;
-    }
-    if (arguments.points) {
-        request.points = parse_points(*arguments.points, "--points");
-    }
-    if (arguments.kind) {
-        request.kind = parse_kind(*arguments.kind, "--kind");
-    }
-    if (arguments.contact_distance) {
-        request.contact_distance =
-            parse_positive(*arguments.contact_distance, "--contact-distance");
-    }
-    if (arguments.normals) {
-        request.normals = parse_normals(*arguments.normals, "--normals");
-    }
-    if (arguments.rectangle) {
-        request.rectangle = parse_rectangle(*arguments.rectangle, "--rect");
-    }
-    parse_field_request(arguments, request);
-    parse_motion_request(arguments, request);
     return request;
 }
 
-PlacedOutline place(const Outline& outline, double deviation,
-                    const std::optional<std::string>& pose, const std::string& option) {
-    PlacedOutline placed;
-    placed.file = outline.file;
-    if (pose) {
-        placed.pose = parse_pose(*pose, option);
-    }
+PlacedOutline place(const Outline& outline, double deviation, const DegreesPose& pose) {
     OutlineRings rings = tessellate_outline(outline, deviation);
-    placed.rings = std::move(rings.rings);
-    placed.deviation = rings.deviation;
-    return placed;
+    return {outline.file, std::move(rings.rings), rings.deviation, to_pose(pose)};
 }
 
 /// How far tessellation may be off the curves of A and B, each.
-double parse_deviation(const QueryArguments& arguments, const QueryRequest& request,
-                       const Outline& a, const Outline& b) {
+double choose_deviation(const QueryArguments& arguments, const QueryRequest& request,
+                        const Outline& a, const Outline& b) {
     if (!arguments.deviation) {
         if (request.tolerance == 0.0 && (a.curved() || b.curved())) {
             throw InputError("--deviation: required for curves where there is no tolerance");
         }
         return usual_deviation * request.tolerance;
     }
-    const double deviation = parse_positive(*arguments.deviation, "--deviation");
     if (!a.curved() && !b.curved()) {
         throw InputError("--deviation: neither A nor B has curves");
     }
-    return deviation;
+    return *arguments.deviation;
 }
 
 /// No output may take the place of an input or of another output. Pipes and terminals may be
@@ -353,13 +263,13 @@ struct FieldFiles {
 }  // namespace
 
 void run_query(const QueryArguments& arguments) {
-    const QueryRequest request = parse_request(arguments);
+    const QueryRequest request = make_request(arguments);
     const Settings settings = parse_settings(arguments.settings);
     const Outline outline_a = read_outline(arguments.file_a);
     const Outline outline_b = read_outline(arguments.file_b);
-    const double deviation = parse_deviation(arguments, request, outline_a, outline_b);
-    const PlacedOutline a = place(outline_a, deviation, arguments.pose_a, "--pose-a");
-    const PlacedOutline b = place(outline_b, deviation, arguments.pose_b, "--pose-b");
+    const double deviation = choose_deviation(arguments, request, outline_a, outline_b);
+    const PlacedOutline a = place(outline_a, deviation, arguments.pose_a);
+    const PlacedOutline b = place(outline_b, deviation, arguments.pose_b);
     require_different_files(arguments);
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;

@@ -1,3 +1,4 @@
+#include <tools/commands/parsed_option.hpp>
 #include <tools/commands/settings_options.hpp>
 #include <tools/input/cost_model.hpp>
 #include <tools/input/input_error.hpp>
@@ -9,26 +10,22 @@ void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
         .add_option("--boxes", arguments.boxes,
                     "Bounding boxes that localise: axis-aligned or oriented; default axis-aligned")
         ->type_name("NAME");
-    command
-        .add_option("--height", arguments.height,
-                    "Maximum height of their hierarchies: more is more work on the CPU and less on "
-                    "the device; default 12")
-        ->type_name("LEVELS")
-        ->check(CLI::Range(0U, 32U));
+    add_count_option(command, "--height", arguments.height, {0, 32},
+                     "Maximum height of their hierarchies: more is more work on the CPU and less "
+                     "on the device; default 12")
+        ->type_name("LEVELS");
     command
         .add_option("--costs", arguments.costs,
                     "What the techniques cost here, as nearfield calibrate has measured it: what "
                     "the technique automatic goes by; default what is usual for such a device")
         ->type_name("FILE.json");
-    command
-        .add_option_function<std::uint32_t>(
-            "--threads",
-            [&arguments](std::uint32_t count) {
-                arguments.threads = std::make_shared<ThreadTeam>(count);
-            },
-            "Threads for what the CPU answers; default 1")
-        ->type_name("COUNT")
-        ->check(CLI::Range(1U, most_jobs));
+    add_parsed_option(
+        command, "--threads", arguments.threads,
+        [](const std::string& text, const std::string& option) {
+            return std::make_shared<ThreadTeam>(parse_count(text, option, {1, most_jobs}));
+        },
+        "Threads for what the CPU answers; default 1; 1 to " + std::to_string(most_jobs))
+        ->type_name("COUNT");
 }
 
 Settings parse_settings(const SettingsArguments& arguments) {

@@ -2,6 +2,7 @@
 
 #include <tools/commands/library_error.hpp>
 #include <tools/commands/open_context.hpp>
+#include <tools/commands/parsed_option.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/simulate.hpp>
 #include <tools/commands/simulation_choice.hpp>
@@ -133,12 +134,12 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
                      "penalty (forces at points inside the other body) or backtracking (to just "
                      "before a contact, and impulses there); default penalty")
         ->type_name("NAME");
-    command->add_option("--frames", arguments.frames, "How many frames; default 300")
-        ->type_name("COUNT")
-        ->check(CLI::Range(1U, 10'000'000U));
-    command->add_option("--bodies", arguments.bodies, "Of pour: how many stars; default 1000")
-        ->type_name("COUNT")
-        ->check(CLI::Range(1U, 1000U));
+    add_count_option(*command, "--frames", arguments.frames, {1, 10'000'000},
+                     "How many frames; default 300")
+        ->type_name("COUNT");
+    add_count_option(*command, "--bodies", arguments.bodies, {1, 1000},
+                     "Of pour: how many stars; default 1000")
+        ->type_name("COUNT");
     command
         ->add_option("-d,--tolerance", arguments.tolerance,
                      "Tolerance d of the queries; default as the scene has it")
@@ -154,11 +155,9 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
                      "for the frame's number; default none")
         ->type_name("PATTERN.png");
     CLI::Option* const image = command->get_option("--image");
-    command
-        ->add_option("--every", arguments.every,
+    add_count_option(*command, "--every", arguments.every, {1, 10'000'000},
                      "Draw frames whose number this divides, and the last one; default 1")
         ->type_name("COUNT")
-        ->check(CLI::Range(1U, 10'000'000U))
         ->needs(image);
     command
         ->add_option("--video", arguments.video,

@@ -109,11 +109,11 @@ SceneInstance read_instance(const std::string& name, const JsonPlace& place, con
     std::vector<double> pose{0.0, 0.0, 0.0};
     if (place.has("pose")) {
         pose = numbers(place.member("pose"), 3, form);
-        instance.pose = pose_from_degrees(pose[0], pose[1], pose[2]);
+        instance.pose = to_pose({pose[0], pose[1], pose[2]});
     }
     if (place.has("end_pose")) {
         const std::vector<double> end = numbers(place.member("end_pose"), 3, form);
-        instance.end_pose = end_pose_from_degrees(end[0], end[1], end[2], pose[2]);
+        instance.end_pose = to_end_pose({end[0], end[1], end[2]}, pose[2]);
     }
     return instance;
 }

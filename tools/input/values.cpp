@@ -55,42 +55,38 @@ double parse_positive(std::string_view text, const std::string& option) {
     return number;
 }
 
-Pose pose_from_degrees(double x, double y, double degrees) {
-    const double turn = std::remainder(degrees, 360.0);
-    return {{x, y}, turn * (std::numbers::pi / 180.0)};
-}
-
-Pose end_pose_from_degrees(double x, double y, double degrees, double start_degrees) {
-    const double start = pose_from_degrees(0.0, 0.0, start_degrees).angle;
-    return {{x, y}, start + (degrees - start_degrees) * (std::numbers::pi / 180.0)};
-}
-
-std::uint32_t parse_count(std::string_view text, const std::string& option) {
-    constexpr double most = 1e9;
+std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(option + ": \"" + std::string(text) + "\" is " + reason);
+    };
     double number = 0.0;
-    if (!parse_finite(text, number) || number != std::floor(number) || number < 1.0 ||
-        number > most) {
-        fail(option, text, "expected a whole number from 1 to 1000000000");
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    const bool too_large = error == std::errc::result_out_of_range;
+    const bool whole = too_large || (std::isfinite(number) && number == std::floor(number));
+    if (error == std::errc::invalid_argument || rest != end || !whole) {
+        refuse("not a whole number in decimal notation");
+    }
+    if (too_large || std::signbit(number) || number < range.min || number > range.max) {
+        refuse("out of range " + std::to_string(range.min) + " to " + std::to_string(range.max));
     }
     return static_cast<std::uint32_t>(number);
 }
 
-Pose parse_pose(std::string_view text, const std::string& option) {
+DegreesPose parse_pose(std::string_view text, const std::string& option) {
     double numbers[3] = {};
     parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
-    return pose_from_degrees(numbers[0], numbers[1], numbers[2]);
+    return {numbers[0], numbers[1], numbers[2]};
 }
 
-Pose parse_end_pose(std::string_view text, const std::optional<std::string>& start,
-                    const std::string& option) {
-    const std::string form = "X,Y,DEGREES (three numbers)";
-    double from[3] = {};
-    if (start) {
-        parse_list(*start, option, form, from);
-    }
-    double to[3] = {};
-    parse_list(text, option, form, to);
-    return end_pose_from_degrees(to[0], to[1], to[2], from[2]);
+Pose to_pose(const DegreesPose& pose) {
+    const double turn = std::remainder(pose.degrees, 360.0);
+    return {{pose.x, pose.y}, turn * (std::numbers::pi / 180.0)};
+}
+
+Pose to_end_pose(const DegreesPose& end, double start_degrees) {
+    const double start = to_pose({.degrees = start_degrees}).angle;
+    return {{end.x, end.y}, start + (end.degrees - start_degrees) * (std::numbers::pi / 180.0)};
 }
 
 Vector2 parse_point(std::string_view text, const std::string& option) {

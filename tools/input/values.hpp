@@ -3,7 +3,6 @@
 #include <nearfield/shape.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,16 +14,25 @@ namespace nearfield::tools {
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
 
-/// A whole number from 1 to 1,000,000,000.
-[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option);
+/// What a whole number may be, both ends included.
+struct CountRange {
+    std::uint32_t min = 0;
+    std::uint32_t max = 0;
+};
+
+/// A whole number in decimal notation ("250", "1e6"), without a leading plus sign.
+[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option,
+                                        CountRange range);
+
+/// A pose in the units of the command line and of scenes.
+struct DegreesPose {
+    double x = 0.0;
+    double y = 0.0;
+    double degrees = 0.0;
+};
 
 /// "X,Y,DEGREES"
-[[nodiscard]] Pose parse_pose(std::string_view text, const std::string& option);
-
-/// "X,Y,DEGREES" of where a motion ends that starts at another one (0,0,0 where it is left out):
-/// whole turns in between are kept.
-[[nodiscard]] Pose parse_end_pose(std::string_view text, const std::optional<std::string>& start,
-                                  const std::string& option);
+[[nodiscard]] DegreesPose parse_pose(std::string_view text, const std::string& option);
 
 /// "X0,Y0,X1,Y1": the low corner, then the high one.
 [[nodiscard]] Rectangle parse_rectangle(std::string_view text, const std::string& option);
@@ -32,11 +40,11 @@ namespace nearfield::tools {
 /// "X,Y"
 [[nodiscard]] Vector2 parse_point(std::string_view text, const std::string& option);
 
-/// A pose of x, y and degrees. Whole turns are taken off in degrees, where that is exact.
-[[nodiscard]] Pose pose_from_degrees(double x, double y, double degrees);
+/// Whole turns are taken off in degrees, where that is exact.
+[[nodiscard]] Pose to_pose(const DegreesPose& pose);
 
-/// Where a motion ends that starts at an angle: so much further are its degrees than those of the
-/// start, whole turns included.
-[[nodiscard]] Pose end_pose_from_degrees(double x, double y, double degrees, double start_degrees);
+/// Where a motion ends that starts at an angle: its angle differs from the start's by as much as
+/// the degrees do, whole turns included.
+[[nodiscard]] Pose to_end_pose(const DegreesPose& end, double start_degrees);
 
 }  // namespace nearfield::tools

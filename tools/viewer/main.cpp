@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <tools/commands/library_error.hpp>
+#include <tools/commands/parsed_option.hpp>
 #include <tools/commands/scene_runner.hpp>
 #include <tools/commands/simulation_choice.hpp>
 #include <tools/input/input_error.hpp>
@@ -43,8 +44,8 @@ void add_options(CLI::App& program, Arguments& arguments) {
                        "raster, compute, cpu or automatic; default automatic");
     program.add_option("-d,--tolerance", arguments.tolerance,
                        "Tolerance d of the queries; default as the scene has it");
-    program.add_option("--height", arguments.height, "Maximum height of the hierarchies")
-        ->check(CLI::Range(0U, 32U));
+    tools::add_count_option(program, "--height", arguments.height, {0, 32},
+                            "Maximum height of the hierarchies");
     program.add_option("--strategy", arguments.strategy,
                        "How intersections are found: stencil, blend, logic-op or depth");
     program.add_option("--field", arguments.field,
@@ -56,8 +57,8 @@ void add_options(CLI::App& program, Arguments& arguments) {
         ->delimiter(',');
     const auto group = "For tests, which have no user";
     CLI::Option* const frames =
-        program.add_option("--frames", arguments.frames, "Leave after so many frames")
-            ->check(CLI::Range(1U, 1'000'000U))
+        tools::add_count_option(program, "--frames", arguments.frames, {1, 1'000'000},
+                                "Leave after so many frames")
             ->group(group);
     program
         .add_option("--drag", arguments.drag,
@@ -180,13 +181,11 @@ int main(int count, char** words) {
     add_options(program, arguments);
     try {
         program.parse(count, words);
+        run_viewer(arguments);
+        return exit_status::done;
     } catch (const CLI::ParseError& error) {
         return error.get_exit_code() == 0 ? program.exit(error)
                                           : fail(error, exit_status::bad_input);
-    }
-    try {
-        run_viewer(arguments);
-        return exit_status::done;
     } catch (const tools::InputError& error) {
         return fail(error, exit_status::bad_input);
     } catch (const tools::LibraryError& error) {

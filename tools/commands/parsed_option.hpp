@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <tools/input/values.hpp>
+
+#include <string>
+#include <utility>
+
+namespace nearfield::tools {
+
+/// True where help is asked of a command or of one above it.
+inline bool is_help_asked(const CLI::App& command) {
+    for (const CLI::App* app = &command; app != nullptr; app = app->get_parent()) {
+        if (app->get_help_ptr()->count() > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Adds an option whose text `parse(text, name)` turns into the value of `target`, which must
+/// outlive the command. What `parse` throws leaves CLI::App::parse, unless help is asked for.
+template <class Target, class Parse>
+CLI::Option* add_parsed_option(CLI::App& command, const std::string& name, Target& target,
+                               Parse parse, const std::string& description) {
+    return command.add_option_function<std::string>(
+        name,
+        [&command, &target, parse = std::move(parse), name](const std::string& text) {
+            if (!is_help_asked(command)) {
+                target = parse(text, name);
+            }
+        },
+        description);
+}
+
+/// Adds an option whose value is a whole number within a range, which its help states.
+template <class Target>
+CLI::Option* add_count_option(CLI::App& command, const std::string& name, Target& target,
+                              CountRange range, const std::string& description) {
+    return add_parsed_option(
+        command, name, target,
+        [range](const std::string& text, const std::string& option) {
+            return parse_count(text, option, range);
+        },
+        description + "; " + std::to_string(range.min) + " to " + std::to_string(range.max));
+}
+
+}  // namespace nearfield::tools
