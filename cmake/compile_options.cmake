@@ -5,8 +5,14 @@ target_include_directories(nearfield_options INTERFACE
     ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_definitions(nearfield_options INTERFACE VK_NO_PROTOTYPES)
 target_compile_options(nearfield_options INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+    -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wnon-virtual-dtor
     -Wold-style-cast -Woverloaded-virtual)
+# Where several files are compiled as one, a local name may shadow another file's.
+if(NOT CMAKE_UNITY_BUILD)
+    target_compile_options(nearfield_options INTERFACE -Wshadow)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(nearfield_options INTERFACE -Wshadow=local)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarm on string concatenation in libstdc++ 12 (GCC bug 105651).
     target_compile_options(nearfield_options INTERFACE -Wno-restrict)

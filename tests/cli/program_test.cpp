@@ -76,6 +76,19 @@ TEST_F(Device, WithTheTechniqueCpuNoDriverIsAsked) {
     EXPECT_EQ(of_both[0], of_both[1]);
 }
 
+TEST_F(Device, WithTheTechniqueCpuNoVulkanLoaderIsOpened) {
+    const Surroundings telling{{{"LD_DEBUG", "files"}}, {}};  // of the dynamic linker
+    const auto loads_vulkan = [&](const char* technique) {
+        const Outcome outcome = run_program(
+            {"query", "penetration", a_, b_, "-d", "0.1", "--technique", technique}, telling);
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_NE(outcome.err.find("libcairo"), std::string::npos) << "the linker says nothing";
+        return outcome.err.find("libvulkan") != std::string::npos;
+    };
+    EXPECT_FALSE(loads_vulkan("cpu"));
+    EXPECT_TRUE(loads_vulkan("raster"));
+}
+
 TEST_F(Device, TheTechniquesOfThisVersionAgree) {
     const Arguments more{"-d", "0.1", "--pose-b", "0.6,0,5"};
     for (const char* type : {"penetration", "contacts", "intersection", "separation",

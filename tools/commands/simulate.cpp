@@ -23,7 +23,7 @@
 namespace nearfield::tools {
 namespace {
 
-constexpr double page_width = 960.0;
+constexpr double frame_width = 960.0;
 
 dynamics::World make_world(Context& context, const SimulateArguments& arguments,
                            dynamics::Scene scene, dynamics::Response response,
@@ -180,7 +180,7 @@ void run_simulate(const SimulateArguments& arguments) {
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);
     const Settings settings = parse_settings(arguments.settings);
-    const View view = view_of(scene, page_width);
+    const View view = view_of(scene, frame_width);
     ReportTarget target(arguments.json);
     Outputs outputs(arguments, scene, view);
     std::optional<DrawingDevice> device;

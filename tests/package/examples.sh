@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# The examples that are projects of their own, built with the installed package alone, static and
+# shared, and run.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+# build_and_run EXAMPLE PATTERN: with either library; the output has to match.
+build_and_run() {
+    local work shared output
+    for shared in ON OFF; do
+        work="$place/example $1 $shared"
+        mkdir "$work"
+        cp -r "$SOURCE/examples/$1" "$work/source"
+        cmake -S "$work/source" -B "$work/build" -G Ninja "-DCMAKE_CXX_COMPILER=$CXX" \
+            -DCMAKE_CXX_FLAGS='-Wall -Wextra -Werror' -DBUILD_SHARED_LIBS=$shared \
+            "-DCMAKE_PREFIX_PATH=$prefix" >/dev/null
+        cmake --build "$work/build"
+        names_nothing_of_the_project "$work"
+        needs_shared "$work/build/$1" "$([[ $shared == ON ]] && echo yes || echo no)"
+        output=$("$work/build/$1")
+        printf '%s\n' "$output"
+        [[ $output =~ $2 ]] || fail "$1 says something else"
+    done
+}
+
+build_and_run hello '^\(8\.5, 0\.5\) is 0\.5 deep; out along \(-1, 0\)$'
+build_and_run host '[0-9]+ points inside, the deepest by (1|0\.9)'
+# An example that needs no device opens no Vulkan loader.
+! LD_DEBUG=files "$place/example hello ON/build/hello" 2>&1 | grep libvulkan ||
+    fail "hello opens a Vulkan loader"
