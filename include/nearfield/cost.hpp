@@ -15,20 +15,20 @@ struct WorkCost {
 
 /// Times of one technique, microseconds.
 struct TechniqueCost {
-    double submission = 0.0;  ///< once a batch that uses the technique at all
-    WorkCost points;          ///< penetration and contacts; a sample is a point of a boundary
-    WorkCost closest;         ///< closest point, separation, intersection test; without samples
-    WorkCost intersection;    ///< a sample is a cell
-    WorkCost field;           ///< distance fields but those below; a sample is a cell
-    WorkCost features;        ///< fields with features, analytic gradients or points; likewise
+    double submission = 0.0;     ///< once a batch that uses the technique at all
+    WorkCost points = {};        ///< penetration and contacts; a sample is a point of a boundary
+    WorkCost closest = {};       ///< closest point, separation, intersection test; without samples
+    WorkCost intersection = {};  ///< a sample is a cell
+    WorkCost field = {};         ///< distance fields but those below; a sample is a cell
+    WorkCost features = {};      ///< fields with features, analytic gradients or points; likewise
 };
 
 /// What each technique costs on one machine. Few numbers, since it only has to tell apart what
 /// differs by factors; Context::measure_costs finds them by running all techniques.
 struct CostModel {
-    TechniqueCost raster;   ///< of Technique::raster
-    TechniqueCost compute;  ///< of Technique::compute
-    TechniqueCost cpu;      ///< of Technique::cpu
+    TechniqueCost raster = {};   ///< of Technique::raster
+    TechniqueCost compute = {};  ///< of Technique::compute
+    TechniqueCost cpu = {};      ///< of Technique::cpu
 };
 
 }  // namespace nearfield

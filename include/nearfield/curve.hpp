@@ -20,7 +20,7 @@ namespace nearfield {
 struct AffineMap {
     Vector2 x_axis{1.0, 0.0};  ///< where the unit vector along x goes
     Vector2 y_axis{0.0, 1.0};  ///< where the unit vector along y goes
-    Vector2 origin;            ///< where the origin goes
+    Vector2 origin = {};       ///< where the origin goes
 };
 
 /// One piece of an outline, from where the piece before it ends.
@@ -32,20 +32,20 @@ struct CurveSegment {
         arc,    ///< of an ellipse, at most half of it
     };
     Kind kind = Kind::line;  ///< which of the members below count
-    Vector2 to;              ///< where it ends
+    Vector2 to = {};         ///< where it ends
     Vector2 control_1;       ///< cubic: the inner control point nearer to where it begins
     Vector2 control_2;       ///< cubic: the inner control point nearer to where it ends
     /// Elliptic arc: point(s) = centre + cos(s) apex + sin(s) along for s from -half_sweep to
     /// half_sweep, with the centre at the middle of the end points less cos(half_sweep) apex. Kept
     /// so, and not by its centre, a short arc of a huge circle loses no digits.
-    Vector2 apex;             ///< from the centre to the middle of the arc
-    Vector2 along;            ///< the other conjugate half diameter, in the direction of travel
+    Vector2 apex = {};        ///< from the centre to the middle of the arc
+    Vector2 along = {};       ///< the other conjugate half diameter, in the direction of travel
     double half_sweep = 0.0;  ///< radians, above 0, at most pi
 };
 
 /// One closed outline. Where the last segment does not end at the start, a straight one closes it.
 struct CurveContour {
-    Vector2 start;                       ///< where the first segment begins
+    Vector2 start = {};                  ///< where the first segment begins
     std::vector<CurveSegment> segments;  ///< each from where the one before it ends
 };
 

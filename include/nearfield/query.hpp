@@ -60,8 +60,8 @@ enum class PenetrationPoints {
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (the paper's section 2.2.4, "Penetration Depth and Direction").
 struct PenetrationQuery {
-    Instance a;              ///< whose points are looked at
-    Instance b;              ///< in which they lie
+    Instance a = {};         ///< whose points are looked at
+    Instance b = {};         ///< in which they lie
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
     PenetrationPoints points = PenetrationPoints::boundary;  ///< which points of A
     bool records = true;  ///< false: keep the summary (count, deepest) and leave the records out
@@ -110,8 +110,8 @@ inline constexpr std::size_t intersection_strategies = 4;
 
 /// The samples of a grid that lie in both shapes (section 2.2.1, Table 1).
 struct IntersectionQuery {
-    Instance a;              ///< takes part by its boundary or volume, as `kind` says
-    Instance b;              ///< likewise
+    Instance a = {};         ///< takes part by its boundary or volume, as `kind` says
+    Instance b = {};         ///< likewise
     double tolerance = 0.0;  ///< d, world units, > 0
     IntersectionKind kind = IntersectionKind::volume_volume;  ///< what of each takes part
     /// False: keep the summary (count, area, box) and leave the samples out. None are listed then,
@@ -152,8 +152,9 @@ enum class GradientMethod {
 /// grid of cells, negative inside B; and what follows from it, the image of nearest features (the
 /// Voronoi diagram) and the gradient (section 2.2.3). Refused where nothing is asked for.
 struct DistanceFieldQuery {
-    Instance a;  ///< whose box is shared; may be left out (the default) where a rectangle is given
-    Instance b;  ///< whose distance is asked for
+    Instance a =
+        {};  ///< whose box is shared; may be left out (the default) where a rectangle is given
+    Instance b = {};         ///< whose distance is asked for
     double tolerance = 0.0;  ///< d, world units, > 0; the side of a cell is d * sqrt 2
     /// What the grid covers; its low corner is the low corner of cell (0, 0). Left out: what the
     /// bounding boxes of A and B have in common, grown by d on every side; an error where they have
@@ -186,8 +187,8 @@ enum class ContactNormals {
 /// Contact points and normals: the points of either boundary that are close to the other boundary
 /// (the paper's section 2.2.4, "Contact Points and Normals"), inside and outside alike.
 struct ContactQuery {
-    Instance a;                     ///< one of the two
-    Instance b;                     ///< the other, whose normals are given
+    Instance a = {};                ///< one of the two
+    Instance b = {};                ///< the other, whose normals are given
     double tolerance = 0.0;         ///< d, world units, > 0: contacts lie at most a cell apart
     double contact_distance = 0.0;  ///< how close counts as contact, world units, > 0
     ContactNormals normals = ContactNormals::analytic;  ///< how normals are found
@@ -199,8 +200,8 @@ struct ContactQuery {
 
 /// The point of A that is closest to B (section 2.2.4, "Closest Point").
 struct ClosestPointQuery {
-    Instance a;  ///< whose point is sought
-    Instance b;  ///< what it is closest to
+    Instance a = {};  ///< whose point is sought
+    Instance b = {};  ///< what it is closest to
     /// d, world units, > 0: half the diagonal of a cell of the grid that the search is rendered
     /// with; coarser where that would take more than 4,096 samples of a boundary
     /// (ResultSummary::cell says what it was). The answer is exact whatever it is.
@@ -211,8 +212,8 @@ struct ClosestPointQuery {
 /// The least distance between two shapes, and where it is (section 2.2.4, "Separation Distance and
 /// Direction").
 struct SeparationQuery {
-    Instance a;                                  ///< one of the two
-    Instance b;                                  ///< the other
+    Instance a = {};                             ///< one of the two
+    Instance b = {};                             ///< the other
     double tolerance = 0.0;                      ///< as for ClosestPointQuery
     Technique technique = Technique::automatic;  ///< what answers
 };
@@ -222,8 +223,8 @@ struct SeparationQuery {
 /// answered on the CPU (Technique::automatic or cpu): raster and compute are refused
 /// (invalid_query).
 struct IntersectionTestQuery {
-    Instance a;                                  ///< one of the two
-    Instance b;                                  ///< the other
+    Instance a = {};                             ///< one of the two
+    Instance b = {};                             ///< the other
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
@@ -233,10 +234,10 @@ struct IntersectionTestQuery {
 /// instance's pose stands still. Goes beyond the paper. Always answered on the CPU, as
 /// IntersectionTestQuery.
 struct TimeOfImpactQuery {
-    Instance a;  ///< with A's pose at time 0
-    Instance b;  ///< with B's pose at time 0
-    Pose end_a;  ///< A's pose at time 1
-    Pose end_b;  ///< B's pose at time 1
+    Instance a = {};  ///< with A's pose at time 0
+    Instance b = {};  ///< with B's pose at time 0
+    Pose end_a = {};  ///< A's pose at time 1
+    Pose end_b = {};  ///< B's pose at time 1
     /// d, world units, > 0: the first contact is known to within a stretch of time in which no two
     /// points of the shapes move by more than this against each other.
     double tolerance = 0.0;
@@ -258,8 +259,8 @@ struct TimeOfImpactQuery {
 /// the paper, whose penetration depth is that of single points. Always answered on the CPU, as
 /// IntersectionTestQuery.
 struct SeparationVectorQuery {
-    Instance a;  ///< moves
-    Instance b;  ///< stands still
+    Instance a = {};  ///< moves
+    Instance b = {};  ///< stands still
     /// d, world units, > 0: the search ends where the translation is known to be no more than this
     /// longer than the shortest one, or when it has used up most_work;
     /// SeparationVectorResult::lower_bound says what is known then.

@@ -51,14 +51,14 @@ struct ShapeHandle {
 /// A rigid transform from shape coordinates to world coordinates: rotate counter-clockwise about
 /// the origin of the shape's own coordinates, then translate.
 struct Pose {
-    Vector2 translation;  ///< world units, applied after the rotation
-    double angle = 0.0;   ///< radians, counter-clockwise
+    Vector2 translation = {};  ///< world units, applied after the rotation
+    double angle = 0.0;        ///< radians, counter-clockwise
 };
 
 /// A shape at a place.
 struct Instance {
-    ShapeHandle shape;  ///< of the context that answers
-    Pose pose;          ///< from the shape's coordinates to the world
+    ShapeHandle shape = {};  ///< of the context that answers
+    Pose pose = {};          ///< from the shape's coordinates to the world
 };
 
 /// Two of a list of instances, by their positions in it.
@@ -72,8 +72,8 @@ struct InstancePair {
 
 /// An axis-aligned rectangle in world coordinates.
 struct Rectangle {
-    Vector2 min;  ///< low corner
-    Vector2 max;  ///< high corner
+    Vector2 min = {};  ///< low corner
+    Vector2 max = {};  ///< high corner
 };
 
 }  // namespace nearfield
