@@ -162,7 +162,9 @@ struct ContactRecord {
     Feature feature;        ///< of the other shape: where `nearest` lies
     Side on = Side::a;      ///< whose boundary `point` is on
     bool inside = false;    ///< `point` lies inside the other shape
-    bool unique = true;     ///< as PenetrationRecord::unique
+    /// As PenetrationRecord::unique; with ContactNormals::gradient also false where the field has
+    /// next to no gradient, and the analytic normal stands for it.
+    bool unique = true;
 };
 
 /// A stretch of the contact between A and B, in one piece and turning by less than a right angle,

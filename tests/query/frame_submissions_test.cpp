@@ -102,12 +102,11 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     EXPECT_EQ(calls.waits, 1);
     check_penetration(placed, PenetrationPoints::boundary, results[penetration]);
     check_field(placed.b(), query.tolerance, results[field], 2000);
-    const PlacedPair in_one_round(context(), pair);
-    watched_query.a.shape = in_one_round.instance_a().shape;
-    watched_query.b.shape = in_one_round.instance_b().shape;
-    EXPECT_EQ(results[intersection].count, run_alone(context(), watched_query).count);
     EXPECT_GT(results[intersection].count, 10000U);
     EXPECT_EQ(run(batch), all_numbers(results));
+    // Of the same tiles; larger ones may move a few samples at the rim.
+    watched_query.technique = Technique::cpu;
+    EXPECT_EQ(results[intersection].count, run_alone(counted(), watched_query).count);
 }
 
 TEST_F(Frames, WithMoreSamplesThanRoomRunAgainOnce) {
@@ -115,7 +114,7 @@ TEST_F(Frames, WithMoreSamplesThanRoomRunAgainOnce) {
     settings.memory_limit = 16U << 20U;
     make(settings);
     Batch batch;
-    batch.add(IntersectionQuery{{a_, {}}, {a_, {}}, 0.003});  // most of the box is in both
+    batch.add(IntersectionQuery{{a_, {}}, {a_, {}}, 0.0033});  // most of the box is in both
     batch.add(IntersectionQuery{{a_, {}}, {b_, {}}, 0.05});
     const Ticket first = submit(batch);
     const Ticket second = submit(batch);

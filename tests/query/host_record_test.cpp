@@ -1,4 +1,5 @@
 #include <tests/query/counted_context.hpp>
+#include <tests/query/device_offers.hpp>
 #include <tests/query/every_query.hpp>
 #include <tests/support/host_frames.hpp>
 
@@ -97,7 +98,8 @@ TEST_F(Recorded, TimesOfPassesComeBack) {
     Results expected;
     ASSERT_TRUE(counted().run(batch(0), expected).ok());
     ASSERT_EQ(results.timings.passes.size(), expected.timings.passes.size());
-    EXPECT_GT(results.timings.passes.size(), 10U);
+    const bool timed = offers(host_device(), "timestamps");
+    EXPECT_TRUE(timed ? results.timings.passes.size() > 10U : results.timings.passes.empty());
     for (std::size_t i = 0; i < results.timings.passes.size(); ++i) {
         EXPECT_EQ(results.timings.passes[i].name, expected.timings.passes[i].name);
         EXPECT_GE(results.timings.passes[i].milliseconds, 0.0);

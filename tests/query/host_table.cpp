@@ -89,6 +89,14 @@ Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
     return std::move(*made);
 }
 
+void expect_timelines_refused(Context& context, const Batch& batch) {
+    const SemaphoreSignal timeline{reinterpret_cast<VkSemaphore>(std::uintptr_t{1}), 7};
+    const Status refused = context.submit(batch, {.signals = {&timeline, 1}}).status();
+    EXPECT_EQ(refused.code(), StatusCode::invalid_submission);
+    EXPECT_NE(refused.message().find("Submission::signals[0].value"), std::string::npos);
+    EXPECT_NE(refused.message().find("HostDevice::timeline_semaphore"), std::string::npos);
+}
+
 namespace {
 
 std::set<std::string>* names_asked = nullptr;

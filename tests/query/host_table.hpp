@@ -63,6 +63,9 @@ private:
     std::optional<test_support::FakeLoader> loader_;
 };
 
+/// A context whose host did not enable timeline semaphores says so to who has one signalled.
+void expect_timelines_refused(Context& context, const Batch& batch);
+
 /// The host, with every name noted that the library asks for: entry points, through the one
 /// function that a host hands over. One at a time.
 [[nodiscard]] HostDevice noting_names(const HostDevice& host, std::set<std::string>& names);

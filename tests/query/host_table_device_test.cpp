@@ -1,3 +1,4 @@
+#include <tests/query/device_offers.hpp>
 #include <tests/query/host_table.hpp>
 
 namespace nearfield::test {
@@ -31,13 +32,12 @@ TEST_F(HostTable, Loader) {
     EXPECT_EQ(status.reasons()[0].find("entry point vkGetPhysicalDeviceMemoryProperties: "), 0U);
 }
 
-PhysicalDevice physical_device_of(const HostDevice& host) {
-    PhysicalDevice device;
-    device.instance = host.instance;
-    device.physical_device = host.physical_device;
-    device.get_instance_proc_addr = host.get_instance_proc_addr;
-    device.debug_utils = host.debug_utils;
-    return device;
+/// By a way of drawing that needs the feature logicOp.
+IntersectionQuery by_logic_op(const Scene& scene) {
+    IntersectionQuery query{{scene.a, {}}, {scene.b, {}}, 0.1};
+    query.strategy = IntersectionStrategy::logic_op;
+    query.technique = Technique::raster;
+    return query;
 }
 
 TEST_F(HostTable, Requirements) {
@@ -53,48 +53,37 @@ TEST_F(HostTable, Requirements) {
         const Scene scene(context);
         EXPECT_FALSE(scene.run(scene.every()).empty());
     }
-    // All that is optional can be enabled just as it is listed.
-    ASSERT_EQ(needed->device_extensions.size(), 1U);
-    VulkanHost full({needed->features, needed->timeline_semaphore.timelineSemaphore == VK_TRUE});
+    // All that is optional can be enabled just as it is listed, and what is not listed is not
+    // there.
+    const bool timelines = needed->timeline_semaphore.timelineSemaphore == VK_TRUE;
+    VulkanHost full({needed->features, timelines});
+    EXPECT_EQ(full.device().logic_op, needed->features.logicOp == VK_TRUE);
+    EXPECT_EQ(full.device().logic_op, full.offered().features.logicOp == VK_TRUE);
+    EXPECT_EQ(full.device().timeline_semaphore, timelines);
+    EXPECT_EQ(full.offered().timeline_semaphore, timelines);
+    EXPECT_EQ(needed->device_extensions.size(), timelines ? 1U : 0U);
     {
         Context context = make(full.device());
         const Scene scene(context);
-        Batch batch = scene.every();
-        batch.add(IntersectionQuery{{scene.a, {}},
-                                    {scene.b, {}},
-                                    0.1,
-                                    IntersectionKind::volume_volume,
-                                    true,
-                                    IntersectionStrategy::logic_op,
-                                    Technique::raster});
-        EXPECT_FALSE(scene.run(batch).empty());
+        EXPECT_FALSE(scene.run(scene.every()).empty());
+        const IntersectionResult result = run_alone(context, by_logic_op(scene));
+        if (full.device().logic_op) {
+            EXPECT_TRUE(result.status.ok()) << result.status.text();
+            EXPECT_GT(result.count, 0U);
+        } else {
+            expect_logic_op_refused(result);
+        }
     }
     EXPECT_EQ(full.close(), std::vector<std::string>{});
 }
 
 TEST_F(HostTable, EnabledSet) {
-    // The physical device has it all; the device has what the host says.
+    // Whatever the physical device has, the device has what the host says: nothing.
     make_host();
-    ASSERT_EQ(requirements(physical_device_of(host()))->features.logicOp, VK_TRUE);
     Context context = make(host());
     const Scene scene(context);
-    Batch batch;
-    batch.add(IntersectionQuery{{scene.a, {}},
-                                {scene.b, {}},
-                                0.1,
-                                IntersectionKind::volume_volume,
-                                true,
-                                IntersectionStrategy::logic_op,
-                                Technique::raster});
-    Results results;
-    ASSERT_TRUE(context.run(batch, results).ok());
-    EXPECT_EQ(std::get<IntersectionResult>(results.results[0]).status.code(),
-              StatusCode::unsupported_strategy);
-    const SemaphoreSignal timeline{reinterpret_cast<VkSemaphore>(std::uintptr_t{1}), 7};
-    const Status refused = context.submit(batch, {.signals = {&timeline, 1}}).status();
-    EXPECT_EQ(refused.code(), StatusCode::invalid_submission);
-    EXPECT_NE(refused.message().find("Submission::signals[0].value"), std::string::npos);
-    EXPECT_NE(refused.message().find("HostDevice::timeline_semaphore"), std::string::npos);
+    expect_logic_op_refused(run_alone(context, by_logic_op(scene)));
+    expect_timelines_refused(context, scene.small());
     HostDevice quiet = host();
     quiet.debug_utils = false;
     std::set<std::string> names;

@@ -1,3 +1,4 @@
+#include <tests/query/device_offers.hpp>
 #include <tests/query/host_table.hpp>
 
 #include <algorithm>
@@ -57,7 +58,8 @@ TEST_F(HostTable, Debugging) {
     HostFrames frames(host(), 1);
     Results results;
     ASSERT_TRUE(context.run(scene.every(), results).ok());
-    EXPECT_GT(results.timings.passes.size(), 10U);
+    const bool timed = offers(host(), "timestamps");
+    EXPECT_TRUE(timed ? results.timings.passes.size() > 10U : results.timings.passes.empty());
     for (const PassTime& pass : results.timings.passes) {
         EXPECT_GE(pass.milliseconds, 0.0) << pass.name;
         EXPECT_NE(std::find(debugging.labels.begin(), debugging.labels.end(), pass.name),

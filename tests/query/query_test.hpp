@@ -38,7 +38,6 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
 /// validation layers had something to say.
 class QueryTest : public testing::Test {
 protected:
-    void SetUp() override;
     void TearDown() override;
 
     [[nodiscard]] static Context& context();

@@ -192,7 +192,7 @@ Expected<Context> context_of_many_rounds(const HostDevice& host) {
 Pair pair_of_many_rounds() {
     Random random(sample_seed);
     const Rings rings = with_holes(random, 3);
-    return {{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.0035};
+    return {{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.0042};
 }
 
 TEST_F(ResidentIntersections, SamplesOfManyRoundsStayInOrder) {

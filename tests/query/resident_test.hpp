@@ -15,10 +15,7 @@ inline constexpr std::array<Technique, 2> on_device{Technique::raster, Technique
 /// Looks at what stays on the device.
 class Resident : public QueryTest {
 protected:
-    void SetUp() override {
-        QueryTest::SetUp();
-        reader_ = std::make_unique<ResidentReader>(host_device());
-    }
+    void SetUp() override { reader_ = std::make_unique<ResidentReader>(host_device()); }
     void TearDown() override {
         reader_.reset();
         QueryTest::TearDown();

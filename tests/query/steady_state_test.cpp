@@ -26,7 +26,6 @@ void note_call(const test_support::WatchedCall& call) {
 class SteadyState : public QueryTest {
 protected:
     void SetUp() override {
-        QueryTest::SetUp();
         loader_.emplace(host_device(), test_support::watched(host_device(), note_call));
         Expected<Context> made = Context::create(loader_->host(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();

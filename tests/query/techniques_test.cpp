@@ -1,6 +1,7 @@
 #include <tests/oracle/plane.hpp>
 #include <tests/query/check.hpp>
 #include <tests/query/corpus.hpp>
+#include <tests/query/match.hpp>
 #include <tests/query/nasty_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
@@ -9,40 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t seed = 1618;
 constexpr std::array both_ways{PenetrationPoints::boundary, PenetrationPoints::vertices};
-
-template <class Record>
-void sort_by_point(std::vector<Record>& records) {
-    std::sort(records.begin(), records.end(), [](const Record& i, const Record& j) {
-        return std::tie(i.point.x, i.point.y) < std::tie(j.point.x, j.point.y);
-    });
-}
-
-/// Calls `both(of one, of other)` for records at the same point and `alone(record)` for the rest.
-template <class Record, class Both, class Alone>
-void match(std::vector<Record> one, std::vector<Record> other, const Both& both,
-           const Alone& alone) {
-    sort_by_point(one);
-    sort_by_point(other);
-    const auto key = [](const Record& record) { return std::pair(record.point.x, record.point.y); };
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i < one.size() || j < other.size()) {
-        if (j == other.size() || (i < one.size() && key(one[i]) < key(other[j]))) {
-            alone(one[i++]);
-        } else if (i == one.size() || key(other[j]) < key(one[i])) {
-            alone(other[j++]);
-        } else {
-            both(one[i++], other[j++]);
-        }
-    }
-}
 
 /// All techniques held against the oracle by the CPU's answers, and against each other.
 class Techniques : public QueryTest {

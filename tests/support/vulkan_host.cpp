@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <stdexcept>
 
@@ -21,6 +22,19 @@ void require(VkResult result, const char* call) {
     }
 }
 
+/// What is in both.
+VkPhysicalDeviceFeatures common(const VkPhysicalDeviceFeatures& one,
+                                const VkPhysicalDeviceFeatures& other) {
+    // The structure is a VkBool32 for each feature and nothing else.
+    using Flags = std::array<VkBool32, sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32)>;
+    auto both = std::bit_cast<Flags>(one);
+    const auto others = std::bit_cast<Flags>(other);
+    for (std::size_t i = 0; i < both.size(); ++i) {
+        both[i] = both[i] == VK_TRUE && others[i] == VK_TRUE ? VK_TRUE : VK_FALSE;
+    }
+    return std::bit_cast<VkPhysicalDeviceFeatures>(both);
+}
+
 }  // namespace
 
 void VulkanHost::CloseLibrary::operator()(void* library) const {
@@ -37,13 +51,15 @@ Function VulkanHost::function(const char* name) const {
     return found;
 }
 
-VulkanHost::VulkanHost(const Enabled& enabled) {
+VulkanHost::VulkanHost(const Enabled& wanted) {
     try {
         open_loader();
         require_layer();
         create_instance();
         choose_physical_device();
-        create_device(enabled);
+        const Enabled there = offered();
+        create_device({common(wanted.features, there.features),
+                       wanted.timeline_semaphore && there.timeline_semaphore});
     } catch (...) {
         destroy();
         throw;
@@ -171,6 +187,30 @@ void VulkanHost::choose_physical_device() {
     fail("none of " + std::to_string(count) +
          " Vulkan devices has a queue family with graphics and compute (package "
          "mesa-vulkan-drivers has one that needs no graphics card)");
+}
+
+Enabled VulkanHost::offered() const {
+    Enabled all;
+    function<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(
+        device_.physical_device, &all.features);
+    // Who has the extension has its feature.
+    all.timeline_semaphore = has_extension(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
+    return all;
+}
+
+bool VulkanHost::has_extension(const char* name) const {
+    const auto enumerate =
+        function<PFN_vkEnumerateDeviceExtensionProperties>("vkEnumerateDeviceExtensionProperties");
+    std::uint32_t count = 0;
+    require(enumerate(device_.physical_device, nullptr, &count, nullptr),
+            "vkEnumerateDeviceExtensionProperties");
+    std::vector<VkExtensionProperties> extensions(count);
+    require(enumerate(device_.physical_device, nullptr, &count, extensions.data()),
+            "vkEnumerateDeviceExtensionProperties");
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [name](const VkExtensionProperties& extension) {
+                           return std::strcmp(extension.extensionName, name) == 0;
+                       });
 }
 
 void VulkanHost::create_device(const Enabled& enabled) {

@@ -9,7 +9,7 @@
 
 namespace nearfield::test_support {
 
-/// What a VulkanHost enables beyond the base: nothing, unless asked for.
+/// What a device has enabled beyond the base: nothing, unless asked for.
 struct Enabled {
     VkPhysicalDeviceFeatures features{};
     bool timeline_semaphore = false;  ///< by VK_KHR_timeline_semaphore
@@ -23,14 +23,16 @@ public:
     /// Throws std::runtime_error where the loader, the layer or a device is missing, so that a test
     /// without validation fails rather than passes.
     VulkanHost() : VulkanHost(Enabled{}) {}
-    explicit VulkanHost(const VkPhysicalDeviceFeatures& features)
-        : VulkanHost(Enabled{features, false}) {}
-    explicit VulkanHost(const Enabled& enabled);
+    /// Enables what is asked for where the physical device offers it: device().logic_op and
+    /// device().timeline_semaphore say whether it did.
+    explicit VulkanHost(const Enabled& wanted);
     ~VulkanHost();
     VulkanHost(const VulkanHost&) = delete;
     VulkanHost& operator=(const VulkanHost&) = delete;
 
     [[nodiscard]] const HostDevice& device() const { return device_; }
+    /// All that the physical device offers, by what its driver says.
+    [[nodiscard]] Enabled offered() const;
 
     /// Every warning and error of the validation layer since the last clear, in order.
     [[nodiscard]] std::vector<std::string> messages() const;
@@ -56,6 +58,7 @@ private:
     void require_layer() const;
     void create_instance();
     void choose_physical_device();
+    [[nodiscard]] bool has_extension(const char* name) const;
     void create_device(const Enabled& enabled);
     void destroy();
 

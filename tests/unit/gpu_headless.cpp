@@ -5,38 +5,15 @@
 #include <nearfield/context.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/environment.hpp>
 
 #include <algorithm>
-#include <cstdlib>
-#include <optional>
 #include <string>
 
 namespace nearfield {
 namespace {
 
-/// Sets an environment variable for as long as it lives.
-class Environment {
-public:
-    Environment(const char* name, const char* value) : name_(name) {
-        if (const char* former = std::getenv(name)) {
-            former_ = former;
-        }
-        setenv(name, value, 1);
-    }
-    ~Environment() {
-        if (former_) {
-            setenv(name_, former_->c_str(), 1);
-        } else {
-            unsetenv(name_);
-        }
-    }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-
-private:
-    const char* name_;
-    std::optional<std::string> former_;
-};
+using test_support::Environment;
 
 Status headless_status(const char* device_name) {
     try {
@@ -131,8 +108,7 @@ TEST(GpuHeadless, UnknownNameListsWhatThereIs) {
 }
 
 TEST(GpuHeadless, MachineWithoutDriversHasNoDevice) {
-    const Environment old_name("VK_ICD_FILENAMES", "/nonexistent.json");
-    const Environment new_name("VK_DRIVER_FILES", "/nonexistent.json");
+    const test_support::OnlyDrivers none("/nonexistent.json");
     const Status status = headless_status(nullptr);
     EXPECT_EQ(status.code(), StatusCode::no_device);
     EXPECT_NE(status.message().find("mesa-vulkan-drivers"), std::string::npos) << status.text();

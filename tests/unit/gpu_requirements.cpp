@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/fake_loader.hpp>
 #include <tests/unit/gpu_fixture.hpp>
+#include <tests/unit/gpu_requirements.hpp>
 
 #include <functional>
 #include <string>
@@ -13,8 +14,12 @@
 namespace nearfield {
 namespace {
 
+using test_support::blends;
 using test_support::FakeLoader;
 using test_support::Lies;
+using test_support::physical;
+using test_support::requirements_of;
+using test_support::without;
 
 class GpuRequirements : public test_support::GpuTest {};
 
@@ -32,26 +37,6 @@ Status status_with(const HostDevice& host, Lies lies) {
     return status_of(fake.host());
 }
 
-PhysicalDevice physical(const HostDevice& host) {
-    PhysicalDevice device;
-    device.queue_family = host.queue_family;
-    device.instance = host.instance;
-    device.physical_device = host.physical_device;
-    device.get_instance_proc_addr = host.get_instance_proc_addr;
-    device.debug_utils = host.debug_utils;
-    return device;
-}
-
-Requirements requirements_of(const PhysicalDevice& device) {
-    const Expected<Requirements> found = requirements(device);
-    EXPECT_TRUE(found.ok()) << found.status().text();
-    return found.ok() ? *found : Requirements{};
-}
-
-Requirements requirements_of(const HostDevice& host) {
-    return requirements_of(physical(host));
-}
-
 void expect_one_reason(const Status& status, const std::vector<std::string>& words) {
     ASSERT_EQ(status.code(), StatusCode::unsupported_device) << status.text();
     ASSERT_EQ(status.reasons().size(), 1U) << status.text();
@@ -59,16 +44,6 @@ void expect_one_reason(const Status& status, const std::vector<std::string>& wor
         EXPECT_NE(status.reasons()[0].find(word), std::string::npos)
             << "'" << word << "' in: " << status.reasons()[0];
     }
-}
-
-Lies without(VkFormat format, VkFormatFeatureFlags features) {
-    Lies lies;
-    lies.format = [=](VkFormat asked, VkFormatProperties& properties) {
-        if (asked == format) {
-            properties.optimalTilingFeatures &= ~features;
-        }
-    };
-    return lies;
 }
 
 TEST_F(GpuRequirements, BareDeviceSuffices) {
@@ -108,7 +83,9 @@ TEST_F(GpuRequirements, EachMissingFormatFeatureIsNamed) {
 
 TEST_F(GpuRequirements, GradientFallsBackToHalfPrecision) {
     constexpr VkFormatFeatureFlags blend = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
-    EXPECT_EQ(gpu::Device(host_.device()).gradient_format(), VK_FORMAT_R32G32_SFLOAT);
+    EXPECT_EQ(gpu::Device(host_.device()).gradient_format(),
+              blends(host_.device(), VK_FORMAT_R32G32_SFLOAT) ? VK_FORMAT_R32G32_SFLOAT
+                                                              : VK_FORMAT_R16G16_SFLOAT);
     const FakeLoader half(host_.device(), without(VK_FORMAT_R32G32_SFLOAT, blend));
     EXPECT_EQ(gpu::Device(half.host()).gradient_format(), VK_FORMAT_R16G16_SFLOAT);
 }
@@ -271,75 +248,6 @@ TEST_F(GpuRequirements, NameAQueueFamilyWhereNoneIsGiven) {
     EXPECT_EQ(found.unmet.size(), 2U);
 }
 
-TEST_F(GpuRequirements, OptionalPartsSayWhatTheyUnlockAndWhatIsMissing) {
-    const Requirements all = requirements_of(host_.device());
-    for (const OptionalPart& part : all.optional) {
-        SCOPED_TRACE(part.name);
-        EXPECT_EQ(part.available, part.missing.empty());
-        EXPECT_NE(std::string(part.unlocks), "");
-        EXPECT_EQ(all.find(part.name), &part);
-    }
-    EXPECT_EQ(all.find("no such part"), nullptr);
-    // lavapipe has all of it, once the host says what it enabled on the instance.
-    ASSERT_EQ(all.optional.size(), 6U);
-    EXPECT_EQ(all.features.logicOp, VK_TRUE);
-    EXPECT_EQ(all.timeline_semaphore.timelineSemaphore, VK_TRUE);
-    ASSERT_EQ(all.device_extensions.size(), 1U);
-    EXPECT_EQ(std::string(all.device_extensions[0]), "VK_KHR_timeline_semaphore");
-    PhysicalDevice newer = physical(host_.device());
-    newer.api_version = VK_API_VERSION_1_2;
-    EXPECT_TRUE(requirements_of(newer).device_extensions.empty());
-    EXPECT_EQ(requirements_of(newer).timeline_semaphore.timelineSemaphore, VK_TRUE);
-
-    const auto missing = [&](const char* name, Lies lies) {
-        const FakeLoader fake(host_.device(), std::move(lies));
-        const Requirements found = requirements_of(fake.host());
-        EXPECT_TRUE(found.met());
-        const OptionalPart* const part = found.find(name);
-        return part == nullptr || part->missing.empty() ? std::string() : part->missing.front();
-    };
-    EXPECT_EQ(missing("logicOp", {}), "");
-    Lies no_timestamps;
-    no_timestamps.queue_families = [](std::vector<VkQueueFamilyProperties>& families) {
-        families.front().timestampValidBits = 0;
-    };
-    EXPECT_NE(missing("timestamps", no_timestamps).find("timestampValidBits"), std::string::npos);
-    EXPECT_NE(
-        missing("blending of VK_FORMAT_R32G32_SFLOAT",
-                without(VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
-            .find("VK_FORMAT_R16G16_SFLOAT"),
-        std::string::npos);
-    Lies no_features;
-    no_features.entry_points["vkGetPhysicalDeviceFeatures"] = nullptr;
-    EXPECT_NE(missing("logicOp", no_features).find("feature logicOp"), std::string::npos);
-    Lies core_name_only;
-    core_name_only.entry_points["vkGetPhysicalDeviceFeatures2KHR"] = nullptr;
-    EXPECT_EQ(missing("timelineSemaphore", core_name_only), "");
-    Lies neither = core_name_only;
-    neither.entry_points["vkGetPhysicalDeviceFeatures2"] = nullptr;
-    EXPECT_NE(missing("timelineSemaphore", neither).find("vkGetPhysicalDeviceFeatures2KHR"),
-              std::string::npos);
-    Lies no_extensions = {};
-    no_extensions.entry_points["vkEnumerateDeviceExtensionProperties"] = nullptr;
-    EXPECT_NE(missing("timelineSemaphore", no_extensions).find("VK_KHR_timeline_semaphore"),
-              std::string::npos);
-    HostDevice quiet = host_.device();
-    quiet.debug_utils = false;
-    EXPECT_FALSE(requirements_of(quiet).find("VK_EXT_debug_utils")->available);
-}
-
-TEST_F(GpuRequirements, TheAliasDoesWhereTheCoreNameIsMissing) {
-    // An instance for 1.0 with VK_KHR_get_physical_device_properties2 has the alias alone.
-    static PFN_vkVoidFunction alias;
-    alias = host_.device().get_instance_proc_addr(host_.device().instance,
-                                                  "vkGetPhysicalDeviceFeatures2");
-    Lies lies;
-    lies.entry_points["vkGetPhysicalDeviceFeatures2"] = nullptr;
-    lies.entry_points["vkGetPhysicalDeviceFeatures2KHR"] = alias;
-    const FakeLoader fake(host_.device(), lies);
-    EXPECT_TRUE(requirements_of(fake.host()).find("timelineSemaphore")->available);
-}
-
 TEST_F(GpuRequirements, OfAnInstanceForVulkan10AreUnmet) {
     PhysicalDevice device = physical(host_.device());
     device.api_version = VK_API_VERSION_1_0;
@@ -399,42 +307,6 @@ TEST_F(GpuRequirements, NullHandlesAreNamed) {
         expect_one_reason(status_of(host), {name});
     }
     EXPECT_EQ(status_of(HostDevice{}).reasons().size(), cases.size());
-}
-
-TEST_F(GpuRequirements, EachStrategyNamesWhatItLacks) {
-    using S = IntersectionStrategy;
-    const gpu::StrategySupport nothing{};
-    for (const S strategy : {S::stencil, S::depth}) {
-        EXPECT_TRUE(gpu::missing_for(strategy, nothing).empty());
-    }
-    EXPECT_EQ(gpu::missing_for(S::blend, nothing).size(), 3U);
-    for (const std::string& reason : gpu::missing_for(S::blend, nothing)) {
-        EXPECT_EQ(reason.find("format VK_FORMAT_R8G8B8A8_UNORM: "), 0U) << reason;
-    }
-    ASSERT_EQ(gpu::missing_for(S::logic_op, nothing).size(), 1U);
-    EXPECT_EQ(gpu::missing_for(S::logic_op, nothing)[0].find("feature logicOp: "), 0U);
-    EXPECT_TRUE(gpu::missing_for(S::logic_op, {true, 0}).empty());
-}
-
-TEST_F(GpuRequirements, ADeviceHasTheFeatureThatItsHostSaysAndNoOther) {
-    HostDevice host = host_.device();
-    EXPECT_FALSE(gpu::Device(host).strategy_support().logic_op);
-    host.logic_op = true;
-    EXPECT_TRUE(gpu::Device(host).strategy_support().logic_op);
-}
-
-// The base asks for that format's blending too, for the sign in the top bit of an id, so no device
-// gets here without it; what strategies need is nevertheless said in one place, for all of them.
-TEST(Strategies, AFormatThatDoesNotBlendCostsOneStrategyOnly) {
-    const gpu::StrategySupport support{
-        true, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT};
-    const auto missing = gpu::missing_for(IntersectionStrategy::blend, support);
-    ASSERT_EQ(missing.size(), 1U);
-    EXPECT_NE(missing[0].find("VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT"), std::string::npos);
-    for (const auto strategy : {IntersectionStrategy::stencil, IntersectionStrategy::logic_op,
-                                IntersectionStrategy::depth}) {
-        EXPECT_TRUE(gpu::missing_for(strategy, support).empty());
-    }
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include <engine/gpu/device.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/support/environment.hpp>
 #include <tests/support/vulkan_host.hpp>
 #include <tests/unit/gpu_compute_task.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -70,15 +70,8 @@ TEST(GpuVulkanHost, HearsOfMissingBarriers) {
 }
 
 TEST(GpuVulkanHost, ThrowsWhereThereIsNoDriver) {
-    const char* const former = std::getenv("VK_ICD_FILENAMES");
-    const std::string kept = former != nullptr ? former : "";
-    setenv("VK_ICD_FILENAMES", "/nonexistent.json", 1);
+    const test_support::OnlyDrivers none("/nonexistent.json");
     EXPECT_THROW(VulkanHost host, std::runtime_error);
-    if (former != nullptr) {
-        setenv("VK_ICD_FILENAMES", kept.c_str(), 1);
-    } else {
-        unsetenv("VK_ICD_FILENAMES");
-    }
 }
 
 }  // namespace

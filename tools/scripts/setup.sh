@@ -15,7 +15,7 @@ run_packages=(
 viewer_packages=(libsdl2-dev libimgui-dev ffmpeg)
 test_packages=(
     "${viewer_packages[@]}"
-    libgtest-dev libgeos-dev vulkan-validationlayers clang clang-format clang-tidy
+    libgtest-dev libgeos-dev vulkan-validationlayers chromium-common clang clang-format clang-tidy
     doxygen dpkg-dev file gdb python3
 )
 # What the examples stand on, and an X server for all windows.

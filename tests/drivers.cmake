@@ -1,0 +1,70 @@
+# The Vulkan drivers that tests ask for by name, so that none runs on whatever there is: a list of
+# NAME=MANIFEST, the manifest being the JSON file by which the loader finds a driver. All tests that need a
+# device run on the first; those of queries, the device and the graph run on the others too.
+set(NEARFIELD_TEST_DRIVERS "" CACHE STRING
+    "Vulkan drivers to test on, NAME=MANIFEST each; empty: lavapipe and SwiftShader, as Debian has them")
+
+# nearfield_find_driver(RESULT NAME FOLDER PACKAGE FILE...) finds the manifest in the folder, or says
+# what to install.
+function(nearfield_find_driver result name folder package)
+    find_file(manifest NAMES ${ARGN} PATHS ${folder} NO_DEFAULT_PATH NO_CACHE)
+    if(NOT manifest)
+        list(JOIN ARGN " or " files)
+        message(FATAL_ERROR
+            "The tests run on the Vulkan driver ${name}, and there is no ${files} in ${folder}: install "
+            "the Debian package ${package}, name other drivers (-DNEARFIELD_TEST_DRIVERS=NAME=MANIFEST), "
+            "or build without tests (-DNEARFIELD_BUILD_TESTS=OFF).")
+    endif()
+    set(${result} ${name}=${manifest} PARENT_SCOPE)
+endfunction()
+
+set(drivers ${NEARFIELD_TEST_DRIVERS})
+if(NOT drivers)
+    nearfield_find_driver(lavapipe lavapipe /usr/share/vulkan/icd.d mesa-vulkan-drivers
+                          lvp_icd.${CMAKE_SYSTEM_PROCESSOR}.json lvp_icd.json)
+    nearfield_find_driver(swiftshader swiftshader /usr/lib/chromium chromium-common
+                          vk_swiftshader_icd.json)
+    set(drivers ${lavapipe} ${swiftshader})
+endif()
+
+set(names "")
+set(nearfield_manifests "")
+foreach(driver IN LISTS drivers)
+    string(REGEX MATCH "^([A-Za-z0-9_]+)=(/.+)$" is_pair "${driver}")
+    set(name "${CMAKE_MATCH_1}")
+    set(manifest "${CMAKE_MATCH_2}")
+    if(NOT is_pair OR NOT EXISTS "${manifest}" OR name IN_LIST names)
+        message(FATAL_ERROR
+            "NEARFIELD_TEST_DRIVERS: '${driver}' is not NAME=MANIFEST with a name of its own and the full "
+            "path of a file that exists (for example nvidia=/usr/share/vulkan/icd.d/nvidia_icd.json).")
+    endif()
+    list(APPEND names ${name})
+    list(APPEND nearfield_manifests ${manifest})
+    set(nearfield_manifest_of_${name} ${manifest})
+endforeach()
+list(POP_FRONT names first)
+set(nearfield_other_drivers ${names})
+
+# ENVIRONMENT_MODIFICATION of a test that runs on the first driver.
+set(nearfield_on_first_driver VK_DRIVER_FILES=set:${nearfield_manifest_of_${first}})
+
+# nearfield_test(NAME COMMAND...) adds a test that runs on the first driver.
+function(nearfield_test name)
+    add_test(NAME ${name} COMMAND ${ARGN})
+    set_tests_properties(${name} PROPERTIES
+        TIMEOUT 300 ENVIRONMENT_MODIFICATION ${nearfield_on_first_driver})
+endfunction()
+
+# nearfield_test_on_others(PREFIX NAME COMMAND...) adds the same test for each other driver, as
+# PREFIX.DRIVER.NAME, or PREFIX.DRIVER where the name is empty.
+function(nearfield_test_on_others prefix name)
+    foreach(driver IN LISTS nearfield_other_drivers)
+        set(full ${prefix}.${driver})
+        if(name)
+            string(APPEND full .${name})
+        endif()
+        add_test(NAME ${full} COMMAND ${ARGN})
+        set_tests_properties(${full} PROPERTIES
+            TIMEOUT 300 ENVIRONMENT_MODIFICATION VK_DRIVER_FILES=set:${nearfield_manifest_of_${driver}})
+    endforeach()
+endfunction()

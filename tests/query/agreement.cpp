@@ -1,0 +1,162 @@
+#include "agreement.hpp"
+
+#include <tests/oracle/plane.hpp>
+#include <tests/query/all_numbers.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace nearfield::test {
+namespace {
+
+/// Samples are decided in integers, so nothing may differ where the grids are the same. Else there
+/// are other cells, and each driver's own are held against the oracle elsewhere.
+void check_agreement(Report& report, const Asked& asked, const IntersectionResult& one,
+                     const IntersectionResult& other) {
+    report.require(one.kind == other.kind, "kinds differ");
+    if (asked.grids == SubPixelGrids::apart) {
+        return;
+    }
+    report.require(one.count == other.count && one.area == other.area, "counts are ", one.count,
+                   " and ", other.count);
+    if (one.count > 0 && other.count > 0) {
+        report.require(one.box.min == other.box.min && one.box.max == other.box.max,
+                       "boxes differ");
+    }
+    report.require(one.samples.size() == other.samples.size(), one.samples.size(), " samples and ",
+                   other.samples.size());
+    for (std::size_t i = 0; report.clean() && i < one.samples.size(); ++i) {
+        const IntersectionSample& a = one.samples[i];
+        const IntersectionSample& b = other.samples[i];
+        report.require(a.point == b.point, "sample ", i, " at ", a.point.x, ", ", a.point.y,
+                       " and ", b.point.x, ", ", b.point.y);
+        report.require(a.edge == b.edge, "sample ", i, " names edges ", a.edge, " and ", b.edge);
+    }
+}
+
+/// A place that two results name.
+struct Place {
+    Vector2 one;
+    Vector2 other;
+};
+
+/// The search is finished exactly, whatever was rendered.
+template <class Result>
+void check_closest(Report& report, const Result& one, const Result& other,
+                   const std::array<Place, 2>& places) {
+    report.require(one.distance == other.distance, "distances are ", one.distance, " and ",
+                   other.distance);
+    report.require(one.unique == other.unique, "unique is ", one.unique, " and ", other.unique);
+    for (const Place& place : places) {
+        report.require(!one.unique || one.distance == 0.0 ||
+                           oracle::distance(place.one, place.other) <= one.tolerance,
+                       "a place is ", place.one.x, ", ", place.one.y, " and ", place.other.x, ", ",
+                       place.other.y);
+    }
+    report.require(std::abs(one.sampled_distance - other.sampled_distance) <= one.tolerance / 1000,
+                   "sampled distances are ", one.sampled_distance, " and ", other.sampled_distance);
+}
+
+void check_agreement(Report& report, const Asked&, const ClosestPointResult& one,
+                     const ClosestPointResult& other) {
+    check_closest(report, one, other, {{{one.point, other.point}, {one.nearest, other.nearest}}});
+}
+
+void check_agreement(Report& report, const Asked&, const SeparationResult& one,
+                     const SeparationResult& other) {
+    check_closest(report, one, other,
+                  {{{one.point_a, other.point_a}, {one.point_b, other.point_b}}});
+}
+
+/// What the CPU answers alone has to be the same, bit for bit.
+template <class Result>
+void check_agreement(Report& report, const Asked&, const Result& one, const Result& other) {
+    const auto numbers = [](const Result& result) {
+        Results results;
+        results.results.emplace_back(result);
+        return all_numbers(results);
+    };
+    report.require(numbers(one) == numbers(other), "numbers differ");
+}
+
+bool same_regions(const ResultSummary& one, const ResultSummary& other) {
+    if (one.regions.size() != other.regions.size()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < one.regions.size(); ++i) {
+        const Region& a = one.regions[i];
+        const Region& b = other.regions[i];
+        if (!(a.min == b.min) || !(a.max == b.max) || a.width != b.width || a.height != b.height) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What every result says.
+void check_summaries(Report& report, SubPixelGrids grids, const ResultSummary& one,
+                     const ResultSummary& other) {
+    report.require(one.status.ok() && other.status.ok(), one.status.text(), " and ",
+                   other.status.text());
+    report.require(one.tolerance == other.tolerance, "tolerances differ");
+    report.require(one.technique == other.technique, "techniques differ");
+    report.require(one.intersects == other.intersects, "intersects is ", one.intersects, " and ",
+                   other.intersects);
+    if (grids == SubPixelGrids::same) {
+        // A field's has a share of the largest value, which may differ by the bounds.
+        const double share = std::ldexp(one.error_bound + other.error_bound, -21);
+        report.require(std::abs(one.error_bound - other.error_bound) <= share, "bounds are ",
+                       one.error_bound, " and ", other.error_bound);
+        report.require(one.cell == other.cell, "cells are ", one.cell, " and ", other.cell);
+        report.require(same_regions(one, other), "regions differ");
+    }
+}
+
+}  // namespace
+
+bool same_feature(const Feature& one, const Feature& other) {
+    return one.kind == other.kind && one.index == other.index;
+}
+
+double Naming::along_wall(double distance) const {
+    return 2.0 * std::sqrt(margin * (2.0 * distance + margin));
+}
+
+bool Naming::has_rival(const Vector2& point, const NamedFeature& named) const {
+    const double reach = named.distance + 1.1 * margin + 2.0 * rounding;
+    const double apart = 0.9 * along_wall(named.distance) - rounding;
+    const auto others = shape.edges_within(point, reach);
+    return std::any_of(others.begin(), others.end(), [&](const oracle::Nearest& other) {
+        return oracle::distance(other.point, named.nearest) > apart;
+    });
+}
+
+bool Naming::allows(const Vector2& point, const NamedFeature& one,
+                    const NamedFeature& other) const {
+    if (same_feature(one.feature, other.feature)) {
+        return one.nearest == other.nearest && one.distance == other.distance &&
+               (one.unique == other.unique || has_rival(point, one));
+    }
+    if (std::abs(one.distance - other.distance) > margin + rounding) {
+        return false;
+    }
+    const double most = along_wall(std::min(one.distance, other.distance)) + rounding;
+    return (!one.unique && !other.unique) || oracle::distance(one.nearest, other.nearest) <= most;
+}
+
+void check_agreement(const Asked& asked, const AnyResult& one, const AnyResult& other) {
+    std::visit(
+        [&](const auto& first) {
+            const auto& second = std::get<std::decay_t<decltype(first)>>(other);
+            Report report("answers of two drivers");
+            check_summaries(report, asked.grids, first, second);
+            if (report.clean()) {
+                check_agreement(report, asked, first, second);
+            }
+        },
+        one);
+}
+
+}  // namespace nearfield::test
