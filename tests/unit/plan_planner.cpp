@@ -74,6 +74,7 @@ TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
 TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
     limits_.largest_tile = 64;
     DistanceFieldQuery field;
+    field.technique = Technique::raster;
     field.b = penetration_.b;
     field.tolerance = 0.05;
     field.rectangle = Rectangle{{-3.0, 1.0}, {12.5, 9.0}};
@@ -94,6 +95,7 @@ TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
 
 TEST_F(PlannerTest, WhatDoesNotFitIsRefusedWithAToleranceThatDoes) {
     IntersectionQuery query;
+    query.technique = Technique::raster;
     query.a = penetration_.a;
     query.b = penetration_.b;
     query.tolerance = 1e-5;
@@ -114,6 +116,7 @@ TEST_F(PlannerTest, WhatDoesNotFitIsRefusedWithAToleranceThatDoes) {
 
 TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
     IntersectionQuery query;
+    query.technique = Technique::raster;
     query.a = penetration_.a;
     query.b = penetration_.b;
     query.tolerance = 0.01;
@@ -126,6 +129,7 @@ TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
 
 TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
     ContactQuery query;
+    query.technique = Technique::raster;
     query.a = penetration_.a;
     query.b = {{1, 0}, {{10.5, 0.0}, 0.0}};
     query.tolerance = 0.01;
@@ -184,6 +188,7 @@ TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
 
 TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
     ContactQuery query;
+    query.technique = Technique::raster;
     query.a = penetration_.a;
     query.b = penetration_.b;
     query.tolerance = 0.01;

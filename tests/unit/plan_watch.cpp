@@ -15,6 +15,7 @@ Round round_of(const std::vector<std::pair<IntersectionStrategy, double>>& asked
     std::vector<AnyQuery> queries;
     for (const auto& [strategy, tolerance] : asked) {
         IntersectionQuery query;
+        query.technique = Technique::raster;
         query.b.pose.translation = {5, 0};
         query.tolerance = tolerance;
         query.records = false;
