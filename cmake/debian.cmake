@@ -1,5 +1,5 @@
-# Debian packages by CPack (`cpack -G DEB` in a build folder that was configured with
-# -DCMAKE_INSTALL_PREFIX=/usr): one a component. What they depend on dpkg-shlibdeps finds out.
+# Debian packages by CPack, one per component. Run `cpack -G DEB` in a build folder configured with
+# -DCMAKE_INSTALL_PREFIX=/usr. dpkg-shlibdeps determines the dependencies.
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nearfield)
@@ -42,7 +42,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "libvulkan1, fonts-dejavu-core")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "2D proximity queries on a Vulkan GPU: command line\n${about}")
 
-# dpkg-shlibdeps finds the library beside a tool that is linked with it.
+# dpkg-shlibdeps finds the library that a tool is linked with in the build folder.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")

@@ -1,5 +1,5 @@
-# Run by CPack on what is about to be packed: each Debian package has its copyright and a changelog in
-# Debian's form, which names the one that people read.
+# Run by CPack on the staged files: gives each Debian package its copyright file and a changelog in
+# Debian's format, which refers to the project's changelog.
 string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 foreach(pair IN LISTS CPACK_NEARFIELD_PACKAGES)
     string(REPLACE "=" ";" pair ${pair})

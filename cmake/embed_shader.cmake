@@ -1,4 +1,4 @@
-# Wraps the array that glslang wrote into a namespace of the project's own.
+# Wraps the array written by glslang in a namespace of the project.
 file(READ ${INPUT} words)
 string(REGEX REPLACE ".*const uint32_t words\\[\\] = " "" words "${words}")
 file(WRITE ${OUTPUT}

@@ -1,5 +1,5 @@
-# Makes a header of a text file: the array nearfield::embedded::SYMBOL. Semicolons and brackets in
-# the text would be lists to CMake, but for a file that is read and written whole.
+# Turns a text file into a header with the array nearfield::embedded::SYMBOL. The file is read and
+# written as a whole, because CMake would treat semicolons and brackets in the text as lists.
 file(READ ${INPUT} text)
 file(WRITE ${OUTPUT}
     "#pragma once\n\nnamespace nearfield::embedded {\n"

@@ -1,5 +1,5 @@
-# Writes the header that names the commit of the sources, each time anything is built, and touches
-# it only where the name has changed. Outside a repository it is the version.
+# Writes a header with the commit of the sources at every build, but changes it only if the commit
+# has changed. Outside a repository it contains the version.
 execute_process(
     COMMAND git -C ${SOURCE} describe --always --dirty=\ with\ changes --abbrev=12 --exclude=*
     OUTPUT_VARIABLE commit RESULT_VARIABLE failed ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)

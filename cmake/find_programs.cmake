@@ -1,5 +1,5 @@
-# nearfield_require_program(VARIABLE NAME PACKAGE WHY) finds a program that tests run, or ends the
-# configuration with the Debian package that has it.
+# nearfield_require_program(VARIABLE NAME PACKAGE WHY) finds a program that tests run. If it is
+# missing, configuration fails with the name of its Debian package.
 function(nearfield_require_program variable name package why)
     find_program(${variable} ${name} DOC "${why}")
     mark_as_advanced(${variable})

@@ -1,8 +1,8 @@
-# What `cmake --install` puts where: three components, of which packages are made.
+# The files that `cmake --install` installs, in three components, which become packages:
 #   runtime      the shared library
 #   development  headers, the static library, files for CMake and pkg-config, documents
 #   tools        the command line
-# Nothing that is installed names a folder of the build or of the sources; a tree may be moved.
+# Installed files contain no path of the build or of the sources; the installed tree may be moved.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -30,14 +30,14 @@ endif()
 configure_package_config_file(cmake/nearfield-config.cmake.in
     ${PROJECT_BINARY_DIR}/package/nearfield-config.cmake
     INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
-# While the major version is 0, a new minor version may be another interface.
+# While the major version is 0, a new minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/nearfield-config-version.cmake
     COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/nearfield-config.cmake
               ${PROJECT_BINARY_DIR}/package/nearfield-config-version.cmake
         DESTINATION ${package_folder} COMPONENT development)
 
-# The pkg-config file finds the tree from where it lies itself.
+# The pkg-config file finds the tree relative to its own location.
 set(pkg_config_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 foreach(folder IN ITEMS "" INCLUDE LIB)
     file(RELATIVE_PATH to_${folder}

@@ -1,14 +1,14 @@
-# The rooms become a static and a shared library, from one compilation.
+# Combines the modules into a static and a shared library, compiled once for both.
 
 find_path(NEARFIELD_VULKAN_INCLUDE vulkan/vulkan_core.h REQUIRED
           DOC "Where the headers of Vulkan are (package libvulkan-dev)")
 
-# What both have in common. What a host needs of Vulkan, its headers, is the host's own choice once
-# nearfield is installed (nearfield-config.cmake).
+# Settings common to both libraries. After installation, the host provides the Vulkan headers itself
+# (nearfield-config.cmake).
 function(nearfield_library target)
     add_library(nearfield::${target} ALIAS ${target})
-    foreach(room IN LISTS ARGN)
-        target_sources(${target} PRIVATE $<TARGET_OBJECTS:nearfield_${room}>)
+    foreach(module IN LISTS ARGN)
+        target_sources(${target} PRIVATE $<TARGET_OBJECTS:nearfield_${module}>)
     endforeach()
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
     target_include_directories(${target} SYSTEM PUBLIC $<BUILD_INTERFACE:${NEARFIELD_VULKAN_INCLUDE}>)
@@ -23,8 +23,9 @@ function(nearfield_library target)
         ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 endfunction()
 
-# nearfield_libraries(ROOM...) makes nearfield_static and nearfield_shared; nearfield::nearfield is
-# the one that BUILD_SHARED_LIBS asks for. In another project the other one is built on demand only.
+# nearfield_libraries(MODULE...) makes nearfield_static and nearfield_shared; nearfield::nearfield
+# is the one that BUILD_SHARED_LIBS selects. In another project, the other one is built only on
+# demand.
 function(nearfield_libraries)
     add_library(nearfield_static STATIC)
     nearfield_library(nearfield_static ${ARGN})

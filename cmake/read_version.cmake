@@ -1,5 +1,5 @@
-# nearfield_read_version(HEADER) reads NEARFIELD_VERSION and NEARFIELD_ABI_VERSION from the macros of
-# the public header, the only place where they are written.
+# nearfield_read_version(HEADER) reads NEARFIELD_VERSION and NEARFIELD_ABI_VERSION from the macros
+# of the public header, which is the only place that defines them.
 function(nearfield_read_version header)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
     file(STRINGS ${header} lines REGEX "^#define NEARFIELD_(ABI_)?VERSION ")

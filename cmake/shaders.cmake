@@ -1,11 +1,11 @@
-# Shaders are compiled to SPIR-V at build time by glslang and embedded as arrays of words; glslang
-# is a build tool only.
+# glslang compiles shaders to SPIR-V at build time, and they are embedded as arrays of words. It is
+# a build tool only.
 
 find_program(NEARFIELD_GLSLANG NAMES glslangValidator glslang REQUIRED
              DOC "glslang, to compile shaders (package glslang-tools)")
 
-# nearfield_shader_sources(FOLDER SHADER...): beside what nearfield_shaders() made of them, a
-# header <FOLDER/sources.hpp> that says where each shader comes from, and what compiles it.
+# nearfield_shader_sources(FOLDER SHADER...): in addition to the output of nearfield_shaders(),
+# makes a header <FOLDER/sources.hpp> with the source path of each shader and the compiler for it.
 function(nearfield_shader_sources folder)
     set(includes "")
     set(rows "")
@@ -60,5 +60,5 @@ function(nearfield_shaders target folder)
     add_custom_target(${target}_spirv DEPENDS ${headers})
     add_dependencies(${target} ${target}_spirv)
     target_sources(${target} PRIVATE ${headers})
-    target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated)
+    target_include_directories(${target} PUBLIC ${PROJECT_BINARY_DIR}/generated)
 endfunction()

@@ -77,7 +77,7 @@ void Blocks::record_values(VkCommandBuffer commands) const {
 void Blocks::record_features(VkCommandBuffer commands) const {
     constexpr std::uint32_t cells = plan::block_side * plan::block_side;
     const gpu::Functions& functions = device_->functions();
-    const plan::Round& round = *frame_->round;
+    const plan::TileBatch& round = *frame_->round;
     const auto end = static_cast<std::uint32_t>(round.compute.feature_blocks.size()) * cells;
     bind(commands, features_, frame_->feature_blocks);
     dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
@@ -89,7 +89,7 @@ void Blocks::record_features(VkCommandBuffer commands) const {
 
 void Blocks::record_points(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
-    const plan::Round& round = *frame_->round;
+    const plan::TileBatch& round = *frame_->round;
     const auto points = static_cast<std::uint32_t>(round.lists.geometry().size());
     bind(commands, points_, frame_->feature_blocks);
     for (const plan::FieldPointRun& run : round.field_point_runs) {

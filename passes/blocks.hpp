@@ -4,28 +4,28 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 #include <cstdint>
 
 namespace nearfield::passes {
 
-/// The compute technique's fields (plan::ComputeWork): each block of 16 x 16 cells has a list of
-/// the edges that can be nearest in it, and its cells look through that. All blocks of all tiles of
-/// all fields of a round in one dispatch, and no thread waits for another: barriers within a group
-/// and shared memory are what costs most on a CPU.
+/// Distance fields of the compute technique (plan::ComputeWork). Each block of 16 x 16 cells has a
+/// list of the edges that can be nearest in it, which its cells search. One dispatch covers all
+/// blocks of all fields of a tile batch. No thread waits for another: on software drivers, barriers
+/// within a workgroup and shared memory cost the most.
 class Blocks {
 public:
     Blocks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
     /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
-    /// Returns the field's buffer, as the others do.
+    /// Returns the new version of `field`, as the others do.
     [[nodiscard]] graph::Handle declare_values(graph::Graph& graph, graph::Handle input,
                                                graph::Handle scratch, graph::Handle field) const;
-    /// The same of their nearest features.
+    /// Adds the pass that writes the nearest features of cells.
     [[nodiscard]] graph::Handle declare_features(graph::Graph& graph, graph::Handle input,
                                                  graph::Handle scratch, graph::Handle field) const;
-    /// The same for points of fields, and what passes/resolve_field_points.hpp writes.
+    /// Adds the pass for points of fields; it writes the same words as ResolveFieldPoints.
     [[nodiscard]] graph::Handle declare_points(graph::Graph& graph, graph::Handle input,
                                                graph::Handle scratch, graph::Handle field) const;
 

@@ -7,7 +7,7 @@
 namespace nearfield::passes {
 namespace {
 
-// A group of the shader has 16 x 4 threads with a strip of 8 cells each.
+// A workgroup has 16 x 4 threads, each with a strip of 8 cells.
 constexpr std::uint32_t group_width = 16;
 constexpr std::uint32_t group_height = 32;
 

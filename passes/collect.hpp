@@ -4,25 +4,25 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
-/// Collects the samples of the overlap tiles (the paper's search through the image). Reads the hit
-/// image and tiles; writes a summary by tile (plan::TileSummary) and, of the tiles that list
-/// theirs, the number of samples found and as many of them as there is room for
-/// (plan::SampleData), in any order; of those whose hits are kept the number of every cell found.
+/// Collects the samples of the overlap tiles (the paper's search through the image, section 2.2.1).
+/// Reads the hit image and the tiles. Writes a summary per tile (plan::TileSummary); for tiles that
+/// list their samples, the number of samples and as many as there is space for (plan::SampleData),
+/// in any order; for tiles that keep their hits, the number found at every cell.
 class Collect {
 public:
     Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
-    /// What it writes: summaries, the count and the list, all of which the host has emptied; and
-    /// hits that are kept, none where there is no such tile.
+    /// The outputs: summaries, count and list, which the host has initialised; and the kept hits, a
+    /// null handle if no tile keeps them.
     struct Output {
         graph::Handle samples;
         graph::Handle kept_hits;
     };
-    /// Adds the pass for the tiles of one strategy; returns the new versions of its output.
+    /// Adds the pass for the tiles of one strategy; returns the new versions of `output`.
     [[nodiscard]] Output declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
                                  Output output, IntersectionStrategy strategy) const;
 

@@ -4,17 +4,17 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
-/// Copies blended gradients to where the host reads them: whole tiles, and the four cells around
-/// each point. Reads the gradient image, tiles and points; writes the field's buffer.
+/// Copies blended gradients to the read-back buffer: whole tiles, and the four cells around each
+/// point. Reads the gradient image, tiles and points; writes the field's buffer.
 class CollectGradients {
 public:
     CollectGradients(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
-    /// Adds the pass; returns the field's buffer.
+    /// Adds the pass; returns the new version of `field`.
     [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
                                         graph::Handle gradients, graph::Handle field) const;
 

@@ -25,7 +25,7 @@ ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRende
     description.name = "nearfield white clear";
     clear_ = gpu::make_graphics_pipeline(device, description);
 
-    // White over a colour is one minus that colour.
+    // Drawing white replaces a colour by one minus that colour.
     VkPipelineColorBlendAttachmentState invert{};
     invert.blendEnable = VK_TRUE;
     invert.srcColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;

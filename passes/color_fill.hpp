@@ -3,13 +3,13 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
 /// The sign of the distance field in a colour buffer (section 2.2.2 of the paper, second encoding):
-/// the inside of B is white. Parity by blending: each row-crossing quad replaces a colour by one
-/// minus it. Reads the mesh; writes the white image in every field tile that asks for it.
+/// the inside of B is white. Parity by blending: each quad of the fill mesh replaces a colour by
+/// one minus it. Reads the mesh; writes the white image in every field tile with this encoding.
 class ColorFill {
 public:
     ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
@@ -28,10 +28,10 @@ private:
     gpu::Owned<VkPipeline> parity_;
 };
 
-/// The format of the pass, for its render pass.
+/// The colour format of the pass.
 inline constexpr VkFormat white_format = VK_FORMAT_R8_UNORM;
 
-/// Which bits of a texel of the image say "inside".
+/// The bits of a texel that are set inside B.
 inline constexpr std::uint32_t white_mask = 0xff;
 
 }  // namespace nearfield::passes

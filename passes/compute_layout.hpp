@@ -2,15 +2,15 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
-#include <engine/plan/round.hpp>
+#include <engine/plan/tile_batch.hpp>
 
 #include <algorithm>
 #include <cstdint>
 
 namespace nearfield::passes {
 
-/// The one layout of all compute passes: which buffers and images they read and write. Bindings as
-/// in the shaders. A fragment shader may read the output.
+/// The descriptor set layout and pipeline layout that all compute passes share. The bindings match
+/// the shaders. Fragment shaders may read `output`.
 class ComputeLayout {
 public:
     enum Binding : std::uint32_t {
@@ -20,14 +20,14 @@ public:
         output,
         image,
         sign_image,
-        summaries = points,           ///< of the collect passes
-        kept_hits = geometry,         ///< of those of images
-        work = tiles,                 ///< of the masks (plan::ComputeWork)
+        summaries = points,           ///< collect passes
+        kept_hits = geometry,         ///< collect passes that read images
+        work = tiles,                 ///< mask passes (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
-        blocks = tiles,               ///< of fields
+        blocks = tiles,               ///< field passes of the compute technique
         segments = geometry,
         scratch_of_blocks = points,
-        // Of the passes that hand results over:
+        // Export passes (resident outputs):
         words = tiles,
         tables = geometry,
         records = points,
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] VkPipelineLayout pipeline_layout() const { return pipeline_layout_.get(); }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
 
-    /// Points a binding elsewhere. Not while the device uses the set.
+    /// Updates a binding. The device must not be using the set.
     void write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer, VkDeviceSize offset,
                       VkDeviceSize bytes) const;
     void write_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
@@ -61,28 +61,28 @@ private:
     gpu::Owned<VkPipelineLayout> pipeline_layout_;
 };
 
-/// Dispatches a shader that runs one thread an element, in groups of 64, for the elements from
-/// `begin` to `end`: in as many parts as the device needs. `push` is called before each part with
-/// its first element.
+/// Dispatches a shader with one thread per element, in workgroups of 64, for the elements from
+/// `begin` to `end`, in as many dispatches as the device's limits require. `push(first)` is called
+/// before each with its first element.
 template <class Push>
 void dispatch_points(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t begin,
                      std::uint32_t end, Push&& push) {
     constexpr std::uint64_t group_size = 64;
-    // The smallest maxComputeWorkGroupCount a device may have.
-    constexpr std::uint64_t most_groups = 65535;
-    for (std::uint64_t first = begin; first < end; first += most_groups * group_size) {
+    // The minimum of maxComputeWorkGroupCount that Vulkan guarantees.
+    constexpr std::uint64_t max_groups = 65535;
+    for (std::uint64_t first = begin; first < end; first += max_groups * group_size) {
         push(static_cast<std::uint32_t>(first));
         const std::uint64_t groups = (end - first + group_size - 1) / group_size;
         functions.vkCmdDispatch(
-            commands, static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, most_groups)), 1,
+            commands, static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, max_groups)), 1,
             1);
     }
 }
 
-/// Dispatches a shader that runs one thread a cell, in groups of 8 x 8, over a rectangle of cells.
+/// Dispatches a shader with one thread per cell, in workgroups of 8 x 8, over a rectangle of cells.
 void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,
                     std::uint32_t height);
-/// Dispatches a shader that runs threads in groups of 64; all in one part.
+/// Dispatches `count` threads in workgroups of 64, in a single dispatch.
 void dispatch_threads(const gpu::Functions& functions, VkCommandBuffer commands,
                       std::uint32_t count);
 

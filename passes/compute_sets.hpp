@@ -3,7 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace nearfield::passes {
 
-/// Descriptor sets of a pool to themselves, one for each name.
+/// Descriptor sets with a pool of their own, one for each name.
 class DescriptorSets {
 public:
     DescriptorSets(const gpu::Device& device, const ComputeLayout& layout,
@@ -21,16 +21,16 @@ public:
 
 private:
     gpu::Owned<VkDescriptorPool> pool_;
-    std::vector<VkDescriptorSet> sets_;  // owned by the pool
+    std::vector<VkDescriptorSet> sets_;  // freed with the pool
 };
 
-/// The descriptor sets of one round: all that its compute passes use, one for each that binds
-/// something else. Rounds that may be under way at the same time have each their own.
+/// The descriptor sets of one tile batch: one for each combination of bindings that its compute
+/// passes use. Tile batches that can execute concurrently have separate sets.
 class ComputeSets {
 public:
     ComputeSets(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// Has the passes use these sets.
+    /// Makes the passes use these sets.
     void hand_to(Frame& frame) const;
 
 private:

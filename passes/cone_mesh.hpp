@@ -3,14 +3,14 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
 /// The distance mesh of B (section 2.2.2 of the paper): tents and cones with the depth test LESS.
-/// Reads the mesh; writes the feature image (which edge of the tile's list of nearest edges won) in
-/// every tile with a distance field, but for those that have FeatureBit draw it. How far it is, the
-/// depth, is computed again from the feature by those who need it, so the depth image is forgotten.
+/// Reads the mesh; writes the feature image (the edge in the tile's list of nearest edges that won
+/// the depth test) in every tile with a distance field, except those that FeatureBit draws. The
+/// depth image is discarded: passes that need the distance compute it from the feature.
 class ConeMesh {
 public:
     ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
@@ -29,7 +29,7 @@ private:
     gpu::Owned<VkPipeline> draw_;
 };
 
-/// The formats of the pass, for its render pass.
+/// The depth format of the pass.
 inline constexpr VkFormat distance_depth_format = VK_FORMAT_D32_SFLOAT;
 
 }  // namespace nearfield::passes

@@ -10,8 +10,8 @@
 
 namespace nearfield::passes {
 
-/// Brings words of rounds whose results stay on the device to where the host reads them, in a graph
-/// to itself (see HandOverField).
+/// Copies words of tile batches with resident outputs to the read-back buffer, in a separate graph
+/// (see ExportField).
 class CopyBack {
 public:
     explicit CopyBack(const gpu::Device& device);

@@ -9,7 +9,7 @@ EarlyOut::EarlyOut(const gpu::Device& device, const Frame& frame)
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_OCCLUSION;
-    info.queryCount = plan::most_watched;
+    info.queryCount = plan::max_watched;
     VkQueryPool pool = VK_NULL_HANDLE;
     gpu::check(
         device.functions().vkCreateQueryPool(device.handle(), &info, device.allocator(), &pool),

@@ -10,7 +10,7 @@
 namespace nearfield::passes {
 namespace {
 
-constexpr std::uint32_t no_feature_outside = plan::most_signed_features;
+constexpr std::uint32_t no_feature_outside = plan::max_signed_features;
 constexpr std::uint32_t all_bits = 0xffffffff;
 
 constexpr VkColorComponentFlags id_bytes =

@@ -3,20 +3,20 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
 /// The distance mesh of B with the sign as the top bit of the feature id (section 2.2.2 of the
-/// paper, third encoding). Ids are colours of four bytes: the fill inverts the highest byte, by
-/// blending as in ColorFill, and the mesh writes the id into the other three with the depth test
-/// LESS. Reads the mesh; writes the image of ids and signs in every field tile that asks for it.
+/// paper, third encoding). Ids are colours of four bytes: the fill inverts the highest byte by
+/// blending, as in ColorFill, and the mesh writes the id to the other three with the depth test
+/// LESS. Reads the mesh; writes the image of ids and signs in every field tile with this encoding.
 class FeatureBit {
 public:
     FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
                const Frame& frame);
 
-    /// Adds the pass; returns the image, sampled as one unsigned number a texel.
+    /// Adds the pass; returns the image, sampled as one unsigned number per texel.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
 
 private:
@@ -33,7 +33,8 @@ private:
 /// The colour format of the pass, for its render pass; depth is distance_depth_format.
 inline constexpr VkFormat signed_feature_format = VK_FORMAT_R8G8B8A8_UNORM;
 
-/// Which bits of a texel of the image say "inside": shaders know by it that ids share the image.
+/// The bit of a texel that is set inside B. Shaders take this mask as the sign that ids share the
+/// image.
 inline constexpr std::uint32_t feature_bit_mask = 1U << 31U;
 
 }  // namespace nearfield::passes

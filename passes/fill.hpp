@@ -2,14 +2,14 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 #include <passes/stencil_pipelines.hpp>
 
 namespace nearfield::passes {
 
 /// Polygon fill of B by stencil parity: the sign of the distance field (section 2.2.2 of the paper,
 /// first encoding). Reads the mesh; writes the sign image, 1 inside B and 0 outside, in every tile
-/// with a distance field that asks for this encoding.
+/// with a distance field of this encoding.
 class Fill {
 public:
     Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,
@@ -28,7 +28,7 @@ private:
     const Frame* frame_;
 };
 
-/// Which bits of a texel of the sign image say "inside".
+/// The bits of a texel that are set inside B.
 inline constexpr std::uint32_t filled_mask = 1;
 
 }  // namespace nearfield::passes

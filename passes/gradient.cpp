@@ -11,7 +11,7 @@
 namespace nearfield::passes {
 namespace {
 
-/// The push constants of gradient.frag, behind those of mesh.vert.
+/// The push constants of gradient.frag, after those of mesh.vert.
 struct GradientPush {
     std::int32_t corner[2];
     std::int32_t size[2];
@@ -92,7 +92,7 @@ graph::Handle Gradient::declare(graph::Graph& graph, graph::Handle mesh, graph::
 void Gradient::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     const TileRenderer renderer(*device_, layout_.get(), commands, *frame_);
-    // All sets of field passes share the buffer of values.
+    // The sets of all field passes bind the same buffer of values.
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
                                       1, &frame_->gradients, 0, nullptr);
     const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT

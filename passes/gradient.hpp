@@ -4,14 +4,14 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
 /// The gradient of the whole distance image in three blended draws (section 2.2.3 of the paper):
-/// the image shifted by one pixel, minus the image shifted by one pixel the other way (so two
-/// pixels apart), times one half. Both components at once, along x in red and along y in green.
-/// Reads the field's values; writes the gradient image in every tile that asks for it.
+/// the image shifted by one pixel, minus the image shifted by one pixel the other way, times one
+/// half. Both components in one draw, x in red and y in green. Reads the field's values; writes the
+/// gradient image in every tile with blended gradients.
 class Gradient {
 public:
     Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,

@@ -3,16 +3,16 @@
 #include <engine/gpu/device.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/early_out.hpp>
-#include <passes/frame.hpp>
 #include <passes/intersection_strategies.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
-/// The intersection of Table 1 of the paper, by any of its strategies: the region is cleared by
-/// drawing it, B changes the strategy's buffer wherever it is, A changes it again, and what both
-/// changed is an intersection. Volumes are filled by parity first and then drawn as the region's
-/// rectangle under the fill; boundaries are drawn as offset polygons, which overlap one another:
-/// the first of A's at a sample counts and leaves its number.
+/// The intersection of Table 1 of the paper, by any of its strategies. A draw clears the region, B
+/// changes the strategy's buffer at its samples, A changes it again, and the samples that both
+/// changed are the intersection. Volumes are filled by parity first, then drawn as the region's
+/// rectangle where the fill is set. Boundaries are drawn as offset polygons, which overlap each
+/// other: at each sample the first of A's counts and writes its number.
 class Intersect {
 public:
     Intersect(const gpu::Device& device, VkPipelineLayout layout,
@@ -25,8 +25,8 @@ public:
           frame_(&frame) {}
 
     /// Adds the pass that draws every overlap tile of one strategy. Reads the mesh; returns the hit
-    /// image: a colour (plan::white: an intersection) and, where A takes part by its boundary, the
-    /// run of A's edges that is near (plan::Round::runs) above it.
+    /// image: a colour in the low byte (plan::white: an intersection) and, if A takes part by its
+    /// boundary, the number of the run of A's edges nearby (plan::TileBatch::runs) above it.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent,
                           IntersectionStrategy strategy) const;
 

@@ -11,7 +11,7 @@ namespace nearfield::passes {
 
 namespace {
 
-/// Colours are added in all channels.
+/// Adds colours in all channels.
 VkPipelineColorBlendAttachmentState additive() {
     VkPipelineColorBlendAttachmentState state{};
     state.blendEnable = VK_TRUE;
@@ -42,7 +42,7 @@ IntersectionStrategies::IntersectionStrategies(const gpu::Device& device, VkPipe
     }
 }
 
-/// Where the compared stencil bits equal the reference: write the colour.
+/// Writes the colour where the compared stencil bits equal the reference.
 gpu::GraphicsPipelineDescription IntersectionStrategies::description(const char* name) const {
     gpu::GraphicsPipelineDescription description;
     description.name = name;
@@ -66,7 +66,7 @@ StrategySteps& IntersectionStrategies::add(IntersectionStrategy strategy, const 
     return steps;
 }
 
-/// B counts to 1, A from 1 to 2, and says so in white.
+/// B counts to 1; A counts from 1 to 2 and writes white.
 void IntersectionStrategies::make_stencil(const StencilPipelines& numbers) {
     StrategySteps& steps = add(IntersectionStrategy::stencil, "intersect by stencil");
     steps.clear = numbers.clear.get();
@@ -82,7 +82,7 @@ void IntersectionStrategies::make_stencil(const StencilPipelines& numbers) {
     steps.count_b = 1;
 }
 
-/// 128 + 127 = 255. The edge's number lies in the three bytes beside it: 0 + byte.
+/// 128 + 127 = 255. The edge's number is in the other three bytes: 0 + byte.
 void IntersectionStrategies::make_blend() {
     color_render_pass_ =
         make_prototype(*device_, gpu::blend_format, device_->stencil_format(), "blend");
@@ -102,7 +102,7 @@ void IntersectionStrategies::make_blend() {
     steps.value_a = 127;
 }
 
-/// 127 | 128 = 255. The edge's number lies above it: 0 | number.
+/// 127 | 128 = 255. The edge's number is in the bits above: 0 | number.
 void IntersectionStrategies::make_logic_op(const StencilPipelines& numbers) {
     StrategySteps& steps = add(IntersectionStrategy::logic_op, "intersect by logic op");
     steps.clear = numbers.clear.get();
@@ -116,7 +116,7 @@ void IntersectionStrategies::make_logic_op(const StencilPipelines& numbers) {
     steps.value_a = 128;
 }
 
-/// B sets depth 0, A is white where the depth equals 0.
+/// B sets depth 0; A writes white where the depth equals 0.
 void IntersectionStrategies::make_depth(const StencilPipelines& numbers) {
     StrategySteps& steps = add(IntersectionStrategy::depth, "intersect by depth");
     auto clear = description("nearfield depth clear");

@@ -12,31 +12,31 @@
 
 namespace nearfield::passes {
 
-/// A row of the paper's Table 1 as draws. Every strategy draws the same things in the same order
-/// (see Intersect) and ends with a colour that is white where both shapes are; what decides that is
-/// its own buffer.
+/// A row of Table 1 of the paper as draws. All strategies draw the same geometry in the same order
+/// (see Intersect), and the final colour is white where both shapes are. They differ in the buffer
+/// that decides it.
 struct StrategySteps {
     const char* pass_name = "";
     VkFormat color_format = VK_FORMAT_UNDEFINED;
     VkPipeline clear = VK_NULL_HANDLE;   ///< the region: stencil 0, colour 0, depth 1
-    VkPipeline parity = VK_NULL_HANDLE;  ///< a volume's fill, before it is drawn
-    VkPipeline b = VK_NULL_HANDLE;       ///< B's samples; again at a sample changes nothing
-    VkPipeline a = VK_NULL_HANDLE;       ///< A's samples, each once: it counts them in the stencil
+    VkPipeline parity = VK_NULL_HANDLE;  ///< fill of a volume, before it is drawn
+    VkPipeline b = VK_NULL_HANDLE;       ///< B's samples; a second draw of a sample changes nothing
+    VkPipeline a = VK_NULL_HANDLE;       ///< A's samples, each once: counted in the stencil
     std::uint32_t value_b = 0;           ///< colour of B
     std::uint32_t value_a = 0;           ///< colour of A
     float depth_b = 1.0F;
     float depth_a = 1.0F;
-    std::uint32_t count_b = 0;  ///< what the stencil counts where B is and A not yet
+    std::uint32_t count_b = 0;  ///< stencil count at B's samples before A is drawn
 };
 
-/// The pipelines of all strategies that the device has.
+/// The pipelines of all strategies that the device supports.
 class IntersectionStrategies {
 public:
-    /// `numbers`: the pipelines for number_format, made for `number_render_pass`.
+    /// `numbers`: the pipelines for number_format, built for `number_render_pass`.
     IntersectionStrategies(const gpu::Device& device, VkPipelineLayout layout,
                            VkRenderPass number_render_pass, const StencilPipelines& numbers);
 
-    /// Precondition: the device has the strategy.
+    /// Precondition: the device supports the strategy.
     [[nodiscard]] const StrategySteps& steps(IntersectionStrategy strategy) const {
         return steps_[static_cast<std::size_t>(strategy)];
     }

@@ -11,7 +11,7 @@
 namespace nearfield::passes {
 namespace {
 
-// In the push constants of mask_polygons.comp.
+// The flag in the push constants of mask_polygons.comp.
 constexpr std::uint32_t of_a_flag = 256;
 
 }  // namespace

@@ -5,33 +5,34 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 #include <cstdint>
 
 namespace nearfield::passes {
 
-/// The compute technique's bit masks (plan::ComputeWork), in its scratch memory: fills by one
-/// thread an edge and one a row, offset polygons by one thread each, and the search for what two
-/// masks share. Decided in integers on the vertices that the raster would draw, so bit for bit what
-/// its fill and its strategies find.
+/// The bit masks of the compute technique (plan::ComputeWork), in its scratch memory: fills with
+/// one thread per edge and then one per row, offset polygons with one thread each, and the search
+/// for the samples that two masks share. Computed in integers on the vertices that the raster would
+/// draw, so the result equals that of its fill and its strategies bit for bit.
 class Masks {
 public:
     Masks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
-    /// Adds the pass that empties masks and runs; first of all that use the scratch memory. It
-    /// waits for what the device still does with it, so one round may follow another in a command
-    /// buffer or in a queue. As all below it returns the new version of what it writes.
+    /// Adds the pass that clears masks and runs; the first of all passes that use the scratch
+    /// memory. It waits for earlier use of that memory on the device, so tile batches may follow
+    /// each other in a command buffer or in a queue. Like all functions below, it returns the new
+    /// version of its output.
     [[nodiscard]] graph::Handle declare_clear(graph::Graph& graph, graph::Handle scratch) const;
-    /// Marks edges, then fills rows.
+    /// Adds the passes that mark edges, then fill rows.
     [[nodiscard]] graph::Handle declare_fill(graph::Graph& graph, graph::Handle input,
                                              graph::Handle scratch) const;
     [[nodiscard]] graph::Handle declare_boundaries_b(graph::Graph& graph, graph::Handle input,
                                                      graph::Handle scratch) const;
-    /// After all of B's masks: of A's boundary only what they cover counts.
+    /// After all of B's masks: samples of A's boundary count only where those are set.
     [[nodiscard]] graph::Handle declare_boundaries_a(graph::Graph& graph, graph::Handle input,
                                                      graph::Handle scratch) const;
-    /// Writes what passes/collect.hpp writes.
+    /// Adds the pass that writes the same output as Collect.
     [[nodiscard]] graph::Handle declare_collect(graph::Graph& graph, graph::Handle input,
                                                 graph::Handle scratch, graph::Handle samples) const;
 
@@ -39,8 +40,8 @@ private:
     void record_clear(VkCommandBuffer commands) const;
     void record_polygons(VkCommandBuffer commands, bool of_a) const;
     void bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const;
-    /// One thread for each of `count` elements; the shader's push constants are the range of
-    /// elements and then `words`.
+    /// Dispatches one thread for each of `count` elements; the push constants are the range of
+    /// elements, then `words`.
     template <std::size_t Count>
     void dispatch(VkCommandBuffer commands, std::uint32_t count,
                   const std::uint32_t (&words)[Count]) const;

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/graph/execute.hpp>
 #include <passes/prototype.hpp>
 
@@ -21,7 +21,7 @@ gpu::Owned<VkRenderPass> make_prototype(const gpu::Device& device, VkFormat colo
         [](VkCommandBuffer) {});
     const Expected<graph::BakedGraph> baked = graph::bake(graph);
     if (!baked.ok()) {
-        throw Failure(baked.status());
+        throw StatusException(baked.status());
     }
     return graph::make_render_pass(device, graph, baked->passes.front());
 }

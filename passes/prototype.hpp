@@ -7,9 +7,9 @@
 
 namespace nearfield::passes {
 
-/// A render pass with one colour and one depth-stencil image (VK_FORMAT_UNDEFINED: without one),
-/// for pipelines to be made for: those that graphs make of images of these formats are compatible
-/// with it.
+/// A render pass with one colour and one depth-stencil image (VK_FORMAT_UNDEFINED: none), for which
+/// pipelines are built. The render passes that graphs make for images of these formats are
+/// compatible with it.
 [[nodiscard]] gpu::Owned<VkRenderPass> make_prototype(const gpu::Device& device, VkFormat color,
                                                       VkFormat depth_stencil,
                                                       const std::string& name);

@@ -4,19 +4,19 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 #include <passes/resolve_field.hpp>
 
 namespace nearfield::passes {
 
-/// The cells that a field is reconstructed from at points (section 2.2.2 of the paper: only the
-/// pixels asked for are read back), and the feature nearest to each point. Reads the images, tiles,
-/// edge lists and points; writes a few words a point (plan::FieldParts).
+/// The cells from which a field is reconstructed at points (section 2.2.2 of the paper: only the
+/// requested pixels are read back), and the feature nearest to each point. Reads the images, tiles,
+/// edge lists and points; writes a few words per point (plan::FieldParts).
 class ResolveFieldPoints {
 public:
     ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
 
-    /// Adds the pass; returns the field's buffer.
+    /// Adds the pass; returns the new version of `field`.
     [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
                                         const FieldImages& images, graph::Handle field) const;
 

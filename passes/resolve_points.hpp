@@ -4,16 +4,17 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/compute_layout.hpp>
-#include <passes/frame.hpp>
+#include <passes/record_context.hpp>
 
 namespace nearfield::passes {
 
-/// Point depth (section 2.2.4 of the paper): for every point of the round whether it lies inside B,
-/// which of B's edges is nearest, and whether that is the only answer within the margin.
-/// Reads tiles, edge lists and points; writes one word a point (plan::point_inside and so on).
+/// Point depth (section 2.2.4 of the paper): for every point of the tile batch, whether it lies
+/// inside B, which of B's edges is nearest, and whether that is the only answer within the margin.
+/// Reads tiles, edge lists and points; writes one word per point (plan::point_inside and the other
+/// flags).
 class ResolvePoints {
 public:
-    /// Where the pass reads which edge is nearest, and what lies inside.
+    /// The source of the nearest edge and of the side.
     enum class Source {
         images,  ///< the feature and sign images (the raster technique)
         lists,   ///< the edge lists alone (the compute technique)
@@ -21,8 +22,8 @@ public:
     ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame,
                   Source source);
 
-    /// Adds the pass. Which buffers and images the frame's descriptor set holds is the caller's
-    /// affair. Without images the last two are left out.
+    /// Adds the pass. The caller provides the buffers and images in the descriptor set of the
+    /// record context. Without images, leave out the last two parameters.
     void declare(graph::Graph& graph, graph::Handle input, graph::Handle results,
                  graph::Handle features = {}, graph::Handle sign = {}) const;
 

@@ -8,13 +8,13 @@
 
 namespace nearfield::passes {
 
-/// The format of an image that passes write unsigned numbers into: signs, edges, features.
+/// The format of images of unsigned numbers: signs, edges, features.
 inline constexpr VkFormat number_format = VK_FORMAT_R32_UINT;
 
-/// The steps that polygon fill is made of. Stencil bits: the low ones count, the two high ones hold
-/// the parity of a fill in progress.
+/// The pipelines of a polygon fill. The low stencil bits count; the two high bits hold the parity
+/// of a fill in progress.
 struct StencilPipelines {
-    /// `fragment_shader` writes the colour; `colors` names it.
+    /// `fragment_shader` writes the colour; `colors` is for the names of the pipelines.
     StencilPipelines(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
                      gpu::Spirv fragment_shader, const std::string& colors);
 

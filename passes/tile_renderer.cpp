@@ -14,12 +14,12 @@ struct Push {
 };
 static_assert(offsetof(Push, value) == 20 && sizeof(Push) == draw_push_bytes);
 
-// What gpu::make_graphics_pipeline declares as vertex input.
+// The vertex input binding that gpu::make_graphics_pipeline declares.
 static_assert(sizeof(geometry::MeshVertex) == 16 && offsetof(geometry::MeshVertex, distance) == 8 &&
               offsetof(geometry::MeshVertex, id) == 12);
 
-// Meshes reach up to two cells outside their tile. A viewport that holds them whole saves the
-// rasteriser from clipping, which would move edges; the scissor cuts what is outside.
+// Meshes reach up to two cells outside their tile. The viewport holds them completely, so the
+// rasteriser does not clip, which would move edges; the scissor rectangle cuts off the outside.
 constexpr float viewport_border = 4.0F;
 
 }  // namespace

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Collects from a hit image of numbers.
+// Collects samples from a hit image of unsigned numbers.
 
 #include "layout.glsl"
 

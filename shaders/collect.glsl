@@ -1,7 +1,7 @@
-// Searches a tile of a hit image for the samples that an intersection found, sums them up, and
-// lists them where a list is asked for. A thread looks at a strip of cells and reserves room for all
-// its samples at once; groups without barriers and shared memory are what suits a CPU.
-// Counting goes on past the end of the room, so the host sees how much was needed.
+// Collects the samples of a tile from a hit image: adds them to the tile's summary and lists them
+// if requested. A thread reads a strip of cells and reserves space for all its samples at once.
+// There are no barriers and no shared memory, which are slow on software drivers. Counting
+// continues past the capacity, so the host learns how much space is needed.
 //
 // The including shader defines hit_at(texel): the number in the hit image.
 
@@ -12,16 +12,16 @@ const uint run_shift = 8u;
 
 layout(push_constant) uniform Push {
     uint tile;
-    uint capacity;   // samples there is room for; 0: none are to be listed
-    uint first_hit;  // where the numbers of all cells found are kept; not_kept: nowhere
+    uint capacity;   // space for samples; 0: samples are not listed
+    uint first_hit;  // where the numbers of all cells are kept; not_kept: not at all
 } push;
 
 const uint not_kept = 0xffffffffu;
 layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
-    uint kept_hits[];  // a word a cell, 0 where nothing was found
+    uint kept_hits[];  // one word per cell, 0 if it is no sample
 };
 
-// Cells that a thread looks at, one above the other; as in passes/collect.cpp.
+// Cells per thread, one above the other; as in passes/collect.cpp.
 const uint strip = 8u;
 
 void main() {

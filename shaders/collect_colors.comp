@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Collects from a hit image of colours, four bytes in [0, 1].
+// Collects samples from a hit image of colours, four bytes in [0, 1].
 
 #include "layout.glsl"
 

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Copies gradients out of the image that they were blended in: of a whole tile, or of the four cells
-// around each of a number of points.
+// Copies blended gradients from their image: those of a whole tile, or of the four cells around
+// each point of a range.
 
 #include "layout.glsl"
 
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 struct Point {
     vec2 position;
     uint tile;
-    uint cell;  // the low one of the four around, column | row << 16
+    uint cell;  // the low one of the four cells around it, column | row << 16
 };
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
@@ -23,9 +23,9 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 layout(set = 0, binding = 4) uniform sampler2D gradient_image;
 
 layout(push_constant) uniform Push {
-    uint first;            // cell of the tile, or cell around a point (four each)
+    uint first;            // cell of the tile, or cell around a point (four per point)
     uint end;
-    uint first_word;       // where the words of cell 0, or of point `origin`, start
+    uint first_word;       // first word of cell 0, or of point `origin`
     uint origin;
     uint words_per_point;  // 0: a whole tile
     uint tile;

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Collects the samples of overlap tiles that both masks cover, one thread a row of a tile: sums them
-// up and lists them where a list is asked for. Counting goes on past the end of the room.
+// Collects the samples of overlap tiles that both masks cover, one thread per row of a tile: adds
+// them to the tile's summary and lists them if requested. Counting continues past the capacity.
 
 #include "masks.glsl"
 #include "overlaps.glsl"
@@ -13,11 +13,11 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint rows;  // where they start in the work
+    uint rows;  // first word in the work buffer
     uint masks;
     uint overlaps;
-    uint runs;  // where the runs of cells start in the scratch memory
-    uint capacity;  // samples there is room for
+    uint runs;  // first word of the cells' runs in the scratch memory
+    uint capacity;  // space for samples
 } push;
 
 void main() {

@@ -1,7 +1,8 @@
 #version 450
 
-// As number.frag, for an attachment of four bytes in [0, 1]. A byte need not be rounded to the
-// nearest when it is stored, so a quarter on top keeps it; sums of two stay below the next byte.
+// As number.frag, for an attachment of four bytes in [0, 1]. Vulkan does not require rounding to
+// nearest when a byte is stored, so a quarter is added to preserve it; the sum of two such values
+// stays below the next byte.
 
 layout(location = 0) flat in uint number;
 layout(location = 0) out vec4 color;

@@ -1,18 +1,16 @@
-// What of a resolved point stays on the device beside its word, where that is asked for: the
-// details of plan::PointDetails. Stands after nearest.glsl; the shader has declared results[] and
-// push.details.
+// The details of a resolved point (plan::PointDetails), written in addition to its word if records
+// are resident. Include after nearest.glsl; the shader declares results[] and push.details.
 
 const uint no_details = 0xffffffffu;
 const uint words_of_details = 4u;
 
-// Nearer to the boundary than this, in cells, single precision cannot tell on which side of it a
-// point lies (engine/nearest_feature.hpp, of tiles of points).
+// Closer to the boundary than this, in cells, single precision cannot decide on which side a point
+// lies (touching_distance in engine/records/nearest_feature.hpp, for tiles of points).
 const float touching = 1.0 / 32768.0;
-// So far to its side, an edge's own sides are told apart.
+// Offset, in cells, at which the two sides of an edge are tested.
 const float step_aside = 1.0 / 4096.0;
 
-// The normal of the nearest edge that points outside; where nothing is nearest, or an edge of no
-// length, zero.
+// The outward normal of the nearest edge; zero if there is none or it has no length.
 vec2 normal_of_wall(Nearest nearest, vec2 way, EdgeList crossing) {
     float size = length(way);
     if (!(size > 0.0)) {
@@ -27,7 +25,7 @@ void write_details(uint index, vec2 p, Nearest nearest, Tile tile) {
         return;
     }
     vec2 offset = nearest.point - p;
-    // The distance decides whether the offset's direction means anything.
+    // At a distance this small the direction of the offset is meaningless.
     bool touches = nearest.distance <= 2.0 * touching;
     OnEdge place = on_edge(p, tile.nearest, nearest);
     vec2 normal = touches ? normal_of_wall(nearest, place.way, tile.crossing) : vec2(0.0);

@@ -1,12 +1,12 @@
-// What the images of the raster passes say about a cell of a field tile. Stands after nearest.glsl;
-// the shader has declared feature_image, sign_image and push.sign_mask.
+// Distance and feature at a cell of a field tile, from the images of the raster passes. Include
+// after nearest.glsl; the shader declares feature_image, sign_image and push.sign_mask.
 
-// The bits of a texel of the sign image that say "inside"; all others are of no interest. This one
-// means that sign and feature share an image: the sign in the top bit, the feature in the low 24.
+// push.sign_mask holds the bits of the sign image that are set inside. This value means that sign
+// and feature share an image: the sign in the top bit, the feature in the low 24.
 const uint feature_bit_sign = 1u << 31;
 const uint feature_bit_id = (1u << 24) - 1u;
 
-// Two distances that single precision cannot tell apart far from B.
+// Relative difference of two distances far from B that single precision cannot resolve.
 const float relative_margin = 1.0 / 262144.0;
 
 uint feature_at(ivec2 texel) {
@@ -22,15 +22,15 @@ bool filled_at(ivec2 texel) {
     return (texelFetch(sign_image, texel, 0).x & push.sign_mask) != 0u;
 }
 
-// Signed distance at the centre of a cell (section 2.2.2 of the paper): analytic, to the feature
-// that won the depth test here or at a neighbour; the sign comes from the fill.
+// Signed distance at the centre of a cell (section 2.2.2 of the paper), in cells: analytic, to the
+// feature that won the depth test here or at a neighbour. The sign comes from the fill.
 float field_value(Tile tile, ivec2 cell) {
     ivec2 last = ivec2(tile.width, tile.height) - 1;
     ivec2 corner = ivec2(tile.atlas_x, tile.atlas_y);
     vec2 centre = vec2(cell) + 0.5;
 
-    // Neighbours give a second opinion where the flat triangles of a cone let the wrong feature win,
-    // and mostly an answer where rasterisation left a sample out between two triangles.
+    // The neighbours' features correct a wrong winner, caused by the flat triangles of a cone, and
+    // usually supply one if rasterisation left a gap between two triangles.
     const ivec2 offsets[5] =
         ivec2[5](ivec2(0), ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
     float nearest = infinity;
@@ -53,9 +53,8 @@ float field_value(Tile tile, ivec2 cell) {
     return filled_at(corner + cell) ? -nearest : nearest;
 }
 
-// The nearest of B's own edges to a point in a cell, whether it is the only one, and on which side
-// of the boundary the point lies: one word, as plan::point_inside and so on say. The images only
-// save work.
+// The nearest of B's own edges to a point in a cell, whether it is unique, and the side of the
+// boundary, as one word (plan::point_inside and the other flags). The images only save work.
 uint field_feature(Tile tile, vec2 p, ivec2 cell, out Nearest nearest) {
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
     uint feature = feature_at(texel);

@@ -1,7 +1,7 @@
 #version 450
 
 // The distance image shifted by a number of pixels, along x for the first component and along y for
-// the second; or a factor to blend by.
+// the second; or a constant factor for blending.
 
 layout(std430, set = 0, binding = 3) readonly buffer Field {
     uint words[];
@@ -12,7 +12,7 @@ layout(push_constant) uniform Push {
     ivec2 size;
     int shift;     // 0: write the factor
     float factor;
-    float largest;  // magnitude that the format holds
+    float largest;  // maximum magnitude that the format holds
 } push;
 
 layout(location = 0) flat in uint first_value;

@@ -1,5 +1,5 @@
-// The structures of engine/plan/gpu_layout.hpp (std430), and how to read the geometry array.
-// Lengths are in cells of the tile, positions relative to its low corner.
+// The structures of engine/plan/gpu_layout.hpp (std430), and access to the geometry array. Lengths
+// are in cells of the tile, positions relative to its low corner.
 
 const uint no_feature = 0xffffffffu;
 const uint cluster_size = 8u;
@@ -25,17 +25,17 @@ struct Tile {
     uint first_feature;
 };
 
-// A driver on a processor reads memory one thread after the other, each time at a price: what is read
-// together is read by fours.
+// Software drivers load memory one thread at a time, at a cost per load, so words that are needed
+// together are loaded four at a time.
 layout(std430, set = 0, binding = 0) readonly buffer Tiles {
-    uvec4 tile_words[];  // four a tile
+    uvec4 tile_words[];  // four per tile
 };
 
 layout(std430, set = 0, binding = 1) readonly buffer Geometry {
     vec2 geometry[];
 };
 layout(std430, set = 0, binding = 1) readonly buffer Pairs {
-    vec4 pairs[];  // the same, two by two
+    vec4 pairs[];  // the same memory, two at a time
 };
 
 Tile tile_at(uint index) {
@@ -63,8 +63,8 @@ Edge edge_at(uint index) {
                 floatBitsToUint(rest.w));
 }
 
-// The box around cluster_size edges of a list from position i on, a multiple of that: its low corner,
-// its high corner.
+// The box (low corner, high corner) of the cluster_size edges of a list from position i on, a
+// multiple of cluster_size.
 vec4 cluster_box(EdgeList list, uint i) {
     return pairs[list.clusters / 2u + i / cluster_size];
 }
@@ -74,7 +74,7 @@ Edge list_edge(EdgeList list, uint i) {
     return edge_at(list.edges + 4u * i);
 }
 
-// How far along a segment the point nearest to p lies: 0 at a, 1 at b.
+// Parameter of the point of a segment nearest to p: 0 at a, 1 at b.
 float along_segment(vec2 p, vec2 a, vec2 b) {
     vec2 d = b - a;
     float squared = dot(d, d);

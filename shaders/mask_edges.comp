@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The fill of a mask, first half: one thread an edge. In each row that an edge spans, lower end
-// included and upper end not, the samples left of it are inverted. Only the last of them is marked;
-// mask_rows.comp inverts those before it as well.
+// The fill of a mask, first part: one thread per edge. In each row that an edge spans (lower end
+// included, upper end excluded) the samples to its left are inverted. Only the last of them is
+// marked here; mask_rows.comp inverts those before it.
 
 #include "masks.glsl"
 
@@ -12,9 +12,9 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint edges;  // where they start in the work
+    uint edges;  // first word in the work buffer
     uint masks;
-    uint bits;   // of sub-pixel precision
+    uint bits;   // bits of sub-pixel precision
 } push;
 
 void main() {

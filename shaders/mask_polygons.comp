@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Offset polygons in a mask, one thread a polygon: its fan of triangles, each with the samples that
-// a rasteriser finds in it (top-left rule), decided in integers. Of A's, only what B's mask covers
-// counts, and there the first polygon of all, by number, stands for the sample.
+// Offset polygons in a mask, one thread per polygon: its fan of triangles, each with the samples
+// that a rasteriser finds in it (top-left rule), computed in integers. A's polygons count only
+// where B's mask is set; the one with the lowest number is kept for each sample.
 
 #include "masks.glsl"
 #include "overlaps.glsl"
@@ -13,11 +13,11 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint polygons;  // where they start in the work
+    uint polygons;  // first word in the work buffer
     uint masks;
     uint overlaps;
-    uint runs;      // where the runs of cells start in the scratch memory
-    uint bits_of;   // of sub-pixel precision; 256 on top: the polygons are A's
+    uint runs;      // first word of the cells' runs in the scratch memory
+    uint bits_of;   // bits of sub-pixel precision; plus 256: the polygons are A's
 } push;
 
 const uint of_a = 256u;
@@ -26,8 +26,9 @@ ivec2 corner(uint word, uint i) {
     return ivec2(work[word + 2u * i], work[word + 2u * i + 1u]);
 }
 
-// Where the samples of a row that an edge of a triangle allows begin and end. The triangle turns
-// from x to y, so it lies left of edges that go up, and samples on an edge that goes down are in.
+// Narrows a range of samples of a row to those on the inner side of a triangle's edge. The triangle
+// is counter-clockwise, so it lies left of edges that go up; samples on an edge that goes down are
+// inside.
 void narrow(ivec2 a, ivec2 b, int y, uint width, uint bits, inout uint begin, inout uint end) {
     if (b.y > a.y) {
         end = min(end, samples_left(a, b, y, width, bits));

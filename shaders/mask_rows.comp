@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The fill of a mask, second half: one thread a row. A sample is inside where an odd number of marks
-// lie at or after it (odd-even rule).
+// The fill of a mask, second part: one thread per row. A sample is inside if the number of marks at
+// or after it is odd (odd-even rule).
 
 #include "masks.glsl"
 
@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint rows;  // where they start in the work
+    uint rows;  // first word in the work buffer
 } push;
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
         return;
     }
     uint first_word = work[push.rows + 2u * index];
-    uint beyond = 0u;  // all ones where an odd number of marks lie in the words after
+    uint beyond = 0u;  // all ones if the words after have an odd number of marks
     for (uint i = work[push.rows + 2u * index + 1u]; i > 0u; --i) {
         uint word = scratch[first_word + i - 1u];
         word ^= word >> 1;

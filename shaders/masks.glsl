@@ -1,5 +1,5 @@
-// Bit masks of tiles: the structures of engine/plan/compute_work.hpp, and which samples lie left of
-// an edge, decided exactly. Coordinates are integers, in sub-pixel steps.
+// Bit masks of tiles: the structures of engine/plan/compute_work.hpp, and the exact number of
+// samples left of an edge. Coordinates are integers, in sub-pixel steps.
 
 layout(std430, set = 0, binding = 0) readonly buffer Work {
     uint work[];
@@ -20,7 +20,7 @@ Mask mask_at(uint word) {
     return Mask(work[word], work[word + 1u], work[word + 2u], work[word + 3u]);
 }
 
-// True where a * b > c * d, without loss.
+// True if a * b > c * d, computed in 64 bits.
 bool product_exceeds(int a, int b, int c, int d) {
     int high_ab, low_ab, high_cd, low_cd;
     imulExtended(a, b, high_ab, low_ab);
@@ -28,9 +28,9 @@ bool product_exceeds(int a, int b, int c, int d) {
     return high_ab > high_cd || (high_ab == high_cd && uint(low_ab) > uint(low_cd));
 }
 
-// The samples of a row of `width` lie at x = column * 2^bits + half a step, and the row at y. How
-// many of them lie strictly left of the edge from `low` up to `high`, low.y < high.y: those with the
-// edge on the side of larger x. A guess in floats is put right in integers.
+// The number of samples of a row that lie strictly left of the edge from `low` up to `high`, low.y
+// < high.y. The row has `width` samples at x = (column + 1/2) * 2^bits and lies at y. A
+// floating-point estimate is corrected in integers.
 uint samples_left(ivec2 low, ivec2 high, int y, uint width, uint bits) {
     int half_cell = 1 << (bits - 1u);
     ivec2 d = high - low;

@@ -1,7 +1,7 @@
 #version 450
 
-// Every mesh of the library: cells of a tile to the tile's viewport, distance to depth. What is
-// written is the id of the feature, or the draw's own value where ids are 0.
+// The vertex shader of all meshes: maps cells of a tile to its viewport, and distance to depth.
+// Outputs the id of the feature, or the draw's own value if ids are 0.
 
 layout(push_constant) uniform Push {
     vec2 scale;

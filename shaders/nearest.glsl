@@ -1,5 +1,5 @@
-// What is nearest to a point, and on which side of the boundary it lies, decided on B's own edges.
-// Stands after layout.glsl.
+// The nearest edge to a point, and the side of the boundary on which the point lies, computed on
+// B's own edges. Include after layout.glsl.
 
 const uint inside_flag = 1u << 31;
 const uint unique_flag = 1u << 30;
@@ -7,7 +7,7 @@ const uint resolved_flag = 1u << 29;
 const float infinity = 1.0 / 0.0;
 
 bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so that a vertex on the ray counts once.
+    // Half-open in y, so a vertex on the ray counts once.
     return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
 }
 
@@ -22,8 +22,8 @@ bool run_crosses(vec2 p, Edge edge) {
     return odd;
 }
 
-// Odd-even rule on the original boundary. A run of edges and the straight edge that stands for it
-// enclose no point outside the box around both, so only near points need the run itself.
+// Odd-even rule on the original boundary. A run of edges and the straight edge that replaces it
+// enclose no point outside the box around both, so only points in that box need the run itself.
 bool inside_by_crossings(vec2 p, EdgeList list) {
     bool odd = false;
     for (uint first = 0u; first < list.count; first += cluster_size) {
@@ -89,8 +89,8 @@ Nearest find_nearest(vec2 p, EdgeList list, Nearest nearest) {
     return nearest;
 }
 
-// A second boundary point as near, up to the margin, as the nearest one is a rival where it lies
-// farther from it than the same straight wall could explain.
+// A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
+// more than twice as far from it as one straight edge explains.
 bool is_rival(vec2 p, vec2 a, vec2 b, Nearest nearest, float margin) {
     vec2 q = nearest_on_segment(p, a, b);
     float limit = nearest.distance + margin;
@@ -132,20 +132,20 @@ bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
     return false;
 }
 
-// Where on its edge the nearest point lies. Asked for afterwards, and only of what stays on the
-// device: others are not to pay for carrying it through the search.
+// The position of the nearest point on its edge. It is computed after the search, and only for
+// resident outputs, so the search itself does not carry it.
 struct OnEdge {
     float along;  // 0 at the edge's first vertex, 1 at its last
-    vec2 way;     // of the edge, from its first vertex to its last
+    vec2 way;     // from the edge's first vertex to its last
 };
 
 OnEdge on_segment(vec2 p, vec2 a, vec2 b) {
     return OnEdge(along_segment(p, a, b), b - a);
 }
 
-// `list`: one that the nearest edge is in, on its own or in a run.
+// `list`: a list that holds the nearest edge, by itself or in a run.
 OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
-    // The nearest point lies in the box of its edge but for rounding.
+    // The nearest point lies in the box of its edge, up to rounding.
     float slack = 0.25 + nearest.distance / 65536.0;
     for (uint first = 0u; first < list.count; first += cluster_size) {
         if (distance_to_box(nearest.point, cluster_box(list, first)) > slack) {
@@ -154,7 +154,7 @@ OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
         uint end = min(first + cluster_size, list.count);
         for (uint i = first; i < end; ++i) {
             Edge edge = list_edge(list, i);
-            uint in_run = nearest.edge - edge.first_edge;  // huge where the run comes after
+            uint in_run = nearest.edge - edge.first_edge;  // huge if the run comes after it
             if (in_run < edge.run_count) {
                 return edge.run_count == 1u ? on_segment(p, edge.a, edge.b)
                                             : on_segment(p, geometry[edge.run + in_run],
@@ -165,7 +165,7 @@ OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
     return OnEdge(0.5, vec2(0.0));
 }
 
-// Where an edge's vertex is nearest, a word of a field says so in the bits that edges leave free.
+// Flags in the unused bits of a field's word: the first or last vertex of the edge is nearest.
 const uint first_vertex_flag = 1u << 28;
 const uint last_vertex_flag = 1u << 29;
 

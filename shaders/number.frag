@@ -1,6 +1,6 @@
 #version 450
 
-// Writes a number wherever the stencil or depth test lets it.
+// Writes a number wherever the stencil or depth test passes.
 
 layout(location = 0) flat in uint number;
 layout(location = 0) out uint color;

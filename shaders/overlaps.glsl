@@ -1,4 +1,4 @@
-// Overlap tiles of the compute technique. Stands after masks.glsl.
+// Overlap tiles of the compute technique (plan::OverlapData). Include after masks.glsl.
 
 struct Overlap {
     uint mask_a;

@@ -1,18 +1,18 @@
 #version 450
 
 // The signed distance at every cell of a field (section 2.2.2 of the paper), from the segments that
-// can be nearest in the cell's block. Eight threads a block; each has two columns, so that what it
-// reads of a segment serves 32 cells and what neighbours write lies side by side.
+// can be nearest in the cell's block. Eight threads per block, two columns per thread: each segment
+// read serves 32 cells, and neighbouring threads write neighbouring words.
 //
-// In the frame of a segment, whose middle is the origin and which lies along an axis, a cell is so
-// far along and so far across: the distance is that across, and beyond an end also that to the end.
-// From row to row both change by the same steps.
+// In the frame of a segment (origin in its middle, one axis along it) a cell has one coordinate
+// along the segment and one across it. The distance is the one across, combined beyond an end with
+// the distance along to that end. Both coordinates change by constant steps from row to row.
 
 layout(local_size_x = 64) in;
 
 // plan::BlockData
 layout(std430, set = 0, binding = 0) readonly buffer Blocks {
-    uvec4 blocks[];  // first segment, segments, size, tile width; value, sign, first sign, words
+    uvec4 blocks[];  // two per block, in the order of plan::BlockData
 };
 // plan::SegmentData
 layout(std430, set = 0, binding = 1) readonly buffer Segments {
@@ -26,7 +26,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 } field;
 
 layout(push_constant) uniform Push {
-    uint first;  // column of a block
+    uint first;  // first thread; eight per block
     uint end;
 } push;
 
@@ -34,8 +34,8 @@ const uint threads_per_block = 8u;
 const float columns_apart = 8.0;
 const vec4 rows = vec4(0.0, 1.0, 2.0, 3.0);
 
-// Squared distances of 16 cells above each other. Those of floats that are not negative are in the
-// same order as their bits, whose minimum costs less.
+// Squared distances of 16 cells above each other, as bits: non-negative floats have the same order
+// as their bits, and the integer minimum is cheaper.
 struct Column {
     uvec4 rows_0, rows_4, rows_8, rows_12;
 };
@@ -49,7 +49,8 @@ uvec4 squared_distance(vec4 along, vec4 across, float half_length) {
     return floatBitsToUint(across * across + beyond * beyond);
 }
 
-// A segment along `way`, as seen from a column's lowest cell: so far along and across.
+// Updates a column with a segment along the unit vector `way`. `from_middle`: from the segment's
+// middle to the column's lowest cell.
 void consider(vec2 from_middle, vec2 way, float half_length, inout Column column) {
     vec4 along = dot(from_middle, way) + rows * way.y;
     vec4 across = from_middle.x * way.y - from_middle.y * way.x - rows * way.x;
@@ -118,7 +119,7 @@ void main() {
         vec4 segment = segments[i];
         float squared = dot(segment.zw, segment.zw);
         float inverse = squared > 0.0 ? inversesqrt(squared) : 0.0;
-        // Of a segment without length, any way is as good.
+        // For a segment of length 0 any direction is valid.
         vec2 way = squared > 0.0 ? segment.zw * inverse : vec2(1.0, 0.0);
         vec2 from_middle = cell - segment.xy;
         consider(from_middle, way, squared * inverse, left);

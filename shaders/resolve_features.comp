@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The nearest feature at every cell of a field, one thread a cell of a block.
+// The nearest feature at every cell of a field, one thread per cell of a block.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -16,7 +16,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 layout(push_constant) uniform Push {
     uint first;
     uint end;
-    uint resident;  // 1: features stay on the device, and say which vertices are nearest
+    uint resident;  // 1: features are resident and flag nearest vertices
 } push;
 
 void main() {

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What is asked for at every cell of a field tile: signed distance, nearest feature.
+// The requested outputs at every cell of a field tile: signed distance, nearest feature.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -17,9 +17,9 @@ layout(set = 0, binding = 5) uniform usampler2D sign_image;
 layout(push_constant) uniform Push {
     uint tile;
     uint sign_mask;
-    uint first_value;    // where the tile's values start; not_asked
-    uint first_feature;  // where its features start; not_asked
-    uint resident;       // 1: they stay on the device, and say which vertices are nearest
+    uint first_value;    // first word of the tile's values, or not_asked
+    uint first_feature;  // first word of its features, or not_asked
+    uint resident;       // 1: features are resident and flag nearest vertices
 } push;
 
 #include "field.glsl"

@@ -1,8 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What the host needs to reconstruct a field at a point, one thread a point: the nearest feature,
-// the values of the four cells around and, for central differences, of the eight around those.
+// The data from which the host reconstructs a field at a point, one thread per point: the nearest
+// feature, the values of the four cells around it and, for central differences, of the eight around
+// those.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -12,7 +13,7 @@ layout(local_size_x = 64) in;
 struct Point {
     vec2 position;
     uint tile;
-    uint cell;  // the low one of the four around, column | row << 16
+    uint cell;  // the low one of the four cells around it, column | row << 16
 };
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
@@ -28,7 +29,7 @@ layout(push_constant) uniform Push {
     uint first;
     uint end;
     uint sign_mask;
-    uint first_word;       // where the words of point `origin` start
+    uint first_word;       // first word of point `origin`
     uint origin;
     uint words_per_point;  // plan::FieldParts
     uint cells_per_point;  // 4, or 12 for central differences

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// What the host needs to reconstruct a field at a point, from the lists of edges alone, one thread a
-// point: resolve_field_points.comp without images.
+// The data from which the host reconstructs a field at a point, one thread per point: as
+// resolve_field_points.comp, but from edge lists and fill masks in place of images.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push {
     uint first;
     uint end;
     uint points;           // where they start in the geometry array; even
-    uint first_word;       // where the words of point `origin` start
+    uint first_word;       // first word of point `origin`
     uint origin;
     uint words_per_point;  // plan::FieldParts
     uint cells_per_point;  // 4, or 12 for central differences

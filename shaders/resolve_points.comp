@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The nearest edge of B (section 2.2.4 of the paper), one thread a point of A's boundary. The images
-// of the raster passes settle what they can: which points lie outside, and a feature of B that is
-// nearly the nearest. What they leave open is decided on B's own edges.
+// The nearest edge of B (section 2.2.4 of the paper), one thread per point of A's boundary. The
+// images of the raster passes give the side of points away from the boundary and a first candidate
+// for the nearest feature. The rest is decided on B's own edges.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 struct Point {
     vec2 position;
     uint tile;
-    uint cell;  // of a field only
+    uint cell;  // fields only
 };
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
@@ -28,7 +28,7 @@ layout(set = 0, binding = 5) uniform usampler2D sign_image;
 layout(push_constant) uniform Push {
     uint first;
     uint count;
-    uint details;  // where those of the points start in the results; no_details
+    uint details;  // first word of the details in the results, or no_details
 } push;
 
 #include "details.glsl"

@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The nearest edge of B (section 2.2.4 of the paper) from the lists of edges alone, one thread a
-// point of A's boundary: resolve_points.comp without images.
+// The nearest edge of B (section 2.2.4 of the paper), one thread per point of A's boundary: as
+// resolve_points.comp, but from edge lists alone.
 
 #include "layout.glsl"
 #include "nearest.glsl"
@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    uvec4 points[];  // position, tile, a word that fields alone have
+    uvec4 points[];  // position, tile, a word used only by fields
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Results {
     uint results[];
@@ -19,7 +19,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Results {
 layout(push_constant) uniform Push {
     uint first;
     uint count;
-    uint details;  // where those of the points start in the results; no_details
+    uint details;  // first word of the details in the results, or no_details
 } push;
 
 #include "details.glsl"

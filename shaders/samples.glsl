@@ -1,4 +1,4 @@
-// What an intersection hands back: a summary by tile and a list of samples.
+// The output of an intersection: a summary per tile (plan::TileSummary) and a list of samples.
 
 struct Summary {
     uint count;
@@ -6,14 +6,14 @@ struct Summary {
     uint low_row;
     uint high_column;
     uint high_row;
-    uint passed;  // 0: an occlusion query saw that there is nothing here
+    uint passed;  // 0: the occlusion query found no sample
 };
 
 layout(std430, set = 0, binding = 2) buffer Summaries {
-    Summary summaries[];  // by tile
+    Summary summaries[];  // one per tile
 };
 
 layout(std430, set = 0, binding = 3) buffer Samples {
     uint count;
-    uint words[];  // plan::SampleData: three words a sample
+    uint words[];  // plan::SampleData: three words per sample
 } samples;

@@ -1,11 +1,12 @@
-# The Vulkan drivers that tests ask for by name, so that none runs on whatever there is: a list of
-# NAME=MANIFEST, the manifest being the JSON file by which the loader finds a driver. All tests that need a
-# device run on the first; those of queries, the device and the graph run on the others too.
+# The Vulkan drivers that tests request by name, so that none runs on an arbitrary driver: a list of
+# NAME=MANIFEST, where the manifest is the JSON file through which the loader finds a driver. All
+# tests that need a device run on the first; those of queries, the device and the graph run on the
+# others too.
 set(NEARFIELD_TEST_DRIVERS "" CACHE STRING
     "Vulkan drivers to test on, NAME=MANIFEST each; empty: lavapipe and SwiftShader, as Debian has them")
 
-# nearfield_find_driver(RESULT NAME FOLDER PACKAGE FILE...) finds the manifest in the folder, or says
-# what to install.
+# nearfield_find_driver(RESULT NAME FOLDER PACKAGE FILE...) finds the manifest in the folder, or
+# reports what to install.
 function(nearfield_find_driver result name folder package)
     find_file(manifest NAMES ${ARGN} PATHS ${folder} NO_DEFAULT_PATH NO_CACHE)
     if(NOT manifest)
@@ -48,7 +49,7 @@ set(nearfield_other_drivers ${names})
 # ENVIRONMENT_MODIFICATION of a test that runs on the first driver.
 set(nearfield_on_first_driver VK_DRIVER_FILES=set:${nearfield_manifest_of_${first}})
 
-# nearfield_test(NAME COMMAND...) adds a test that runs on the first driver.
+# nearfield_test(NAME COMMAND...) adds a test on the first driver.
 function(nearfield_test name)
     add_test(NAME ${name} COMMAND ${ARGN})
     set_tests_properties(${name} PROPERTIES
@@ -56,7 +57,7 @@ function(nearfield_test name)
 endfunction()
 
 # nearfield_test_on_others(PREFIX NAME COMMAND...) adds the same test for each other driver, as
-# PREFIX.DRIVER.NAME, or PREFIX.DRIVER where the name is empty.
+# PREFIX.DRIVER.NAME, or PREFIX.DRIVER if the name is empty.
 function(nearfield_test_on_others prefix name)
     foreach(driver IN LISTS nearfield_other_drivers)
         set(full ${prefix}.${driver})

@@ -6,7 +6,7 @@
 
 namespace nearfield::geometry {
 
-void Containment::answer(const PlacedPolygon& placed) {
+void Containment::answer(const TransformedPolygon& placed) {
     inside_.assign(points_.size(), 0);
     if (points_.empty()) {
         return;
@@ -26,8 +26,8 @@ void Containment::answer(const PlacedPolygon& placed) {
 }
 
 void Containment::cross_levels(std::span<const Vector> ring) {
-    // How many points lie below where the ring has come to: going on moves that past those alone
-    // that are level with an edge. Half open, as contains() has it.
+    // `next` is the first point not below the ring's current vertex, so following an edge visits
+    // only the points level with that edge. Intervals are half open, as in contains().
     Vector a = ring.back();
     auto next = std::lower_bound(levels_.begin(), levels_.end(), a.y(),
                                  [](const Level& entry, double y) { return entry.point.y() < y; });

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 
 #include <cstdint>
 #include <span>
@@ -8,16 +8,16 @@
 
 namespace nearfield::geometry {
 
-/// Answers for many points at once whether they lie in a polygon, as contains() does for one: every
-/// edge is held against those points alone that are level with it. Keeps its memory.
+/// Point-in-polygon tests for many points at once, with the answers of contains(): each edge is
+/// compared only with the points level with it. Reuses its memory.
 class Containment {
 public:
     void clear() { points_.clear(); }
-    /// Asks for a point in world coordinates; its answer has the index of the asking.
+    /// Adds a point in world coordinates. Answers are indexed in the order of these calls.
     void ask(const Vector& point) { points_.push_back(point); }
 
-    /// Answers all that was asked.
-    void answer(const PlacedPolygon& placed);
+    /// Answers for all points added.
+    void answer(const TransformedPolygon& placed);
     [[nodiscard]] bool inside(std::size_t index) const { return inside_[index] != 0; }
     [[nodiscard]] bool any_inside() const;
 
@@ -27,11 +27,11 @@ private:
         std::size_t index = 0;
     };
 
-    /// Counts the crossings of a ring with the rays from all points.
+    /// Flips the parity of each point whose ray the ring crosses.
     void cross_levels(std::span<const Vector> ring);
 
     std::vector<Vector> points_;
-    std::vector<Level> levels_;  // from the lowest point to the highest
+    std::vector<Level> levels_;  // in ascending order of y
     std::vector<std::uint8_t> inside_;
 };
 

@@ -14,7 +14,7 @@ using geometry::to_vector;
 using geometry::Vector;
 using std::numbers::pi;
 
-/// A quarter turn counter-clockwise.
+/// Rotates a vector a quarter turn counter-clockwise.
 Vector turned_left(const Vector& v) {
     return {-v.y(), v.x()};
 }
@@ -45,8 +45,8 @@ CurveSegment arc_segment(const Vector& apex, const Vector& along, double half_sw
     return segment;
 }
 
-/// A whole turn that begins and ends at the tip of `axis`, the first of two conjugate half
-/// diameters.
+/// A full ellipse that begins and ends at the tip of `axis`, the first of two conjugate
+/// semi-diameters.
 CurveContour whole_turn(const Vector& centre, const Vector& axis, const Vector& other) {
     const Vector2 start = to_public(centre + axis);
     return {start, {arc_segment(-axis, -other, pi, start)}};
@@ -90,7 +90,7 @@ CurvePath& CurvePath::line_to(Vector2 to) {
 }
 
 CurvePath& CurvePath::quadratic_to(Vector2 control, Vector2 to) {
-    // The cubic that is the same curve.
+    // Degree elevation: the cubic that is the same curve.
     const Vector middle = to_vector(control);
     const Vector start = contours_.empty() ? middle : to_vector(current());
     add("quadratic_to",
@@ -122,10 +122,11 @@ CurvePath& CurvePath::arc_to(const EllipticArc& arc, Vector2 to) {
     }
     const Vector axis_x(std::cos(arc.rotation), std::sin(arc.rotation));
     const Vector axis_y = turned_left(axis_x);
-    // Seen from where the ellipse is a unit circle, half the chord is the sine of half the sweep.
+    // In coordinates where the ellipse is a unit circle, half the chord is the sine of half the
+    // sweep.
     Vector unit(half_chord.dot(axis_x) / radius_x, half_chord.dot(axis_y) / radius_y);
     const double sine = unit.stableNorm();
-    if (sine == 0.0) {  // too short for the ellipse to be seen in double precision
+    if (sine == 0.0) {  // too short for the ellipse to resolve in double precision
         add("arc_to", line(to));
         return *this;
     }
@@ -206,8 +207,8 @@ CurvePath& CurvePath::catmull_rom(std::span<const Vector2> points) {
         refuse("catmull_rom", "a closed spline needs three points");
         return *this;
     }
-    // The tangent at a point, from the way before it and the way after it, with the roots of their
-    // lengths as the centripetal parameter's steps.
+    // The tangent at a point from the chords before and after it, with the square roots of their
+    // lengths as the steps of the centripetal parameter.
     const auto way = [&](std::size_t i) -> Vector {
         return through[(i + 1) % count] - through[i % count];
     };

@@ -8,24 +8,24 @@ namespace nearfield::geometry {
 
 namespace {
 
-// Why no crack opens. Let m be the largest move of a snap. A snapped tent or sector still covers
-// every point deeper than m inside the true one. Tents are 3 m too long at either end, so they
-// cover the first 2 m of the sector beside them; the sector covers itself from m on.
+// Why no gap opens. Let m be the largest move of a snap. A snapped tent or sector still covers
+// every point deeper than m inside the true one. Each tent extends 3 m beyond both ends, so it
+// covers the first 2 m of the sector beside it; the sector itself covers everything from m on.
 //
-// What it costs. A tent that overlaps the sector by up to 4 m (3 m, and one snap) reports the
-// distance to the line where the distance to the end point is right: short by at most 4 m, at the
-// ridge. Elsewhere `distance` is a plane's value, and its clamping at 0 adds at most m.
+// The cost. A tent that overlaps the sector by up to 4 m (3 m plus one snap) reports the distance
+// to the line where the distance to the end point is right: too small by at most 4 m, at the ridge.
+// Elsewhere `distance` is a plane's value, and clamping it at 0 adds at most m.
 double overlap(const SubpixelGrid& grid) {
     return 3.0 * grid.largest_move();
 }
 
-// Snapping must not pull the far sides in below the reach that was asked for.
+// Compensates for snapping, which must not pull the far sides in below the requested reach.
 double grown_reach(double reach, const SubpixelGrid& grid) {
     return reach + 2.0 * grid.largest_move();
 }
 
-// A vertex on the plane through `origin` (at distance 0) with the given gradient. The plane is
-// evaluated where the vertex is snapped to, so snapping tilts nothing. Depth ranges start at 0.
+// Makes a vertex on the plane through `origin` (at distance 0) with the given gradient. The plane
+// is evaluated at the snapped position, so snapping does not tilt it. Depth ranges start at 0.
 MeshVertex on_plane(const Vector& position, const Vector& origin, const Vector& gradient,
                     std::uint32_t id, const SubpixelGrid& grid) {
     const Vector snapped(grid.snap(position.x()), grid.snap(position.y()));
@@ -44,19 +44,20 @@ Vector left_normal(const Vector& tangent) {
 }
 
 // The largest half angle t of a triangle of the cone. The triangle has its apex at the vertex and
-// its far side at distance r, the reach, so its rim points are at r / cos t. On it the distance is
-// taken for k * (the distance along its bisector): at most r * (k - 1) too much, at the middle of
-// the far side, and r * (1 / cos t - k) too little, at the rim points. With k midway between 1 and
-// 1 / cos t both are half of r * (1 / cos t - 1). That sum must not exceed the error less 2 m: the
-// clamping at the apex, and the samples up to m outside the triangle before it was snapped.
+// its far side at distance r, the reach, so its rim points are at r / cos t. On the triangle the
+// distance is approximated by k * (the distance along its bisector): at most r * (k - 1) too large,
+// at the middle of the far side, and r * (1 / cos t - k) too small, at the rim points. With k
+// midway between 1 and 1 / cos t both are half of r * (1 / cos t - 1). That sum must not exceed the
+// error less 2 m, which covers the clamping at the apex and samples up to m outside the triangle
+// before it was snapped.
 double largest_half_angle(double reach, const DistanceMeshOptions& options) {
     const double move = options.grid.largest_move();
     const double range = std::max(options.error, 10.0 * move) - 2.0 * move;
     return std::acos(reach / (reach + range));
 }
 
-// Whether all that is asked for lies beyond the line through `point` with the unit normal `normal`,
-// which a snap may move a little. Never where everything is asked for.
+// True if the whole box `within` lies beyond the line through `point` with the unit normal
+// `normal`, which a snap may move a little. Always false for an infinite box.
 bool is_beyond(const DistanceMeshOptions& options, const Vector& point, const Vector& normal) {
     const Box& within = options.within;
     const Vector nearest((normal.x() > 0.0 ? within.min() : within.max()).x(),
@@ -64,13 +65,14 @@ bool is_beyond(const DistanceMeshOptions& options, const Vector& point, const Ve
     return normal.dot(nearest - point) > 2.0 * options.grid.largest_move();
 }
 
-// The cone over v from direction `from` to direction `to`, `turn` radians counter-clockwise.
+// Appends the cone sector over v from direction `from` to direction `to`, `turn` radians
+// counter-clockwise.
 void append_fan(const Vector& v, const Vector& from, const Vector& to, double turn, double reach,
                 std::uint32_t id, const DistanceMeshOptions& options, Mesh& mesh) {
     const double side = turn > 0.0 ? 1.0 : -1.0;
     if (std::abs(turn) < 3.0 && (is_beyond(options, v, -side * left_normal(from)) ||
                                  is_beyond(options, v, side * left_normal(to)))) {
-        return;  // most of the cones around a tile; less than half a turn lies between two lines
+        return;  // most cones near a tile; less than half a turn lies between two lines
     }
     const double angle = 2.0 * largest_half_angle(reach, options);
     const int count = static_cast<int>(std::ceil(std::abs(turn) / angle));
@@ -83,7 +85,7 @@ void append_fan(const Vector& v, const Vector& from, const Vector& to, double tu
     Vector first = from;
     for (int i = 1; i <= count; ++i) {
         const Vector bisector = rotated(first, cosine, sine);
-        // The last direction is given, so that a full cone closes to the bit.
+        // The last direction is used as given, so that a full cone closes exactly.
         const Vector last = i < count ? rotated(bisector, cosine, sine) : to;
         const Vector rims[] = {v + rim * first, v + rim * last};
         const bool needed = !is_beyond(options, v, -side * left_normal(first)) &&
@@ -136,8 +138,8 @@ void append_cone_sector(const Vector& before, const Vector& v, const Vector& aft
                    mesh);
         return;
     }
-    // Where the boundary turns left the tents part on its right, and the other way round. The
-    // normals on that side turn as the boundary does; through the tip where it turns back.
+    // Where the boundary turns left, the tents on its right separate, and vice versa. The normals
+    // on that side turn with the boundary, or through the tip where it turns back on itself.
     const double turn = std::atan2(cross(in, out), in.dot(out));
     const double width_the_tents_cover = overlap(options.grid) - options.grid.largest_move();
     if (grown * std::abs(std::sin(0.5 * turn)) < width_the_tents_cover) {

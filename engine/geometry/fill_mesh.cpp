@@ -9,8 +9,8 @@ namespace nearfield::geometry {
 
 namespace {
 
-// Borders lie one cell outside the tile: on the sub-pixel grid whatever its steps, and more than
-// one snap away from any sample.
+// Borders lie one cell outside the tile: on the sub-pixel grid for any number of steps, and more
+// than one snap away from every sample.
 constexpr double margin = 1.0;
 
 MeshVertex at(double x, double y) {
@@ -45,8 +45,8 @@ FillMesh::Pieces FillMesh::pieces(const Vector& a, const Vector& b) const {
     if (!within && !clip_to_slab(low, high, 1, -margin, height_ + margin)) {
         return result;
     }
-    // Pieces of the edge follow each other without a gap in y: the cut point of two pieces is
-    // snapped once for both, so every row centre of the edge is crossed by exactly one of them.
+    // Consecutive pieces of an edge leave no gap in y: their common cut point is snapped once, so
+    // exactly one piece crosses each row centre of the edge.
     double borders[] = {-margin, width_ + margin};
     if (low.x() > high.x()) {
         std::swap(borders[0], borders[1]);
@@ -71,8 +71,8 @@ void FillMesh::add_piece(const Vector& from, const Vector& to, Pieces& pieces) c
     const double y0 = grid_.snap(from.y());
     const double y1 = grid_.snap(to.y());
 
-    // A row whose centre an end just touches counts as crossed: whether it is covered is for the
-    // fill rule to say, and it says the same to the neighbour that ends there.
+    // A row whose centre an end just touches counts as crossed: the fill rule decides whether it is
+    // covered, consistently with the neighbour that ends there.
     const double first_row = std::max(whole_above(std::min(y0, y1) - 0.5), 0.0);
     const double last_row = std::min(whole_below(std::max(y0, y1) - 0.5), height_ - 1.0);
     const bool left_of_all_samples = std::max(x0, x1) < 0.5;

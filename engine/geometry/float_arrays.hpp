@@ -8,9 +8,8 @@
 
 namespace nearfield::geometry {
 
-/// Items on a stack, each a few numbers in single precision and an index: an array for each kind of
-/// number, as kernels load them, with room for a vector more behind the last item. Keeps its
-/// memory.
+/// A stack of items, each with `kinds` single-precision numbers and an index, as a structure of
+/// arrays for SIMD kernels. Allocates one extra vector beyond the last item. Reuses its memory.
 template <std::size_t kinds>
 class FloatArrays {
 public:
@@ -25,7 +24,7 @@ public:
         indices_[count_] = index;
         ++count_;
     }
-    /// Appends the items first, ..., end - 1 of another stack.
+    /// Appends items first, ..., end - 1 of another stack.
     void append(const FloatArrays& other, std::size_t first, std::size_t end) {
         const std::size_t count = end - first;
         reserve(count);
@@ -35,9 +34,9 @@ public:
         std::memcpy(indices() + count_, other.indices() + first, count * sizeof(std::uint32_t));
         count_ += count;
     }
-    /// Drops items from the top, or takes on what was written there.
+    /// Drops items from the top, or adds items already written to the arrays.
     void resize(std::size_t count) { count_ = count; }
-    /// Room for so many on top, and for a vector more.
+    /// Allocates space for `more` items on top plus one vector.
     void reserve(std::size_t more) {
         constexpr std::size_t longest_vector = 16;
         const std::size_t wanted = count_ + more + longest_vector;
@@ -51,11 +50,11 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const { return count_; }
-    /// How many numbers each array has room for.
+    /// Capacity of each array, in items.
     [[nodiscard]] std::size_t capacity() const { return indices_.size(); }
     [[nodiscard]] const float* number(std::size_t number) const { return numbers_[number].data(); }
     [[nodiscard]] float* number(std::size_t number) { return numbers_[number].data(); }
-    /// What an item was pushed with.
+    /// The index each item was pushed with.
     [[nodiscard]] const std::uint32_t* indices() const { return indices_.data(); }
     [[nodiscard]] std::uint32_t* indices() { return indices_.data(); }
 

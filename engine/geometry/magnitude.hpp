@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,14 @@ namespace nearfield::geometry {
     return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
-/// The largest number that placing a shape in the world goes through; `box`: of the placed shape.
-[[nodiscard]] inline double largest_magnitude(const PlacedPolygon& placed, const Pose& pose,
+/// The largest magnitude that occurs while a shape is transformed to the world. `box`: the
+/// transformed shape's.
+[[nodiscard]] inline double largest_magnitude(const TransformedPolygon& placed, const Pose& pose,
                                               const Box& box) {
     return std::max({largest_magnitude(box), placed.polygon().centre().cwiseAbs().maxCoeff(),
                      std::abs(pose.translation.x), std::abs(pose.translation.y)});
 }
-[[nodiscard]] inline double largest_magnitude(const PlacedPolygon& placed, const Pose& pose) {
+[[nodiscard]] inline double largest_magnitude(const TransformedPolygon& placed, const Pose& pose) {
     return largest_magnitude(placed, pose, placed.box());
 }
 

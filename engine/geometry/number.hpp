@@ -4,7 +4,7 @@
 
 namespace nearfield::geometry {
 
-/// A number as text, with as few digits as tell it apart.
+/// Formats a number with the fewest digits that identify it.
 [[nodiscard]] std::string number(double value);
 
 }  // namespace nearfield::geometry

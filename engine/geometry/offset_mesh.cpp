@@ -11,8 +11,8 @@ constexpr double cosine = 0.92387953251128674;  // of 22.5 degrees
 constexpr double sine = 0.38268343236508977;
 
 // Corners of the octagon around the unit circle, times cos(22.5 degrees), counter-clockwise from
-// the tangent. One side is square to the tangent, one parallel to it on either hand: those two are
-// the long sides of the stretched octagon.
+// the tangent. One side is perpendicular to the tangent; the sides parallel to it on either hand
+// become the long sides of the stretched octagon.
 constexpr double corners[8][2] = {{cosine, sine},  {sine, cosine},   {-sine, cosine},
                                   {-cosine, sine}, {-cosine, -sine}, {-sine, -cosine},
                                   {sine, -cosine}, {cosine, -sine}};
@@ -22,8 +22,8 @@ constexpr double corners[8][2] = {{cosine, sine},  {sine, cosine},   {-sine, cos
 std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b, double offset,
                                             std::uint32_t width, std::uint32_t height,
                                             SubpixelGrid grid) {
-    // Snapping pulls the border in by no more than the largest move. Half of it on top keeps a
-    // sample at exactly `offset` inside, not on the border, where the fill rule might drop it.
+    // Snapping pulls the border in by at most the largest move. Half a move more keeps a sample at
+    // exactly `offset` inside rather than on the border, where the fill rule might drop it.
     const double circumradius = (offset + 1.5 * grid.largest_move()) * offset_overreach;
     const double margin = circumradius + grid.largest_move();
     Vector from = a;
@@ -33,7 +33,7 @@ std::optional<OffsetPolygon> offset_polygon(const Vector& a, const Vector& b, do
         return std::nullopt;
     }
 
-    // The tangent is the whole edge's: the part may be short, or a point.
+    // The tangent of the whole edge: the part may be short, or a point.
     Vector tangent = (b - a).stableNormalized();
     if (tangent.isZero(0.0)) {
         tangent = Vector::UnitX();

@@ -19,14 +19,14 @@ std::string ring_name(std::size_t ring) {
     return "ring " + std::to_string(ring);
 }
 
-/// The vertices of a ring without a last one that repeats the first.
+/// The vertices of a ring without a closing vertex that repeats the first.
 std::span<const Vector2> open_ring(const Ring& ring) {
     const std::span<const Vector2> vertices(ring);
     const bool closed_twice = vertices.size() > 1 && vertices.front() == vertices.back();
     return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
 }
 
-/// Why a coordinate cannot be used; empty where it can.
+/// Why a coordinate cannot be used; empty if it can.
 std::string coordinate_error(double value) {
     if (std::isnan(value)) {
         return "is not a number";
@@ -42,11 +42,11 @@ std::string coordinate_error(double value) {
 }
 
 bool usable(const Vector2& v) {
-    // False for NaN too.
+    // Also false for NaN.
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
 }
 
-/// What a ring's coordinates say together.
+/// The bounding box and size of a ring.
 struct Range {
     Box box;
     bool finite;
@@ -56,17 +56,17 @@ struct Range {
         : box(box_of(range.box)), finite(range.finite), length(range.length) {}
 
     [[nodiscard]] bool usable() const { return finite && magnitude() <= largest_coordinate; }
-    /// The largest coordinate.
+    /// The largest absolute coordinate.
     [[nodiscard]] double magnitude() const {
         return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
     }
-    /// The largest difference of a coordinate from that of a vertex.
+    /// The largest difference between any coordinate and that of a vertex.
     [[nodiscard]] double reach_from(const Vector& vertex) const {
         return (box.max() - vertex).cwiseMax(vertex - box.min()).maxCoeff();
     }
 };
 
-/// Says which vertex of a ring cannot be used; there is one.
+/// Returns an error that names the first unusable vertex of a ring. Precondition: there is one.
 Status bad_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
     const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
     const std::string error_of_x = coordinate_error(bad->x);
@@ -91,8 +91,8 @@ double largest_of(const Vector2& v) {
     return std::max(std::abs(v.x), std::abs(v.y));
 }
 
-/// True where three of the vertices alone say that not all are within `rounding`, in parts of their
-/// extent, of one line: two places that are, seen from a third, span no more than six times that.
+/// True if three of the vertices alone show that the ring is not within `rounding`, as a fraction
+/// of its extent, of one line: if it were, this cross product would be at most 6 * rounding.
 bool clearly_spans_area(std::span<const Vector2> vertices, double extent, double rounding) {
     const Vector origin = to_vector(vertices.front());
     const Vector one = (to_vector(vertices[vertices.size() / 3]) - origin) / extent;
@@ -100,10 +100,10 @@ bool clearly_spans_area(std::span<const Vector2> vertices, double extent, double
     return std::abs(cross(one, other)) > 8.0 * rounding;
 }
 
-/// True where no vertex is farther from one line than the rounding of its coordinates explains.
-/// The line goes through the first vertex and the one farthest from it, so its two points are at
-/// least half the ring's extent apart and their own rounding does not swing it by more. Area would
-/// be no test: a bow tie has none. Precondition: at least two different vertices.
+/// True if no vertex is farther from one line than the rounding of its coordinates explains. The
+/// line goes through the first vertex and the one farthest from it, so these are at least half the
+/// ring's extent apart and their own rounding does not swing it by more. Area would not do as a
+/// test: a bow tie has none. Precondition: at least two different vertices.
 bool on_one_line(std::span<const Vector2> vertices, const Range& range) {
     const Vector2 origin = vertices.front();
     const auto from_origin = [origin](const Vector2& v) {
@@ -119,7 +119,7 @@ bool on_one_line(std::span<const Vector2> vertices, const Range& range) {
         return largest_of(from_origin(v)) == extent;
     });
     Vector2 along = from_origin(*farthest);
-    // Divided by the extent first: the products of a tiny ring must not underflow.
+    // Dividing by the extent first keeps the products of a tiny ring from underflowing.
     along = {along.x / extent, along.y / extent};
     return std::none_of(vertices.begin(), vertices.end(), [&](const Vector2& v) {
         const Vector2 d = from_origin(v);
@@ -127,7 +127,7 @@ bool on_one_line(std::span<const Vector2> vertices, const Range& range) {
     });
 }
 
-/// Grows the box to hold the rings, and adds up their lengths.
+/// Validates the rings, grows the box to contain them, and sums their lengths.
 Status check(std::span<const Ring> rings, Box& box, double& length) {
     if (rings.empty()) {
         return invalid("the shape has no ring");
@@ -136,9 +136,9 @@ Status check(std::span<const Ring> rings, Box& box, double& length) {
     for (const Ring& ring : rings) {
         total += open_ring(ring).size();
     }
-    if (total > most_vertices) {
+    if (total > max_vertices) {
         return invalid("the shape has " + std::to_string(total) + " vertices; the most are " +
-                       std::to_string(most_vertices));
+                       std::to_string(max_vertices));
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
         const std::span<const Vector2> vertices = open_ring(rings[r]);
@@ -183,7 +183,7 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     for (const Ring& ring : rings) {
         total += open_ring(ring).size();
     }
-    // Memory first: should there be none, the polygon is still what it was.
+    // Allocate first: if memory runs out, the polygon is unchanged.
     vertices_.reserve(total);
     ring_ends_.reserve(rings.size());
 

@@ -10,26 +10,26 @@
 
 namespace nearfield::geometry {
 
-/// The rings of a shape in one array of vertices. Coordinates are kept relative to the centre of
-/// the shape's bounding box, in double precision, so that rotating a shape that lies far from the
-/// origin of its own coordinates loses nothing.
+/// The rings of a shape in one array of vertices. Coordinates are relative to the centre of the
+/// shape's bounding box, in double precision, so that rotating a shape that lies far from its own
+/// origin loses no precision.
 ///
-/// Edge i goes from vertex i to vertex next(i); vertices and edges count through all rings.
+/// Edge i goes from vertex i to vertex next(i). Vertex and edge indices run through all rings.
 class Polygon {
 public:
-    /// Replaces all rings, or refuses them and leaves the polygon as it was. The message names the
-    /// ring and the vertex of the ring, both counted from 0. `deviation`: how far the rings may be
-    /// from the shape they stand for. Reuses memory.
+    /// Replaces all rings, or rejects them and leaves the polygon unchanged. The message names the
+    /// ring and the vertex within it, both counted from 0. `deviation`: the largest distance of the
+    /// rings from the shape they approximate. Reuses memory.
     Status assign(std::span<const Ring> rings, double deviation = 0.0);
 
-    /// How far the rings may be from the shape they stand for.
+    /// The largest distance of the rings from the shape they approximate.
     [[nodiscard]] double deviation() const { return deviation_; }
 
     /// The centre of the bounding box, in the shape's own coordinates.
     [[nodiscard]] const Vector& centre() const { return centre_; }
-    /// Of the boundary, along both axes together: no less than its length.
+    /// The sum of |dx| + |dy| over all edges: an upper bound on the boundary's length.
     [[nodiscard]] double length_along_axes() const { return length_along_axes_; }
-    /// No vertex is farther from centre() than this, up to rounding.
+    /// The largest distance of any vertex from centre(), up to rounding.
     [[nodiscard]] double radius() const { return radius_; }
     /// Vertices relative to centre().
     [[nodiscard]] std::span<const Vector> vertices() const { return vertices_; }
@@ -45,7 +45,7 @@ public:
     }
     [[nodiscard]] std::uint32_t ring_end(std::uint32_t ring) const { return ring_ends_[ring]; }
 
-    /// The ring that vertex (or edge) i belongs to.
+    /// The ring of vertex (or edge) i.
     [[nodiscard]] std::uint32_t ring_of(std::uint32_t i) const;
     /// The vertex after vertex i on its ring.
     [[nodiscard]] std::uint32_t next(std::uint32_t i) const;

@@ -6,7 +6,7 @@
 namespace nearfield::geometry {
 namespace {
 
-/// Which side of the line through a and b the point p is on: 1 left, -1 right, 0 on it.
+/// The side of the line through a and b that the point p is on: 1 left, -1 right, 0 on it.
 int side(const Vector& a, const Vector& b, const Vector& p) {
     const double determinant = cross(b - a, p - a);
     return (determinant > 0.0 ? 1 : 0) - (determinant < 0.0 ? 1 : 0);
@@ -16,10 +16,10 @@ Box box_of(const Vector& a, const Vector& b) {
     return {a.cwiseMin(b), a.cwiseMax(b)};
 }
 
-/// True where segment cd lies on one side of the line through a and b, out of its reach.
+/// True if segment cd lies on one side of the line through a and b, farther away than `margin`.
 bool beside(const Vector& a, const Vector& b, const Vector& c, const Vector& d, double margin) {
     const Vector along = b - a;
-    // The sum of the coordinates is no less than the length, and costs no root.
+    // The sum of the coordinates bounds the length from above and needs no square root.
     const double reach = margin * along.lpNorm<1>();
     const double side_c = cross(along, c - a);
     const double side_d = cross(along, d - a);
@@ -29,7 +29,7 @@ bool beside(const Vector& a, const Vector& b, const Vector& c, const Vector& d, 
 }  // namespace
 
 bool segments_intersect(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-    // The boxes decide between segments on one line, and between points.
+    // The boxes decide for collinear segments and for points.
     if (!box_of(a, b).intersects(box_of(c, d))) {
         return false;
     }
@@ -71,7 +71,7 @@ ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Ve
     end_of_second(c, 0.0);
     end_of_second(d, 1.0);
     if (closest.squared_distance > 0.0 && segments_intersect(a, b, c, d)) {
-        // The sides of c and d weigh the crossing's place on cd, those of a and b its place on ab.
+        // The sides of c and d locate the crossing on cd, those of a and b locate it on ab.
         const double c_side = std::abs(cross(b - a, c - a));
         const double d_side = std::abs(cross(b - a, d - a));
         const double a_side = std::abs(cross(d - c, a - c));

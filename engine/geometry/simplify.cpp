@@ -8,10 +8,10 @@
 namespace nearfield::geometry {
 namespace {
 
-// Why the distance of the vertices is enough. Let S be the straight segment from the first to the
-// last vertex of a run, and every vertex of the run within e of S.
-// - Distance to a convex set is a convex function, so along each edge of the run it is at most what
-//   it is at one of the edge's ends: no point of the run is farther than e from S.
+// Why it suffices to measure the vertices. Let S be the straight segment from the first to the last
+// vertex of a run, and every vertex of the run within e of S.
+// - The distance to a convex set is a convex function, so along each edge of the run it is at most
+//   its value at one of the edge's ends: no point of the run is farther than e from S.
 // - The run is a connected line from one end of S to the other. Its projection onto the line
 //   through S is continuous and starts and ends at the ends of S, so it takes every value between:
 //   over each point s of S there is a point r of the run that projects onto s, and |rs| is the
@@ -28,20 +28,20 @@ struct RingView {
     }
 };
 
-/// The directions in which a ray from the anchor passes within `reach` of every vertex seen.
+/// The directions in which a ray from the anchor passes within `reach` of every vertex seen so far.
 class Sector {
 public:
-    /// True where the ray towards v (relative to the anchor) lies in the sector.
+    /// True if the ray towards v (relative to the anchor) lies in the sector.
     [[nodiscard]] bool holds(const Vector& v) const {
         return open_ || (cross(low_, v) >= 0.0 && cross(v, high_) >= 0.0 && faces(v));
     }
 
-    /// Narrows the sector by a vertex farther than `reach`. False where nothing is left.
+    /// Narrows the sector by a vertex farther than `reach`. Returns false if nothing is left.
     bool narrow(const Vector& v, double squared_distance, double reach) {
         if (reach < 0.0 || (!open_ && !faces(v))) {
             return false;
         }
-        // The unit vectors at the angles +- asin(reach / distance) from v.
+        // The unit vectors at angles +- asin(reach / distance) from v.
         const double scale = 1.0 / squared_distance;
         const Vector ahead = v * (scale * std::sqrt(squared_distance - reach * reach));
         const Vector across = Vector(-v.y(), v.x()) * (scale * reach);
@@ -65,7 +65,8 @@ private:
     Vector high_ = Vector::Zero();
 };
 
-/// How far any vertex of the run of `count` edges from `start` is from its straight segment.
+/// The largest distance of any vertex of the run of `count` edges from `start` to its straight
+/// segment.
 double run_deviation(const RingView& ring, std::uint32_t start, std::uint32_t count) {
     const Vector a = ring.at(start);
     const Vector b = ring.at(start + count);
@@ -90,25 +91,25 @@ double run_deviation(const RingView& ring, std::uint32_t start, std::uint32_t co
 
 class RingSimplifier {
 public:
-    /// `magnitude`: no coordinate is larger.
+    /// `magnitude`: an upper bound on all coordinates.
     RingSimplifier(const RingView& ring, double deviation, double longest_run, double magnitude)
         : ring_(ring),
           deviation_(deviation),
           squared_deviation_(deviation * deviation),
           squared_longest_run_(longest_run * longest_run),
-          // The sector is a little narrower than asked for, lest rounding lets a run through that
-          // the exact measure then refuses.
+          // The sector is slightly narrower than requested, so that rounding does not admit a run
+          // that the exact measure would then reject.
           reach_(deviation - 16.0 * std::numeric_limits<double>::epsilon() * magnitude) {}
 
-    /// The run that starts at position `start`, as number of edges, at most `most`.
+    /// Returns the number of edges of the run that starts at position `start`, at most `most`.
     [[nodiscard]] std::uint32_t longest_from(std::uint32_t start, std::uint32_t most) const {
-        // So far may be looked ahead for a better end than the last one found, without losing
-        // linear time where none comes.
-        constexpr std::uint32_t least_look_ahead = 8;
+        // The least look-ahead for a better end than the last one found. The bound keeps the time
+        // linear where there is none.
+        constexpr std::uint32_t min_look_ahead = 8;
         const Vector anchor = ring_.at(start);
         Sector sector;
-        // All distances are squared ones from the anchor.
-        double farthest = 0.0;  // among the vertices that are not near the anchor itself
+        // All distances are squared and measured from the anchor.
+        double farthest = 0.0;  // among the vertices outside the anchor's own neighbourhood
         std::uint32_t best = 1;
         Vector before = anchor;
         for (std::uint32_t count = 1; count <= most; ++count) {
@@ -120,11 +121,11 @@ public:
                 break;
             }
             before = vertex;
-            // As an end, v must be in the sector of the vertices before it, and no nearer than
+            // As an end, v must lie in the sector of the vertices before it and be no nearer than
             // any of them: then all of them project onto the segment, not beyond it.
             if (distance >= farthest && sector.holds(v)) {
                 best = count;
-            } else if (count - best > best + least_look_ahead) {
+            } else if (count - best > best + min_look_ahead) {
                 break;
             }
             if (distance > squared_deviation_) {  // a nearer one is near any segment from there
@@ -137,7 +138,7 @@ public:
         return best;
     }
 
-    /// Shortens the run until it measures up, and gives the deviation it has.
+    /// Shortens the run until its deviation is allowed, and returns that deviation.
     [[nodiscard]] double measure(std::uint32_t start, std::uint32_t& count) const {
         double deviation = run_deviation(ring_, start, count);
         while (deviation > deviation_ && count > 1) {
@@ -155,14 +156,14 @@ private:
     double reach_;
 };
 
-/// The rings of a polygon, one after the other.
+/// Simplifies the rings of a polygon one after another.
 class PolygonSimplifier {
 public:
     PolygonSimplifier(const Polygon& polygon, double deviation, double longest_run,
                       std::vector<SimplifiedEdge>& edges)
         : polygon_(polygon), deviation_(deviation), longest_run_(longest_run), edges_(edges) {}
 
-    /// Calls `simplify_ring(ring, size)` for each ring, which is then the one at hand.
+    /// Calls `simplify_ring(ring, size)` for each ring, after making it the current one.
     template <class SimplifyRing>
     void for_rings(const SimplifyRing& simplify_ring) {
         for (std::uint32_t ring = 0; ring < polygon_.ring_count(); ++ring) {
@@ -172,7 +173,7 @@ public:
         }
     }
 
-    /// Appends the runs of the edges first, ..., end - 1 of the ring.
+    /// Appends the runs of edges first, ..., end - 1 of the current ring.
     void append_runs(std::uint32_t first, std::uint32_t end) const {
         const RingSimplifier simplifier(view_, deviation_, longest_run_, polygon_.radius());
         for (std::uint32_t start = first; start < end;) {
@@ -185,7 +186,7 @@ public:
         }
     }
 
-    /// Appends one edge for the edges first, ..., end - 1.
+    /// Appends one edge for edges first, ..., end - 1.
     void append(std::uint32_t first, std::uint32_t end, double deviation) const {
         edges_.push_back(
             {begin_ + first, end == view_.size() ? begin_ : begin_ + end, end - first, deviation});
@@ -196,7 +197,7 @@ private:
     double deviation_;
     double longest_run_;
     std::vector<SimplifiedEdge>& edges_;
-    RingView view_;  // of the ring at hand
+    RingView view_;  // of the current ring
     std::uint32_t begin_ = 0;
 };
 
@@ -209,7 +210,7 @@ void simplify(const Polygon& polygon, double deviation, double longest_run,
         [&](std::uint32_t, std::uint32_t size) { simplifier.append_runs(0, size); });
 }
 
-void simplify_near(const PlacedPolygon& placed, const Box& window, double deviation,
+void simplify_near(const TransformedPolygon& placed, const Box& window, double deviation,
                    double longest_run, std::vector<SimplifiedEdge>& edges) {
     const Polygon& polygon = placed.polygon();
     PolygonSimplifier simplifier(polygon, deviation, longest_run, edges);

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/curve.hpp>
 
@@ -13,11 +13,11 @@
 #include <string>
 #include <utility>
 
-// A curve's piece is replaced by its chord where the piece is proven to be near it. Two bounds hold
-// for every piece; the smaller one counts:
-// - both run from end to end in the same parameter, and at no parameter are they farther apart than
-//   the second derivative allows. This holds for loops and cusps too.
-// - where the piece does not leave the strip across the chord, it is no farther from the chord than
+// A piece of a curve is replaced by its chord where the piece is proven to be near it. Two bounds
+// hold for every piece; the smaller one counts:
+// - both run from end to end in the same parameter, and the second derivative bounds their distance
+//   at every parameter. This holds for loops and cusps too.
+// - a piece that stays in the strip perpendicular to the chord is no farther from the chord than
 //   from the chord's line, and covers all of it.
 namespace nearfield {
 namespace {
@@ -37,7 +37,7 @@ std::string number(double value) {
 }
 
 [[noreturn]] void refuse(const std::string& message) {
-    throw Failure({StatusCode::invalid_shape, message});
+    throw StatusException({StatusCode::invalid_shape, message});
 }
 
 /// Half of one minus the cosine of an angle, without cancellation.
@@ -52,7 +52,7 @@ struct CubicPiece {
 
     [[nodiscard]] const Vector& end() const { return points[3]; }
 
-    /// How far it is from its chord at the most.
+    /// An upper bound on the distance from the chord.
     [[nodiscard]] double deviation() const {
         const auto& [p, q, r, s] = points;
         // An eighth of the largest second derivative, which is linear: largest at an end.
@@ -66,8 +66,8 @@ struct CubicPiece {
               std::max(along_q, along_r) <= squared)) {
             return by_derivative;
         }
-        // 3 t (1-t)^2 and 3 t^2 (1-t) weigh the inner points' distances: together at most 3/4, and
-        // at most 4/9 each.
+        // The inner points' distances have weights 3 t (1-t)^2 and 3 t^2 (1-t): together at most
+        // 3/4, and at most 4/9 each.
         const double length = std::sqrt(squared);
         const double side_q = cross(chord, q - p) / length;
         const double side_r = cross(chord, r - p) / length;
@@ -87,7 +87,7 @@ struct CubicPiece {
     }
 };
 
-/// A part of an ellipse, as CurveSegment has it.
+/// A part of an ellipse, in the form of CurveSegment.
 struct ArcPiece {
     Vector start;
     Vector to;
@@ -105,12 +105,12 @@ struct ArcPiece {
     }
 
     [[nodiscard]] double deviation() const {
-        // A whole turn has no chord, and a third of one is coarse enough for anything.
+        // A whole turn has no chord; a third of a turn is the coarsest piece ever needed.
         if (half_sweep > 0.34 * pi) {
             return infinity;
         }
-        // Seen from where the ellipse is a unit circle, the arc is off its chord by up to one minus
-        // the cosine of half the sweep, in the direction of the apex.
+        // In coordinates where the ellipse is a unit circle, the arc deviates from its chord by up
+        // to one minus the cosine of half the sweep, in the direction of the apex.
         const double rise = 2.0 * half_versine(half_sweep);
         const double by_parameter = rise * apex.norm();
         const double squared = along.squaredNorm();
@@ -131,7 +131,7 @@ struct ArcPiece {
              {middle, to, cosine * apex + sine * along, cosine * along - sine * apex, quarter}}};
     }
 
-    /// The larger half axis of a circle, to rounding; 0 for any other ellipse.
+    /// The radius of a circle, up to rounding; 0 for any other ellipse.
     [[nodiscard]] double radius() const {
         constexpr double rounding = 1e-12;
         const double largest = std::max(apex.norm(), along.norm());
@@ -146,7 +146,7 @@ double largest_of(const Vector2& v) {
     return std::max(std::abs(v.x), std::abs(v.y));
 }
 
-/// The largest coordinate a segment's points and their computation go through.
+/// The largest coordinate of a segment's points and of their computation.
 double magnitude(const CurveSegment& segment) {
     double result = largest_of(segment.to);
     if (segment.kind == CurveSegment::Kind::cubic) {
@@ -159,7 +159,7 @@ double magnitude(const CurveSegment& segment) {
 }
 
 bool usable(const Vector2& v) {
-    // False for what is not a number, too.
+    // Also false for NaN.
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
 }
 
@@ -168,7 +168,7 @@ bool usable(const CurveSegment& segment) {
            usable(segment.apex) && usable(segment.along);
 }
 
-/// Checks all numbers of a path; returns the largest.
+/// Checks all numbers of a path; returns the largest magnitude.
 double checked_magnitude(const CurvePath& path) {
     double largest = 0.0;
     const std::span<const CurveContour> contours = path.contours();
@@ -194,7 +194,7 @@ double checked_magnitude(const CurvePath& path) {
 
 class Tessellator {
 public:
-    /// `target`: how far a chord may be off.
+    /// `target`: the allowed deviation of a chord.
     Tessellator(double target, std::uint32_t most) : target_(target), room_(most), most_(most) {}
 
     Ring ring(const CurveContour& contour) {
@@ -211,9 +211,9 @@ public:
     }
 
 private:
-    Ring divided(const CurveContour& contour, std::uint32_t least_depth) {
+    Ring divided(const CurveContour& contour, std::uint32_t min_depth) {
         ring_.clear();
-        least_depth_ = least_depth;
+        min_depth_ = min_depth;
         add(to_vector(contour.start));
         Vector from = to_vector(contour.start);
         for (const CurveSegment& segment : contour.segments) {
@@ -237,11 +237,11 @@ private:
         return std::move(ring_);
     }
 
-    /// Halving ends: each time the derivative's bound becomes a quarter, and the target is far
-    /// above rounding.
+    /// Terminates: each halving quarters the derivative's bound, and the target is far above
+    /// rounding.
     template <class Piece>
     void divide(const Piece& piece, std::uint32_t depth) {
-        if (depth >= least_depth_ && piece.deviation() <= target_) {
+        if (depth >= min_depth_ && piece.deviation() <= target_) {
             add(piece.end());
             return;
         }
@@ -256,10 +256,10 @@ private:
             divide(arc, 0);
             return;
         }
-        // Of a circle all parts are alike, so equal ones are the fewest.
+        // Parts of a circle are all alike, so equal parts are the fewest.
         const double share = std::min(1.0, target_ / (2.0 * radius));
         const double widest = std::min(4.0 * std::asin(std::sqrt(share)), 2.0 * pi / 3.0);
-        const double least = least_depth_ > 0 ? 4.0 : 1.0;
+        const double least = min_depth_ > 0 ? 4.0 : 1.0;
         const double parts = std::max(least, std::ceil(2.0 * arc.half_sweep / widest - 1e-9));
         if (parts > static_cast<double>(room_)) {
             refuse_size();
@@ -283,15 +283,15 @@ private:
     }
 
     [[noreturn]] void refuse_size() const {
-        throw Failure({StatusCode::too_large, "the tessellated shape needs more than " +
-                                                  std::to_string(most_) +
-                                                  " vertices, the limit; allow more deviation"});
+        throw StatusException({StatusCode::too_large,
+                               "the tessellated shape needs more than " + std::to_string(most_) +
+                                   " vertices, the limit; allow more deviation"});
     }
 
     double target_;
     std::size_t room_;
     std::uint32_t most_;
-    std::uint32_t least_depth_ = 0;
+    std::uint32_t min_depth_ = 0;
     Ring ring_;
 };
 
@@ -330,7 +330,7 @@ Expected<std::vector<Ring>> tessellate(const CurvePath& path, double deviation,
                                        std::uint32_t most) {
     try {
         return rings_of(path, deviation, most);
-    } catch (const Failure& failure) {
+    } catch (const StatusException& failure) {
         return failure.status();
     } catch (const std::bad_alloc&) {
         return Status(StatusCode::out_of_memory, "the host has no memory left");

@@ -15,7 +15,7 @@ inline double cross(const Vector& a, const Vector& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// A box whose sides are all farther out by so much.
+/// Moves every side of a box outwards by `by`.
 inline Box grown(Box box, double by) {
     box.min().array() -= by;
     box.max().array() += by;

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-// Highway compiles what follows once for every instruction set, by including this file again.
+// Highway compiles the rest once per instruction set by including this file again.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/geometry/vertex_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -17,24 +17,24 @@ namespace nearfield::geometry::kernels::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t most_lanes = 8;
-using Tag = hn::CappedTag<double, most_lanes>;
+constexpr std::size_t max_lanes = 8;
+using Tag = hn::CappedTag<double, max_lanes>;
 using Lanes = hn::Vec<Tag>;
 
-HWY_INLINE double least_lane(Lanes lanes) {
+HWY_INLINE double min_lane(Lanes lanes) {
     return hn::GetLane(hn::MinOfLanes(Tag(), lanes));
 }
 
-HWY_INLINE double greatest_lane(Lanes lanes) {
+HWY_INLINE double max_lane(Lanes lanes) {
     return hn::GetLane(hn::MaxOfLanes(Tag(), lanes));
 }
 
-struct PlacedPoints {
+struct TransformedPoints {
     Lanes x;
     Lanes y;
 };
 
-HWY_INLINE PlacedPoints place_lanes(const double* interleaved, const Placement& placement) {
+HWY_INLINE TransformedPoints place_lanes(const double* interleaved, const Placement& placement) {
     const Tag tag;
     Lanes x;
     Lanes y;
@@ -47,14 +47,14 @@ HWY_INLINE PlacedPoints place_lanes(const double* interleaved, const Placement& 
     return {placed(0), placed(1)};
 }
 
-/// Places points from lane to lane and calls `use(i, placed)` with those from point i on; the last
-/// lanes may hold some of the points before once more. Returns the box around them.
+/// Transforms points a vector at a time and calls `use(i, placed)` with those from point i on; the
+/// last lanes may repeat earlier points. Returns their bounding box.
 template <class Use>
 HWY_INLINE Extent place_all(const double* interleaved, std::size_t count,
                             const Placement& placement, const Use& use) {
     const Tag tag;
     const std::size_t lanes = hn::Lanes(tag);
-    double padded_points[2 * most_lanes];
+    double padded_points[2 * max_lanes];
     if (count < lanes) {
         for (std::size_t i = 0; i < lanes; ++i) {
             std::memcpy(padded_points + 2 * i, interleaved + 2 * (i < count ? i : 0),
@@ -68,14 +68,14 @@ HWY_INLINE Extent place_all(const double* interleaved, std::size_t count,
     Lanes high_y = high_x;
     for (std::size_t i = 0; i < count; i += lanes) {
         const std::size_t from = i + lanes <= count || i == 0 ? i : count - lanes;
-        const PlacedPoints placed = place_lanes(interleaved + 2 * from, placement);
+        const TransformedPoints placed = place_lanes(interleaved + 2 * from, placement);
         low_x = hn::Min(low_x, placed.x);
         low_y = hn::Min(low_y, placed.y);
         high_x = hn::Max(high_x, placed.x);
         high_y = hn::Max(high_y, placed.y);
         use(from, placed);
     }
-    return {least_lane(low_x), least_lane(low_y), greatest_lane(high_x), greatest_lane(high_y)};
+    return {min_lane(low_x), min_lane(low_y), max_lane(high_x), max_lane(high_y)};
 }
 
 Extent PlacePoints(const double* interleaved, std::size_t count, const Placement& placement,
@@ -83,31 +83,31 @@ Extent PlacePoints(const double* interleaved, std::size_t count, const Placement
     const Tag tag;
     if (count < hn::Lanes(tag)) {
         return place_all(interleaved, count, placement,
-                         [&](std::size_t, const PlacedPoints& placed) HWY_ATTR {
-                             double placed_x[most_lanes];
-                             double placed_y[most_lanes];
-                             hn::StoreU(placed.x, tag, placed_x);
-                             hn::StoreU(placed.y, tag, placed_y);
-                             std::memcpy(x, placed_x, count * sizeof(double));
-                             std::memcpy(y, placed_y, count * sizeof(double));
+                         [&](std::size_t, const TransformedPoints& placed) HWY_ATTR {
+                             double transformed_x[max_lanes];
+                             double transformed_y[max_lanes];
+                             hn::StoreU(placed.x, tag, transformed_x);
+                             hn::StoreU(placed.y, tag, transformed_y);
+                             std::memcpy(x, transformed_x, count * sizeof(double));
+                             std::memcpy(y, transformed_y, count * sizeof(double));
                          });
     }
     return place_all(interleaved, count, placement,
-                     [&](std::size_t i, const PlacedPoints& placed) HWY_ATTR {
+                     [&](std::size_t i, const TransformedPoints& placed) HWY_ATTR {
                          hn::StoreU(placed.x, tag, x + i);
                          hn::StoreU(placed.y, tag, y + i);
                      });
 }
 
 Extent FindExtent(const double* interleaved, std::size_t count, const Placement& placement) {
-    return place_all(interleaved, count, placement, [](std::size_t, const PlacedPoints&) {});
+    return place_all(interleaved, count, placement, [](std::size_t, const TransformedPoints&) {});
 }
 
 /// A range that grows vertex by vertex.
 struct GrowingRange {
     Extent box{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    double sum = 0.0;  // no number where a coordinate is none
+    double sum = 0.0;  // NaN if any coordinate is not finite
     double length = 0.0;
 
     HWY_INLINE void add(const double* vertex, const double* next) {
@@ -126,7 +126,7 @@ VertexRange FindRange(const double* interleaved, std::size_t count) {
     GrowingRange range;
     std::size_t i = 0;
     if (const std::size_t step = lanes / 2; step > 0 && count > step) {
-        // x and y by turns, as they stand. Times zero, a coordinate that is infinite is no number.
+        // x and y alternate, as in memory. Zero times an infinite coordinate is NaN.
         const Lanes zero = hn::Zero(tag);
         Lanes low = hn::Set(tag, std::numeric_limits<double>::infinity());
         Lanes high = hn::Neg(low);
@@ -140,8 +140,8 @@ VertexRange FindRange(const double* interleaved, std::size_t count) {
             sum = hn::Add(sum, hn::Mul(vertices, zero));
             length = hn::Add(length, hn::Abs(hn::Sub(next, vertices)));
         }
-        double lows[most_lanes];
-        double highs[most_lanes];
+        double lows[max_lanes];
+        double highs[max_lanes];
         hn::StoreU(low, tag, lows);
         hn::StoreU(high, tag, highs);
         for (std::size_t lane = 0; lane < lanes; lane += 2) {
@@ -188,7 +188,7 @@ HWY_EXPORT(Subtract);
 
 namespace {
 
-// Coordinates stand by turns in arrays of either.
+// x and y alternate in arrays of either type.
 static_assert(sizeof(Vector2) == 2 * sizeof(double) && sizeof(Vector) == 2 * sizeof(double));
 
 const double* interleaved(std::span<const Vector2> vertices) {

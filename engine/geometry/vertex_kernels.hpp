@@ -6,13 +6,13 @@
 #include <span>
 
 /// \file
-/// The loops over all vertices of a shape that every frame has to go through, several at once:
-/// compiled for every instruction set that the compiler knows, chosen at run time for the machine.
-/// Every one rounds the same on all of them: no product is fused with a sum.
+/// The loops over all vertices of a shape that every frame runs, vectorised: compiled for each
+/// instruction set that the compiler supports and selected at run time for the machine. Results are
+/// bit-identical on all of them: no product is fused with a sum.
 
 namespace nearfield::geometry {
 
-/// A box without any class around it.
+/// A box as plain numbers.
 struct Extent {
     double low_x = 0.0;
     double low_y = 0.0;
@@ -27,7 +27,7 @@ struct Extent {
     return {Vector(extent.low_x, extent.low_y), Vector(extent.high_x, extent.high_y)};
 }
 
-/// A rotation, then a translation: x is turned to `x_axis`, y to `y_axis`.
+/// A rotation, then a translation: x maps to `x_axis`, y to `y_axis`.
 struct Placement {
     double x_axis[2];
     double y_axis[2];
@@ -36,22 +36,22 @@ struct Placement {
 
 namespace kernels {
 
-/// Places vertices and returns the box around them. At least one vertex; writes no more than there
-/// are.
+/// Transforms vertices, writes exactly as many coordinates, and returns their bounding box.
+/// Precondition: at least one vertex.
 [[nodiscard]] Extent place_points(std::span<const Vector> vertices, const Placement& placement,
                                   double* x, double* y);
 
-/// The box around the same points, bit for bit.
+/// Returns the bounding box of the same points, bit for bit.
 [[nodiscard]] Extent find_extent(std::span<const Vector> vertices, const Placement& placement);
 
-/// What there is to know of a ring's vertices before they are used.
+/// Properties of a ring's vertices that are checked before they are used.
 struct VertexRange {
     Extent box;
-    bool finite = true;   ///< no coordinate is infinite or no number; if not, the box says nothing
-    double length = 0.0;  ///< of the ring, along both axes together: no less than its length
+    bool finite = true;   ///< no coordinate is infinite or NaN; if false, the box is meaningless
+    double length = 0.0;  ///< the sum of |dx| + |dy|: an upper bound on the ring's length
 };
 
-/// At least one vertex.
+/// Precondition: at least one vertex.
 [[nodiscard]] VertexRange find_range(std::span<const Vector2> vertices);
 
 /// Writes vertices relative to a centre.

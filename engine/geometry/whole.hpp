@@ -5,10 +5,10 @@
 
 namespace nearfield::geometry {
 
-/// std::floor and std::ceil in line: compiled for any machine they are calls, which would take
-/// most of the time where coordinates are snapped.
+/// std::floor and std::ceil inline: compiled for a generic machine they are calls, which would
+/// dominate snapping.
 [[nodiscard]] inline double whole_below(double value) {
-    // Numbers as large as this are whole, and what is no number stays none.
+    // Numbers this large are integers, and NaN stays NaN.
     if (!(std::abs(value) < 0x1p52)) {
         return value;
     }

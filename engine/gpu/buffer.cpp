@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/buffer.hpp>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace nearfield::gpu {
 namespace {
 
-// A readback buffer is read by the processor, which is slow where the memory is not cached; an
-// upload buffer is read by the device once a frame, best from its own side.
+// The host reads a readback buffer, which is slow where the memory is not cached. The device reads
+// an upload buffer once per frame, fastest from device-local memory.
 VkMemoryPropertyFlags preferred_memory(Direction direction) {
     if (direction == Direction::none) {
         return VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
@@ -37,7 +37,7 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
                    std::to_string(capacity) + " bytes";
         });
     }
-    // The former buffer goes first, so that both never need memory at the same time.
+    // Free the former buffer first, so that both never occupy memory at the same time.
     capacity_ = 0;
     data_ = nullptr;
     buffer_.reset();
@@ -60,7 +60,7 @@ void MappedBuffer::create_buffer(std::uint64_t bytes) {
     info.size = bytes;
     info.usage = usage_;
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    // Made first: where there is no memory for it, no buffer must be lost with it.
+    // Composed first: if this allocation fails, no buffer may leak.
     const std::string what = "buffer '" + name_ + "'";
     VkBuffer buffer = VK_NULL_HANDLE;
     check(device_->functions().vkCreateBuffer(device_->handle(), &info, device_->allocator(),
@@ -95,7 +95,7 @@ void MappedBuffer::allocate_memory() {
 
 void MappedBuffer::flush() const {
     if (!coherent_) {
-        // The whole range, so that nonCoherentAtomSize needs no rounding.
+        // Flush the whole range, so that nonCoherentAtomSize needs no rounding.
         const VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr,
                                         memory_.get(), 0, VK_WHOLE_SIZE};
         check(device_->functions().vkFlushMappedMemoryRanges(device_->handle(), 1, &range),

@@ -10,26 +10,26 @@
 
 namespace nearfield::gpu {
 
-/// Which way data goes: `upload` memory is written by the host and read by the device, on the
-/// device where it can be; `readback` memory is written by the device and read by the host, cached
-/// where it can be; `none` is memory that never leaves the device.
+/// Direction of data. `upload`: memory that the host writes and the device reads, device-local if
+/// possible; `readback`: memory that the device writes and the host reads, cached if possible;
+/// `none`: memory that never leaves the device.
 enum class Direction { upload, readback, none };
 
-/// A buffer that stays mapped, where the host has to do with it, and only grows.
+/// A buffer that only grows; permanently mapped if the host accesses it.
 class MappedBuffer {
 public:
     MappedBuffer(const Device& device, VkBufferUsageFlags usage, Direction direction,
                  std::string name);
 
-    /// Makes room for `bytes` (at least one). Existing content is lost when it has to grow; must
-    /// not be called while the device uses the buffer. Returns true where the buffer was replaced.
-    /// Throws Failure (too_large) where a storage buffer would exceed what a shader can address;
-    /// after any Failure the buffer is empty.
+    /// Grows the buffer to `bytes` (at least one) if it is smaller. Growing discards its content
+    /// and must not happen while the device uses the buffer. Returns true if the buffer was
+    /// replaced. Throws StatusException (too_large) if a storage buffer would exceed what a shader
+    /// can address; after any StatusException the buffer is empty.
     bool reserve(std::uint64_t bytes);
 
     [[nodiscard]] VkBuffer handle() const { return buffer_.get(); }
     [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
-    /// Aligned to 64 bytes at least; null for Direction::none.
+    /// Aligned to at least 64 bytes; null for Direction::none.
     [[nodiscard]] std::byte* data() const { return data_; }
 
     /// Makes host writes visible to the device, or device writes to the host, where the memory is
@@ -46,7 +46,7 @@ private:
     VkBufferUsageFlags usage_;
     Direction direction_;
     std::string name_;
-    DeviceMemory memory_;  // before the buffer bound to it, so it is freed after
+    DeviceMemory memory_;  // declared before the buffer bound to it, so it is freed after
     Owned<VkBuffer> buffer_;
     std::byte* data_ = nullptr;
     std::uint64_t capacity_ = 0;

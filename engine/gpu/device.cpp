@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/requirements.hpp>
 
@@ -37,9 +37,10 @@ std::vector<std::string> null_handles(const HostDevice& host) {
 
 void refuse_if_any(std::vector<std::string> missing, const std::string& device) {
     if (!missing.empty()) {
-        throw Failure(Status(StatusCode::unsupported_device,
-                             device + " lacks what nearfield needs; each reason names one thing",
-                             std::move(missing)));
+        throw StatusException(
+            Status(StatusCode::unsupported_device,
+                   device + " lacks what nearfield needs; each reason names one thing",
+                   std::move(missing)));
     }
 }
 
@@ -114,8 +115,8 @@ void Device::load_device_functions(std::vector<std::string>& missing) {
 
 bool Device::is_usable_type(std::uint32_t type, std::uint32_t allowed,
                             VkMemoryPropertyFlags required) const {
-    // Any other property (protected, the coherent and uncached ones of AMD, ...) may only be
-    // allocated where a feature is enabled, and nothing is enabled.
+    // Memory types with any other property (protected, AMD's coherent and uncached types, ...) may
+    // only be allocated with a feature enabled, and nothing is enabled.
     constexpr VkMemoryPropertyFlags usable =
         VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
@@ -136,10 +137,11 @@ bool Device::has_memory_type(std::uint32_t allowed, VkMemoryPropertyFlags requir
 std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                   VkMemoryPropertyFlags preferred) const {
     if (!has_memory_type(allowed, required)) {
-        throw Failure(Status(StatusCode::device_error,
-                             "device '" + name_ + "' has no memory type with property flags " +
-                                 std::to_string(required) + " among the types " +
-                                 std::to_string(allowed) + " (bit mask)"));
+        throw StatusException(
+            Status(StatusCode::device_error, "device '" + name_ +
+                                                 "' has no memory type with property flags " +
+                                                 std::to_string(required) + " among the types " +
+                                                 std::to_string(allowed) + " (bit mask)"));
     }
     std::uint32_t best = 0;
     int best_score = -1;

@@ -17,7 +17,7 @@
 
 namespace nearfield::gpu {
 
-/// Bytes of device memory allocated: now, and at most so far.
+/// Bytes of allocated device memory: current and peak.
 class MemoryCount {
 public:
     void add(std::uint64_t bytes) {
@@ -33,13 +33,13 @@ private:
     std::uint64_t peak_ = 0;
 };
 
-/// A borrowed Vulkan device with its entry points and limits, and what its host wants to be called
-/// for. Immutable after construction, but for the count of memory and for shaders that are
-/// reloaded.
+/// A borrowed Vulkan device with its entry points and limits, and the host's callbacks. Immutable
+/// after construction, except for the count of memory and for reloaded shaders.
 class Device {
 public:
-    /// Looks up every entry point and checks every requirement. Throws Failure
-    /// (unsupported_device) with each missing entry point, queue capability, limit and format.
+    /// Looks up every entry point and checks every requirement. Throws StatusException
+    /// (unsupported_device) that lists each missing entry point, queue capability, limit and
+    /// format.
     explicit Device(const HostDevice& host);
 
     [[nodiscard]] const Functions& functions() const { return functions_; }
@@ -49,10 +49,10 @@ public:
     [[nodiscard]] const VkAllocationCallbacks* allocator() const {
         return allocator_ ? &*allocator_ : nullptr;
     }
-    /// For every pipeline; the host's, or none.
+    /// For every pipeline; the host's cache, or none.
     [[nodiscard]] VkPipelineCache pipeline_cache() const { return host_.pipeline_cache; }
     [[nodiscard]] bool timeline_semaphore() const { return host_.timeline_semaphore; }
-    /// vkQueueSubmit, in the way the host wants it.
+    /// vkQueueSubmit, or the host's replacement for it.
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info, VkFence fence) const;
     [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }
 #ifdef NEARFIELD_SHADER_RELOAD
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] const std::string& name() const {
         return name_;
     }
-    /// The processor itself does the work, as with lavapipe.
+    /// The device runs on the CPU, as lavapipe does.
     [[nodiscard]] bool is_software() const {
         return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     }
@@ -80,8 +80,8 @@ public:
     [[nodiscard]] const StrategySupport& strategy_support() const {
         return strategy_support_;
     }
-    /// A format of two floats that can be blended and sampled: of single precision where the device
-    /// blends that, else of half.
+    /// A format of two floats that can be blended and sampled: single precision where the device
+    /// blends it, otherwise half.
     [[nodiscard]] VkFormat gradient_format() const {
         return gradient_format_;
     }
@@ -90,17 +90,17 @@ public:
         return timestamp_bits_;
     }
 
-    /// The first memory type among `allowed` that has all of `required` and most of `preferred`.
-    /// Types that need a feature or a protected allocation are passed over. Throws Failure where
-    /// none has what is required.
+    /// The memory type among `allowed` that has all of `required` and most of `preferred`; the
+    /// first one on a tie. Skips types that need a feature or a protected allocation. Throws
+    /// StatusException if no type has what is required.
     [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                             VkMemoryPropertyFlags preferred) const;
-    /// There is one.
+    /// Returns whether such a memory type exists.
     [[nodiscard]] bool has_memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required) const;
     [[nodiscard]] VkMemoryPropertyFlags memory_flags(std::uint32_t type) const;
 
-    /// Tells the host, if it wants to know, what `words()` returns; says nothing where there is no
-    /// memory for words.
+    /// Logs the text that `words()` returns, if the host has a log callback; logs nothing if there
+    /// is no memory for the text.
     template <class Words>
     void log(LogLevel level, const Words& words) const noexcept {
         if (host_.log.write == nullptr) {
@@ -115,7 +115,8 @@ public:
         host_.log.write(host_.log.user, level, text.c_str());
     }
 
-    /// Names an object for debuggers and validation; nothing where the host has no debug utils.
+    /// Names an object for debuggers and validation; does nothing if the host did not enable debug
+    /// utils.
     template <class Object>
     void name_object(VkObjectType type, Object object, const std::string& name) const {
         set_name(type, reinterpret_cast<std::uint64_t>(object), name);
@@ -127,7 +128,7 @@ private:
     [[nodiscard]] bool is_usable_type(std::uint32_t type, std::uint32_t allowed,
                                       VkMemoryPropertyFlags required) const;
     void set_name(VkObjectType type, std::uint64_t object, const std::string& name) const;
-    /// Each fills functions_ and appends the name of every entry point that is not there.
+    /// Each fills functions_ and appends the names of missing entry points.
     void load_instance_functions(std::vector<std::string>& missing);
     void load_device_functions(std::vector<std::string>& missing);
 
@@ -147,8 +148,8 @@ private:
     std::uint32_t timestamp_bits_ = 0;
 };
 
-/// Throws Failure (device_lost, out_of_memory or device_error) unless the result is a success;
-/// `call` is the entry point, `what` the object it was for.
+/// Throws StatusException (device_lost, out_of_memory or device_error) unless the result is a
+/// success; `call` is the entry point, `what` the object it was for.
 void check(VkResult result, const char* call, std::string_view what);
 
 /// The name of a result as the specification spells it ("VK_ERROR_DEVICE_LOST").

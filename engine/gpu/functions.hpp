@@ -2,8 +2,8 @@
 
 #include <vulkan/vulkan_core.h>
 
-/// Every Vulkan entry point the library uses, by level. Nothing is linked: all of them are fetched
-/// through the host's vkGetInstanceProcAddr.
+/// Every Vulkan entry point that the library uses, by level. Nothing is linked: all of them are
+/// obtained through the host's vkGetInstanceProcAddr.
 
 #define NEARFIELD_INSTANCE_FUNCTIONS(X)         \
     X(vkGetPhysicalDeviceProperties)            \
@@ -84,7 +84,7 @@
     X(vkUpdateDescriptorSets)         \
     X(vkWaitForFences)
 
-/// Looked up where the host says its instance has VK_EXT_debug_utils.
+/// Looked up if the host says that its instance has VK_EXT_debug_utils.
 #define NEARFIELD_DEBUG_FUNCTIONS(X) \
     X(vkSetDebugUtilsObjectNameEXT)  \
     X(vkCmdBeginDebugUtilsLabelEXT)  \

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 
@@ -23,13 +23,14 @@ int rank(VkPhysicalDeviceType type) {
     }
 }
 
-// The devices whose name has the wanted part, the best kind first.
+// The devices whose name contains `wanted`, ranked by kind, best first.
 std::vector<Candidate> ranked_candidates(const Instance& instance, const std::string& wanted) {
     std::vector<Candidate> candidates = instance.candidates();
     if (candidates.empty()) {
-        throw Failure(Status(StatusCode::no_device,
-                             "the installed Vulkan drivers have no device; install one that needs "
-                             "no graphics card (package mesa-vulkan-drivers)"));
+        throw StatusException(
+            Status(StatusCode::no_device,
+                   "the installed Vulkan drivers have no device; install one that needs "
+                   "no graphics card (package mesa-vulkan-drivers)"));
     }
     std::vector<std::string> names;
     names.reserve(candidates.size());
@@ -41,9 +42,9 @@ std::vector<Candidate> ranked_candidates(const Instance& instance, const std::st
                std::string_view::npos;
     });
     if (candidates.empty()) {
-        throw Failure(Status(StatusCode::no_device,
-                             "no Vulkan device has a name with '" + wanted + "' in it",
-                             std::move(names)));
+        throw StatusException(Status(StatusCode::no_device,
+                                     "no Vulkan device has a name with '" + wanted + "' in it",
+                                     std::move(names)));
     }
     std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
         return rank(a.properties.deviceType) < rank(b.properties.deviceType);
@@ -101,10 +102,11 @@ HeadlessDevice::HeadlessDevice(const HeadlessOptions& options) {
         get_queue(host_.device, host_.queue_family, 0, &host_.queue);
         return;
     }
-    throw Failure(Status(StatusCode::unsupported_device,
-                         "no Vulkan device can be used; each reason names a device and what it "
-                         "lacks",
-                         std::move(reasons)));
+    throw StatusException(
+        Status(StatusCode::unsupported_device,
+               "no Vulkan device can be used; each reason names a device and what it "
+               "lacks",
+               std::move(reasons)));
 }
 
 HeadlessDevice::~HeadlessDevice() {

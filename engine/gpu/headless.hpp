@@ -5,11 +5,11 @@
 
 namespace nearfield::gpu {
 
-/// An instance and a device of nearfield's own, on no surface. The Vulkan loader is opened at run
-/// time, so a program that always adopts a host's device does not need one.
+/// An instance and a device of nearfield's own, without a surface. The Vulkan loader is opened at
+/// run time, so a program that always provides its own device does not need one.
 class HeadlessDevice {
 public:
-    /// Throws Failure (no_device, or unsupported_device with the reasons for every device).
+    /// Throws StatusException (no_device, or unsupported_device with the reasons for every device).
     explicit HeadlessDevice(const HeadlessOptions& options);
     ~HeadlessDevice();
     HeadlessDevice(const HeadlessDevice&) = delete;

@@ -13,7 +13,7 @@ void KeptImage::reserve(VkExtent2D extent) {
     if (extent.width == extent_.width && extent.height == extent_.height) {
         return;
     }
-    // The former image goes first, so that both never need memory at the same time.
+    // Free the former image first, so that both never occupy memory at the same time.
     extent_ = {};
     view_.reset();
     image_.reset();

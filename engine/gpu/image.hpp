@@ -8,15 +8,15 @@
 
 namespace nearfield::gpu {
 
-/// A colour image of its own memory, with a view of all of it, that only grows: for compute shaders
-/// to write, for whoever uses the library to sample and to copy from.
+/// A colour image with memory of its own and a view of all of it, which only grows: compute shaders
+/// write it, the library's user samples it and copies from it.
 class KeptImage {
 public:
     KeptImage(const Device& device, VkFormat format, std::string name);
 
-    /// Makes it at least so large along both sides. Where it has to grow content and handles are
-    /// lost; must not be called while the device uses the image. Throws Failure; the image is then
-    /// empty.
+    /// Grows the image to at least this size along both sides. Growing discards content and handles
+    /// and must not happen while the device uses the image. Throws StatusException; the image is
+    /// then empty.
     void reserve(VkExtent2D extent);
 
     [[nodiscard]] VkImage handle() const { return image_.get(); }
@@ -32,7 +32,7 @@ private:
     const Device* device_;
     VkFormat format_;
     std::string name_;
-    DeviceMemory memory_;  // before the image bound to it, so it is freed after
+    DeviceMemory memory_;  // declared before the image bound to it, so it is freed after
     Owned<VkImage> image_;
     Owned<VkImageView> view_;
     VkExtent2D extent_{};

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/instance.hpp>
 #include <engine/gpu/requirements.hpp>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t api_version = VK_API_VERSION_1_1;
 
 [[noreturn]] void fail(const std::string& message) {
-    throw Failure(Status(StatusCode::no_device, message));
+    throw StatusException(Status(StatusCode::no_device, message));
 }
 
 void* open_loader() {
@@ -22,7 +22,7 @@ void* open_loader() {
     if (library != nullptr) {
         return library;
     }
-    // The text of the name that every loader has is the one worth reporting.
+    // Report the error for the name that every loader has.
     const char* error = dlerror();
     const std::string reason = error != nullptr ? error : "dlopen gives no reason";
     library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
@@ -110,7 +110,7 @@ std::vector<Candidate> Instance::candidates() const {
     std::uint32_t count = 0;
     const VkResult result = enumerate(handle_, &count, nullptr);
     if (result == VK_ERROR_INITIALIZATION_FAILED) {
-        return {};  // how some loaders say that no driver has a device
+        return {};  // some loaders report the absence of devices this way
     }
     check(result, "vkEnumeratePhysicalDevices", "the instance");
     std::vector<VkPhysicalDevice> handles(count);

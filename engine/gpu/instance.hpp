@@ -12,19 +12,19 @@
 
 namespace nearfield::gpu {
 
-/// A physical device as found.
+/// A physical device, as enumerated.
 struct Candidate {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties{};
     Requirements requirements;
-    StrategySupport support;  ///< of a device with every feature enabled that there is
+    StrategySupport support;  ///< with every available feature of the device enabled
 };
 
-/// The Vulkan loader, opened at run time, and an instance with no layer but those the environment
-/// asks for (VK_INSTANCE_LAYERS).
+/// The Vulkan loader, opened at run time, and an instance without layers except those that the
+/// environment requests (VK_INSTANCE_LAYERS).
 class Instance {
 public:
-    /// Throws Failure (no_device) where there is no loader or no driver.
+    /// Throws StatusException (no_device) if there is no loader or no driver.
     Instance();
     ~Instance();
     Instance(const Instance&) = delete;
@@ -35,7 +35,8 @@ public:
     /// The instance has VK_EXT_debug_utils.
     [[nodiscard]] bool debug_utils() const { return debug_utils_; }
 
-    /// The entry point of a core function. Throws Failure (no_device) where the loader has none.
+    /// The entry point of a core function. Throws StatusException (no_device) if the loader has
+    /// none.
     template <class Function>
     [[nodiscard]] Function function(const char* name) const {
         return reinterpret_cast<Function>(entry_point(name));

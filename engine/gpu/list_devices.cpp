@@ -1,5 +1,5 @@
+#include <engine/base/catch_to_status.hpp>
 #include <engine/gpu/instance.hpp>
-#include <engine/guarded.hpp>
 #include <nearfield/context.hpp>
 
 #include <string>
@@ -17,8 +17,8 @@ std::string driver_text(const VkPhysicalDeviceProperties& properties) {
     constexpr std::uint32_t nvidia = 0x10DE;
     const std::uint32_t driver = properties.driverVersion;
     const std::uint32_t api = properties.apiVersion;
-    // Drivers are free in what they put here; NVIDIA alone differs from Vulkan's own packing in a
-    // way that changes the number people know.
+    // The encoding is up to the driver; NVIDIA's differs from Vulkan's own packing enough to change
+    // the well-known version number.
     const std::string version =
         properties.vendorID == nvidia
             ? dotted(driver >> 22U, (driver >> 14U) & 0xFFU, (driver >> 6U) & 0xFFU)
@@ -32,7 +32,7 @@ std::string driver_text(const VkPhysicalDeviceProperties& properties) {
 
 Expected<std::vector<DeviceReport>> list_devices() {
     std::vector<DeviceReport> reports;
-    Status status = guarded([&] {
+    Status status = catch_to_status([&] {
         const gpu::Instance instance;
         for (gpu::Candidate& candidate : instance.candidates()) {
             DeviceReport& report = reports.emplace_back();

@@ -10,8 +10,8 @@ DeviceMemory allocate_memory(const Device& device, const VkMemoryRequirements& n
     info.allocationSize = needs.size;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-    // A device's own memory is limited, and the part of it that the host can see is often small;
-    // what comes next is slower and still right.
+    // Device-local memory is limited, and its host-visible part is often small; the next best type
+    // is slower but still correct.
     std::uint32_t untried = needs.memoryTypeBits;
     do {
         info.memoryTypeIndex = device.memory_type(untried, wish.required, wish.preferred);

@@ -9,7 +9,7 @@
 
 namespace nearfield::gpu {
 
-/// A share of what Device::memory_count() counts, for as long as it lives.
+/// A share of Device::memory_count(), counted for as long as the object lives.
 class CountedBytes {
 public:
     CountedBytes() = default;
@@ -40,19 +40,19 @@ private:
 struct DeviceMemory {
     Owned<VkDeviceMemory> memory;
     CountedBytes bytes;
-    VkMemoryPropertyFlags flags = 0;  ///< of its type
+    VkMemoryPropertyFlags flags = 0;  ///< of its memory type
 
     [[nodiscard]] VkDeviceMemory get() const { return memory.get(); }
 };
 
-/// Which memory will do, and which would be best.
+/// Required and preferred properties of memory.
 struct MemoryWish {
     VkMemoryPropertyFlags required = 0;
     VkMemoryPropertyFlags preferred = 0;
 };
 
-/// Memory for what has these requirements, of the type that fulfils the wish best; where there is
-/// none left of that, of the next one. Throws Failure (out_of_memory) where no type has any left;
+/// Allocates memory that meets these requirements, from the type that fits the wish best; if that
+/// type is exhausted, from the next one. Throws StatusException (out_of_memory) if every type is.
 /// `what`: for the message; `name`: of the memory, for debuggers.
 [[nodiscard]] DeviceMemory allocate_memory(const Device& device, const VkMemoryRequirements& needs,
                                            const MemoryWish& wish, const std::string& what,

@@ -10,7 +10,8 @@ namespace {
 
 using Reasons = std::vector<std::string>;
 
-/// What may be relied on: what the device offers, as far as the instance was created for it.
+/// The usable Vulkan version: the device's, limited to the version that the instance was created
+/// for.
 std::uint32_t usable_version(const PhysicalDevice& device) {
     VkPhysicalDeviceProperties properties{};
     if (const auto get = find_function<PFN_vkGetPhysicalDeviceProperties>(

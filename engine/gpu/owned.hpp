@@ -23,7 +23,7 @@ void destroy(const Device& device, VkRenderPass object);
 void destroy(const Device& device, VkSampler object);
 void destroy(const Device& device, VkShaderModule object);
 
-/// The one owner of a Vulkan object; destroys it with its device, which must outlive it.
+/// Unique owner of a Vulkan object; destroys it with its device, which must outlive it.
 template <class Object>
 class Owned {
 public:

@@ -1,5 +1,5 @@
+#include <engine/base/stopwatch.hpp>
 #include <engine/gpu/pipeline.hpp>
-#include <engine/stopwatch.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 namespace nearfield::gpu {
 namespace {
 
-// The layout of geometry::MeshVertex. This room knows nothing of geometry, so it is said again
-// here: position (two floats), distance (a float), id (an unsigned integer), tightly packed.
+// The layout of geometry::MeshVertex, repeated here because this module does not depend on
+// geometry: position (two floats), distance (a float), id (an unsigned integer), tightly packed.
 constexpr VkVertexInputBindingDescription vertex_binding{0, 16, VK_VERTEX_INPUT_RATE_VERTEX};
 constexpr std::array<VkVertexInputAttributeDescription, 3> vertex_attributes{{
     {0, 0, VK_FORMAT_R32G32_SFLOAT, 0},
@@ -23,13 +23,14 @@ constexpr std::array<VkDynamicState, 5> dynamic_states{
     VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR, VK_DYNAMIC_STATE_STENCIL_COMPARE_MASK,
     VK_DYNAMIC_STATE_STENCIL_WRITE_MASK, VK_DYNAMIC_STATE_STENCIL_REFERENCE};
 
-// What an error is about. Made before the object is, which would be lost where there is no memory
-// for these words.
+// The subject of an error message. Composed before the object is made, which would leak if there
+// were no memory for the text.
 std::string in_words(const std::string& name) {
     return "pipeline '" + name + "'";
 }
 
-// What a pipeline is made of: in builds that reload shaders, what came of their sources since.
+// The words to make a pipeline from: in builds that reload shaders, the reloaded version if there
+// is one.
 Spirv in_use([[maybe_unused]] const Device& device, Spirv built) {
 #ifdef NEARFIELD_SHADER_RELOAD
     return device.shader_words().in_use(built);
@@ -65,8 +66,8 @@ VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
     return info;
 }
 
-// The locations that a vertex shader declares as inputs, as a bit mask. A vertex attribute that the
-// shader does not take is valid, but layers warn of each in the host's log.
+// The input locations that a vertex shader declares, as a bit mask. A vertex attribute that the
+// shader does not use is valid, but validation layers warn about each in the host's log.
 std::uint32_t input_locations(Spirv shader) {
     constexpr std::size_t header_words = 5;
     constexpr std::uint32_t op_decorate = 71;
@@ -132,7 +133,7 @@ VkPipelineRasterizationStateCreateInfo filled_triangles() {
     VkPipelineRasterizationStateCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     info.polygonMode = VK_POLYGON_MODE_FILL;
-    info.cullMode = VK_CULL_MODE_NONE;  // rings and their fans may turn either way
+    info.cullMode = VK_CULL_MODE_NONE;  // rings and their fans may have either winding
     info.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     info.lineWidth = 1.0F;
     return info;

@@ -16,19 +16,20 @@ using Spirv = std::span<const std::uint32_t>;
 [[nodiscard]] Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout,
                                                       Spirv shader, const std::string& name);
 
-/// What differs between the graphics pipelines of this library; all draw triangle lists of
-/// geometry::MeshVertex, with viewport, scissor and stencil masks and reference as dynamic state.
+/// The differences between the library's graphics pipelines. All draw triangle lists of
+/// geometry::MeshVertex, with viewport, scissor, stencil masks and stencil reference as dynamic
+/// state.
 struct GraphicsPipelineDescription {
     std::string name;
     VkRenderPass render_pass = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     Spirv vertex_shader;
-    Spirv fragment_shader;  ///< empty: no fragment shader, nothing is written to colour
-    /// How colours are combined with what is there, and which channels are written; nothing: they
-    /// replace it in all channels.
+    Spirv fragment_shader;  ///< empty: no fragment shader, no colour is written
+    /// How colours are combined with those in the image, and which channels are written; empty:
+    /// they replace the colour in all channels.
     std::optional<VkPipelineColorBlendAttachmentState> blend;
-    bool logic_or = false;    ///< colours are combined bit by bit; needs the feature logicOp
-    bool depth_test = false;  ///< write depth too
+    bool logic_or = false;    ///< colours are combined by bitwise OR; needs the feature logicOp
+    bool depth_test = false;  ///< and depth write
     VkCompareOp depth_compare = VK_COMPARE_OP_ALWAYS;
     bool stencil_test = false;
     VkCompareOp stencil_compare = VK_COMPARE_OP_ALWAYS;

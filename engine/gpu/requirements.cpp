@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/requirements.hpp>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 constexpr VkFormatFeatureFlags gradient_features =
     VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
 
-// What the base needs of formats, with optimal tiling. Alternatives stand together.
+// Formats that the base requires, with optimal tiling. Alternatives are adjacent.
 constexpr std::array<RequiredFormat, 11> format_table{{
     {VK_FORMAT_R32_UINT, "VK_FORMAT_R32_UINT", VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, 0,
      "signs and feature ids are drawn to it", false},
@@ -37,7 +37,7 @@ constexpr std::array<RequiredFormat, 11> format_table{{
     {VK_FORMAT_D24_UNORM_S8_UINT, "VK_FORMAT_D24_UNORM_S8_UINT",
      VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, 0,
      "the stencil format is for shapes that are filled by parity", false},
-    // Every device blends the second; few leave the first out.
+    // Every device blends the second; few lack the first.
     {VK_FORMAT_R32G32_SFLOAT, "VK_FORMAT_R32G32_SFLOAT", gradient_features, 0,
      "the gradient format is for gradients that are blended in it", true},
     {VK_FORMAT_R16G16_SFLOAT, "VK_FORMAT_R16G16_SFLOAT", gradient_features, 0,
@@ -70,7 +70,7 @@ VkFormatFeatureFlags optimal_features(PFN_vkGetPhysicalDeviceFormatProperties ge
     return properties.optimalTilingFeatures;
 }
 
-/// The first of some formats that has all that the table says it needs.
+/// The first of some formats that meets all of the table's requirements for it.
 VkFormat first_sufficient(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                           VkPhysicalDevice device, std::initializer_list<VkFormat> formats) {
     for (const VkFormat format : formats) {
@@ -105,8 +105,8 @@ void check_version(const PhysicalDevice& device, const VkPhysicalDevicePropertie
     }
 }
 
-/// The family asked about. Where none is, the first that has all that is needed, or the first of
-/// all, whose lack is then named.
+/// Selects the requested family. If none is requested: the first family that meets all requirements
+/// or, if there is none, the first of all, whose missing capabilities are then reported.
 void choose_queue_family(const PhysicalDevice& device,
                          const std::vector<VkQueueFamilyProperties>& families,
                          Requirements& requirements) {
@@ -138,7 +138,8 @@ void choose_queue_family(const PhysicalDevice& device,
 }
 
 void check_limits(const VkPhysicalDeviceLimits& limits, Requirements& requirements) {
-    // A device below them could not be trusted with the rest.
+    // Every conformant device meets these limits; one that does not cannot be trusted otherwise
+    // either.
     requirements.limits = {
         {"subPixelPrecisionBits", 4, limits.subPixelPrecisionBits,
          "vertices are snapped to the sub-pixel grid"},
@@ -186,11 +187,12 @@ void require_vulkan_1(std::uint32_t api_version, const char* structure) {
     const bool of_vulkan =
         VK_API_VERSION_VARIANT(api_version) == 0 && VK_API_VERSION_MAJOR(api_version) == 1;
     if (api_version != 0 && !of_vulkan) {
-        throw Failure({StatusCode::invalid_settings,
-                       std::string(structure) + "::api_version is " + std::to_string(api_version) +
-                           ", which is no version of Vulkan 1 but " + version_text(api_version) +
-                           " of variant " + std::to_string(VK_API_VERSION_VARIANT(api_version)) +
-                           "; give VkApplicationInfo::apiVersion, or leave it 0"});
+        throw StatusException(
+            {StatusCode::invalid_settings,
+             std::string(structure) + "::api_version is " + std::to_string(api_version) +
+                 ", which is no version of Vulkan 1 but " + version_text(api_version) +
+                 " of variant " + std::to_string(VK_API_VERSION_VARIANT(api_version)) +
+                 "; give VkApplicationInfo::apiVersion, or leave it 0"});
     }
 }
 

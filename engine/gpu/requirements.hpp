@@ -10,19 +10,19 @@
 
 namespace nearfield::gpu {
 
-/// Throws Failure (invalid_settings) for an api_version, of that structure, which is none of
-/// Vulkan 1: one never set, or of another interface that counts likewise.
+/// Throws StatusException (invalid_settings) if the api_version of the named structure is not a
+/// version of Vulkan 1: one that was never set, or belongs to another API with the same numbering.
 void require_vulkan_1(std::uint32_t api_version, const char* structure);
 
-/// Fills in what the base needs: version, queue family, limits, formats, and all that is unmet.
+/// Fills in the base requirements: version, queue family, limits, formats, and everything unmet.
 /// Handles must not be null. Creates nothing.
 void survey_base(const PhysicalDevice& device, Requirements& requirements);
 
 /// Fills in the optional parts; after survey_base().
 void survey_optional_parts(const PhysicalDevice& device, Requirements& requirements);
 
-/// Looks an entry point up by each name in turn: the core one, then its alias. Null where the
-/// loader knows none.
+/// Looks an entry point up by each name in turn: the core name, then its alias. Null if the loader
+/// knows none.
 template <class Function, class... Names>
 [[nodiscard]] Function find_function(const PhysicalDevice& device, const Names*... names) {
     PFN_vkVoidFunction found = nullptr;
@@ -33,13 +33,13 @@ template <class Function, class... Names>
 [[nodiscard]] std::vector<VkQueueFamilyProperties> queue_families(
     PFN_vkGetPhysicalDeviceQueueFamilyProperties get, VkPhysicalDevice device);
 
-/// The combined depth-stencil format to use for stencils, VK_FORMAT_UNDEFINED where the device has
-/// none that can be an attachment.
+/// The combined depth-stencil format used for stencils; VK_FORMAT_UNDEFINED if the device has none
+/// that can be an attachment.
 [[nodiscard]] VkFormat find_stencil_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                                            VkPhysicalDevice physical_device);
 
-/// A format of two floats that can be blended and sampled, the more precise one if there is a
-/// choice; VK_FORMAT_UNDEFINED where the device has none.
+/// A format of two floats that can be blended and sampled, the more precise one if there are
+/// several; VK_FORMAT_UNDEFINED if the device has none.
 [[nodiscard]] VkFormat find_gradient_format(PFN_vkGetPhysicalDeviceFormatProperties get_properties,
                                             VkPhysicalDevice physical_device);
 

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/device.hpp>
 
 namespace nearfield::gpu {
@@ -20,8 +20,9 @@ StatusCode code_of(VkResult result) {
 
 void check(VkResult result, const char* call, std::string_view what) {
     if (result < VK_SUCCESS) {
-        throw Failure(Status(code_of(result), std::string(call) + " failed with " +
-                                                  to_string(result) + " for " + std::string(what)));
+        throw StatusException(Status(
+            code_of(result),
+            std::string(call) + " failed with " + to_string(result) + " for " + std::string(what)));
     }
 }
 

@@ -7,13 +7,13 @@
 
 namespace nearfield::gpu {
 
-/// SPIR-V that shaders were reloaded with, in place of what the library was built with; only in
-/// builds that reload shaders.
+/// Reloaded SPIR-V that replaces what the library was built with; only in builds that reload
+/// shaders.
 class ShaderWords {
 public:
     using Words = std::span<const std::uint32_t>;
 
-    /// What to make a pipeline of, for words that the library was built with.
+    /// The words to make a pipeline from, given those that the library was built with.
     [[nodiscard]] Words in_use(Words built) const {
         const auto reloaded = reloaded_.find(built.data());
         return reloaded == reloaded_.end() ? built : Words(reloaded->second);
@@ -23,7 +23,7 @@ public:
     }
 
 private:
-    std::map<const std::uint32_t*, std::vector<std::uint32_t>> reloaded_;  // by what was built
+    std::map<const std::uint32_t*, std::vector<std::uint32_t>> reloaded_;  // by the built words
 };
 
 }  // namespace nearfield::gpu

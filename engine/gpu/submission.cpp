@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/submission.hpp>
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace nearfield::gpu {
 void check_semaphores(const Device& device, const nearfield::Submission& order) {
     const auto refuse_if = [](bool wrong, const char* list, std::size_t i, const char* why) {
         if (wrong) {
-            throw Failure(
+            throw StatusException(
                 {StatusCode::invalid_submission,
                  std::string("Submission::") + list + '[' + std::to_string(i) + ']' + why});
         }
@@ -140,12 +140,12 @@ void Submission::wait_to_the_end() noexcept {
     const auto out_of_memory = [](VkResult result) {
         return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     };
-    // A driver without the memory to wait may have enough to be asked. One that has neither for so
-    // long will not have it later.
-    constexpr int most_refusals = 1000;
+    // A driver without memory for a wait may still answer a status query. If both fail this many
+    // times, later attempts will fail, too.
+    constexpr int max_refusals = 1000;
     int refusals = 0;
-    while (refusals < most_refusals && out_of_memory(functions.vkWaitForFences(
-                                           device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX))) {
+    while (refusals < max_refusals && out_of_memory(functions.vkWaitForFences(
+                                          device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX))) {
         const VkResult status = functions.vkGetFenceStatus(device_->handle(), fence);
         if (out_of_memory(status)) {
             ++refusals;

@@ -9,29 +9,28 @@
 
 namespace nearfield::gpu {
 
-/// Throws Failure (invalid_submission) where a semaphore is null, no stage waits, or a value is
-/// given of a timeline semaphore that the host did not say it enabled.
+/// Throws StatusException (invalid_submission) if a semaphore is null, a wait has no stage, or a
+/// value is given for a timeline semaphore although the host did not declare the feature enabled.
 void check_semaphores(const Device& device, const nearfield::Submission& order);
 
-/// A command buffer and the fence of its submission, used over and over.
+/// A reusable command buffer and the fence of its submission.
 class Submission {
 public:
     explicit Submission(const Device& device);
 
-    /// Starts recording anew. The former submission must have been waited for.
+    /// Starts a new recording. The former submission must have been waited for.
     VkCommandBuffer begin();
     /// Ends recording and submits, with the semaphores of `order`.
     void submit(const nearfield::Submission& order = {});
-    /// Submits nothing but the semaphores of `order`, where there are any; there is nothing to wait
-    /// for then.
+    /// Submits only the semaphores of `order`, if there are any; then there is nothing to wait for.
     void submit_semaphores(const nearfield::Submission& order);
-    /// Whether the device has done the work, without waiting. True where that cannot be said:
-    /// wait() then says why, and does not wait either.
+    /// Returns, without waiting, whether the device has finished the work. True if the status
+    /// cannot be queried: wait() then reports the error and does not wait either.
     [[nodiscard]] bool is_done() const;
-    /// Waits until the device has done the work.
+    /// Waits until the device has finished the work.
     void wait();
-    /// The same before all goes, whatever the driver says: returns where the work is done, where
-    /// the device is lost, and where neither can be found out.
+    /// The same before destruction, whatever the driver returns: ends when the work is done, the
+    /// device is lost, or neither can be determined.
     void wait_to_the_end() noexcept;
 
 private:
@@ -42,7 +41,7 @@ private:
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
     Owned<VkFence> fence_;
 
-    // Of the submission that is being made, as Vulkan wants them.
+    // Semaphores of the submission in progress, in Vulkan's form.
     std::vector<VkSemaphore> waits_;
     std::vector<VkPipelineStageFlags> wait_stages_;
     std::vector<std::uint64_t> wait_values_;

@@ -1,6 +1,6 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
+#include <engine/base/versioned.hpp>
 #include <engine/gpu/requirements.hpp>
-#include <engine/growable.hpp>
 
 #include <cstddef>
 #include <cstring>
@@ -11,9 +11,10 @@ namespace {
 
 void refuse_null(bool present, const char* name) {
     if (!present) {
-        throw Failure({StatusCode::invalid_settings, std::string("PhysicalDevice::") + name +
-                                                         " is null, so there is nothing to "
-                                                         "ask"});
+        throw StatusException({StatusCode::invalid_settings, std::string("PhysicalDevice::") +
+                                                                 name +
+                                                                 " is null, so there is nothing to "
+                                                                 "ask"});
     }
 }
 
@@ -31,7 +32,7 @@ const OptionalPart* Requirements::find(const char* name) const noexcept {
 Expected<Requirements> requirements(const PhysicalDevice& device) {
     try {
         const PhysicalDevice asked =
-            adopted(device, "PhysicalDevice", {offsetof(PhysicalDevice, api_version)});
+            read_versioned(device, "PhysicalDevice", {offsetof(PhysicalDevice, api_version)});
         refuse_null(asked.instance != VK_NULL_HANDLE, "instance");
         refuse_null(asked.physical_device != VK_NULL_HANDLE, "physical_device");
         refuse_null(asked.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
@@ -40,7 +41,7 @@ Expected<Requirements> requirements(const PhysicalDevice& device) {
         gpu::survey_base(asked, found);
         gpu::survey_optional_parts(asked, found);
         return found;
-    } catch (const Failure& failure) {
+    } catch (const StatusException& failure) {
         return failure.status();
     } catch (const std::exception& error) {
         return Status(StatusCode::out_of_memory,

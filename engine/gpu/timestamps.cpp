@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/gpu/timestamps.hpp>
 
 #include <algorithm>
@@ -54,9 +54,9 @@ void Timestamps::begin(VkCommandBuffer commands, const char* name) {
         return;
     }
     if (names_.size() == capacity_) {
-        throw Failure(Status(StatusCode::device_error,
-                             std::string("no timestamps left for pass '") + name + "': there are " +
-                                 std::to_string(capacity_) + " pairs"));
+        throw StatusException(Status(StatusCode::device_error,
+                                     std::string("no timestamps left for pass '") + name +
+                                         "': there are " + std::to_string(capacity_) + " pairs"));
     }
     const auto query = static_cast<std::uint32_t>(2 * names_.size());
     names_.push_back(name);
@@ -85,9 +85,9 @@ void Timestamps::collect(std::vector<PassTime>& times) const {
             VK_QUERY_RESULT_64_BIT);
         check(result, "vkGetQueryPoolResults", name);
         if (result == VK_NOT_READY) {
-            return;  // a driver that drops timestamps takes no answer away
+            return;  // a driver that drops timestamps does not invalidate results
         }
-        // Modulo the valid bits the difference is right across a wrap of the counter too.
+        // Modulo the valid bits, the difference is correct across a wrap of the counter, too.
         const std::uint64_t elapsed = (ticks[1] - ticks[0]) & mask;
         add(times, name, static_cast<double>(elapsed) * milliseconds_per_tick);
         query += 2;

@@ -10,23 +10,24 @@
 
 namespace nearfield::gpu {
 
-/// Times the passes of one submission by a pair of timestamps each. Does nothing where the queue
+/// Times the passes of one submission with a pair of timestamps each. Does nothing if the queue
 /// family has no timestamps.
 class Timestamps {
 public:
-    /// Room for `capacity` passes.
+    /// Reserves timestamps for `capacity` passes.
     Timestamps(const Device& device, std::uint32_t capacity);
 
-    /// Makes room for at least so many. Not while the device uses them.
+    /// Grows to at least `capacity` passes. Must not be called while the device uses the
+    /// timestamps.
     void reserve(std::uint32_t capacity);
 
-    /// Forgets what was measured; first in the command buffer, outside any render pass.
+    /// Discards earlier measurements; first in the command buffer, outside any render pass.
     void reset(VkCommandBuffer commands);
     void begin(VkCommandBuffer commands, const char* name);
     void end(VkCommandBuffer commands);
 
-    /// After the submission's fence: adds this submission's times to `times`, pass by pass, by
-    /// name. A time below 0 there stands for a pass that has not run yet.
+    /// Call after the submission's fence: adds this submission's times to `times`, pass by pass, by
+    /// name. A negative time in `times` marks a pass that has not run yet.
     void collect(std::vector<PassTime>& times) const;
 
 private:

@@ -7,14 +7,14 @@ namespace nearfield::graph {
 
 namespace {
 
-// Those that every device has without a feature.
+// The stages that every device has without a feature.
 constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                                                   VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 
-// Attachments read as well as they write: loading, blending, logic operations and tests look at
-// what was there. All reads of images share one layout and all reads of one kind of resource differ
-// in their stages, which lets a read after a read do without a second look at the layout.
+// Attachments are read as well as written: load operations, blending, logic operations and tests
+// depend on the previous content. All reads of images share one layout, and all reads of one kind
+// of resource differ in their stages; so a read after a read needs no check of the layout.
 constexpr std::array<AccessTraits, 12> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,

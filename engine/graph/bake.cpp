@@ -8,7 +8,7 @@ namespace nearfield::graph {
 
 namespace {
 
-/// Colours in the order of declaration, then depth-stencil.
+/// Finds the attachments of a pass: colours in the order of declaration, then depth-stencil.
 void find_attachments(const Graph& graph, const BakedGraph& baked, std::uint32_t position,
                       BakedPass& pass) {
     for (const Use& use : graph.passes()[pass.pass].uses) {

@@ -9,7 +9,7 @@
 
 namespace nearfield::graph {
 
-/// A dependency put before a pass (or, after the last pass, towards the host).
+/// A dependency placed before a pass or, after the last pass, towards the host.
 struct Barrier {
     std::uint32_t resource = 0;
     VkPipelineStageFlags source_stages = 0;
@@ -18,18 +18,18 @@ struct Barrier {
     VkAccessFlags destination_access = 0;
     VkImageLayout old_layout = VK_IMAGE_LAYOUT_UNDEFINED;  // images only
     VkImageLayout new_layout = VK_IMAGE_LAYOUT_UNDEFINED;  // images only
-    /// The image follows another one in its memory that wrote last: the source is that other
-    /// image's write, so the access masks have to hold for memory in general.
+    /// Another image in the same memory was written last. The source is that other image's write,
+    /// so the access masks have to apply to memory in general.
     bool takes_over_memory = false;
 };
 
-/// An attachment of a graphics pass. Its layout is the attachment's own all through the render
+/// An attachment of a graphics pass. It stays in the layout of its access throughout the render
 /// pass; barriers do the transitions.
 struct Attachment {
     std::uint32_t resource = 0;
     Access access{};
     bool load = false;   ///< the former content is needed
-    bool store = false;  ///< somebody reads it later
+    bool store = false;  ///< a later pass reads it
 };
 
 struct BakedPass {
@@ -39,10 +39,10 @@ struct BakedPass {
     VkExtent2D extent{};                  // graphics passes: common extent of the attachments
 };
 
-/// The memory slot of what needs no memory of the graph's: buffers, and images that nobody uses.
+/// The memory slot of resources that need no memory from the graph: buffers, and unused images.
 inline constexpr std::uint32_t no_memory_slot = UINT32_MAX;
 
-/// When a transient image is in use, as positions in the order of execution, and where it lives.
+/// When a transient image is in use, as positions in the order of execution, and its memory.
 struct Lifetime {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
@@ -52,7 +52,7 @@ struct Lifetime {
     std::uint32_t memory_slot = no_memory_slot;
 };
 
-/// A graph ready to be executed: order, barriers, attachments, lifetimes.
+/// A graph ready for execution: order, barriers, attachments, lifetimes.
 struct BakedGraph {
     std::vector<BakedPass> passes;    // in order of execution
     std::vector<Lifetime> lifetimes;  // by resource
@@ -60,11 +60,11 @@ struct BakedGraph {
     std::uint32_t memory_slots = 0;
 };
 
-/// Bakes a graph. Refuses, naming pass and resource:
-/// a cycle; a read of a version that nobody wrote; two passes that write the same version; a read
-/// of a version that is not the newest but whose successor's writer comes before (a stale handle);
-/// an access that does not fit the kind of resource or pass; attachments of different extents; a
-/// graphics pass without attachment; a pass that uses one resource twice.
+/// Bakes a graph. Rejects, naming pass and resource: a cycle; a read of a version that nothing
+/// wrote; two passes that write the same version; a read of a version that is not the newest but
+/// whose successor's writer comes before (a stale handle); an access that does not fit the kind of
+/// resource or pass; attachments of different extents; a graphics pass without attachment; a pass
+/// that uses one resource twice.
 [[nodiscard]] Expected<BakedGraph> bake(const Graph& graph);
 
 }  // namespace nearfield::graph

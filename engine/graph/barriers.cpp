@@ -8,12 +8,12 @@ namespace nearfield::graph {
 
 namespace {
 
-/// What has happened to a resource so far, as far as a later use has to wait for it.
+/// The earlier accesses to a resource that a later use may have to wait for.
 struct History {
     VkPipelineStageFlags write_stages = 0;  // of the last write
     VkAccessFlags write_access = 0;
     VkPipelineStageFlags read_stages = 0;  // of all reads since
-    std::uint32_t readers = 0;             // their accesses, a bit each
+    std::uint32_t readers = 0;             // their accesses, one bit each
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
@@ -22,9 +22,9 @@ struct Source {
     VkAccessFlags access = 0;
 };
 
-/// What a write has to wait for. Reads wait for the write before them, so waiting for the reads is
-/// enough; the write was made available to them already, and a read leaves nothing to make
-/// available: execution alone matters.
+/// The source of a barrier before a write. Reads wait for the write before them, so waiting for the
+/// reads is enough; that write was made available to them already, and a read leaves nothing to
+/// make available: an execution dependency suffices.
 Source before_write(const History& history) {
     if (history.read_stages != 0) {
         return {history.read_stages, 0};
@@ -43,8 +43,8 @@ Barrier make_barrier(std::uint32_t resource, Source source, const AccessTraits& 
             .new_layout = access.layout};
 }
 
-/// What the last use before the graph leaves behind.
-History history_of(const Outside& outside) {
+/// The history that the last use before the graph leaves.
+History history_of(const ExternalAccess& outside) {
     History history;
     if (outside.before) {
         const AccessTraits& former = traits(*outside.before);
@@ -58,10 +58,9 @@ History history_of(const Outside& outside) {
     return history;
 }
 
-/// The barrier that a write needs, if any. The first use of an image is a write; it always needs
-/// one, for the layout, and has its source filled in later, when all histories are known. The first
-/// write of a buffer needs none: whoever handed the buffer over has waited for the fence of its
-/// former use.
+/// The barrier that a write needs, if any. The first use of an image is a write; it always needs a
+/// barrier for the layout, whose source is filled in later, when all histories are known. The first
+/// write of a buffer needs none: the buffer's owner has waited for the fence of its former use.
 std::optional<Barrier> write(History& history, std::uint32_t resource, Access access) {
     const AccessTraits& wanted = traits(access);
     const Source source = before_write(history);
@@ -75,9 +74,9 @@ std::optional<Barrier> write(History& history, std::uint32_t resource, Access ac
     return barrier;
 }
 
-/// The barrier that a read needs, if any. None where an earlier read of the same kind has waited
-/// for the write; none where there was no write, for then the host wrote the buffer, and
-/// vkQueueSubmit makes host writes before it visible to all the commands it submits.
+/// The barrier that a read needs, if any. None if an earlier read of the same kind has waited for
+/// the write. None if there was no write: then the host wrote the buffer, and vkQueueSubmit makes
+/// earlier host writes visible to all the commands it submits.
 std::optional<Barrier> read(History& history, std::uint32_t resource, Access access) {
     const AccessTraits& wanted = traits(access);
     const std::uint32_t reader = 1U << static_cast<std::uint32_t>(access);
@@ -93,9 +92,9 @@ std::optional<Barrier> read(History& history, std::uint32_t resource, Access acc
     return barrier;
 }
 
-/// The first use of an image waits for the last use of its memory: by the image before it in the
-/// slot or, for the slot's first image, by the slot's last one in the execution before this, which
-/// may still be under way. The content is not wanted, so the old layout stays undefined.
+/// Makes the first use of an image wait for the last use of its memory: by the image before it in
+/// the slot or, for the slot's first image, by the slot's last image in the previous execution,
+/// which may still be running. The content is not needed, so the old layout stays undefined.
 void wait_for_memory(BakedGraph& baked, const std::vector<History>& histories,
                      const std::vector<std::uint32_t>& images_in_slot) {
     std::uint32_t former = images_in_slot.back();
@@ -106,9 +105,9 @@ void wait_for_memory(BakedGraph& baked, const std::vector<History>& histories,
                          [image](const Barrier& other) { return other.resource == image; });
         Source source = before_write(histories[former]);
         barrier->takes_over_memory = former != image && source.access != 0;
-        // The image's own last write, in the execution before, was made available when the next
-        // image took the memory over. The validation layer of 1.3.239 forgets that across the chain
-        // of barriers unless the write is named here as well.
+        // The image's own last write, in the previous execution, was made available when the next
+        // image took over the memory. The validation layer 1.3.239 loses track of that across the
+        // chain of barriers unless the write is named here as well.
         if (const Source own = before_write(histories[image]); own.access != 0) {
             source.stages |= own.stages;
             source.access |= own.access;

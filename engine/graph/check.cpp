@@ -33,7 +33,7 @@ Status check_image(const Resource& resource) {
     return {};
 }
 
-/// Why the use does not fit; nothing where it does.
+/// The reason why a use does not fit its resource or pass, if it does not.
 std::optional<string> misfit(PassKind kind, const Resource& resource, const Use& use) {
     const AccessTraits& access = traits(use.access);
     if (access.of_image != resource.is_image) {

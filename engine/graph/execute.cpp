@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/graph/access.hpp>
 #include <engine/graph/bake_steps.hpp>
 #include <engine/graph/execute.hpp>
@@ -112,7 +112,7 @@ void Executor::create_images(const Graph& graph) {
     }
 }
 
-/// One allocation a slot, as large as the largest of its images; each starts at its beginning.
+/// One allocation per slot, as large as its largest image; every image starts at offset 0.
 void Executor::allocate_memory(const Graph& graph) {
     std::vector<VkMemoryRequirements> slots(baked_.memory_slots, {0, 0, ~0U});
     for (std::size_t i = 0; i < images_.size(); ++i) {
@@ -189,7 +189,7 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
         call.source_stages |= barrier.source_stages;
         call.destination_stages |= barrier.destination_stages;
         const Resource& resource = graph.resources()[barrier.resource];
-        // An image barrier makes only writes through its own image available.
+        // An image barrier makes available only writes through its own image.
         if (barrier.takes_over_memory) {
             call.memory.push_back({.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                    .pNext = nullptr,
@@ -252,16 +252,16 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
                                const BarrierCall& call) const {
     for (std::size_t i = 0; i < call.buffers.size(); ++i) {
         if (call.buffers[i].buffer == VK_NULL_HANDLE) {
-            throw Failure(graph_error("buffer '" +
-                                      graph.resources()[call.buffer_resources[i]].name() +
-                                      "' was not set before the graph was executed"));
+            throw StatusException(graph_error("buffer '" +
+                                              graph.resources()[call.buffer_resources[i]].name() +
+                                              "' was not set before the graph was executed"));
         }
     }
     for (std::size_t i = 0; i < call.images.size(); ++i) {
         if (call.images[i].image == VK_NULL_HANDLE) {
-            throw Failure(graph_error("image '" +
-                                      graph.resources()[call.image_resources[i]].name() +
-                                      "' was not set before the graph was executed"));
+            throw StatusException(graph_error("image '" +
+                                              graph.resources()[call.image_resources[i]].name() +
+                                              "' was not set before the graph was executed"));
         }
     }
     if (call.source_stages == 0) {
@@ -303,7 +303,7 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
 std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {
     Expected<BakedGraph> baked = bake(graph);
     if (!baked.ok()) {
-        throw Failure(baked.status());
+        throw StatusException(baked.status());
     }
     return std::make_unique<Executor>(device, graph, std::move(*baked));
 }

@@ -13,32 +13,32 @@
 
 namespace nearfield::graph {
 
-/// The render pass of a baked graphics pass. Pipelines are made for it; it depends on formats,
-/// load and store only, so it is compatible across extents.
+/// The render pass of a baked graphics pass, for creating its pipelines. Depends only on formats,
+/// load and store operations, so it is compatible across extents.
 [[nodiscard]] gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device,
                                                         const Graph& graph, const BakedPass& pass);
 
-/// The Vulkan objects of a baked graph: transient images in shared memory, views, render passes,
-/// framebuffers; and its execution into a command buffer. Made once per plan shape, used every
-/// frame; executing creates nothing and allocates nothing. The device must outlive it.
+/// The Vulkan objects of a baked graph (transient images in shared memory, views, render passes,
+/// framebuffers) and its execution into a command buffer. Made once per graph, used every frame;
+/// executing creates nothing and allocates nothing. The device must outlive it.
 class Executor {
 public:
     Executor(const gpu::Device& device, const Graph& graph, BakedGraph baked);
 
-    /// The buffers behind the imported handles may change from frame to frame (they grow). All have
-    /// to be set before the first execution.
+    /// Sets the buffer behind an imported handle, which may change from frame to frame since
+    /// buffers grow. All must be set before the first execution.
     void set_buffer(Handle handle, VkBuffer buffer);
-    /// The same of the images behind imported handles.
+    /// The same for the image behind an imported handle.
     void set_image(Handle handle, VkImage image);
 
-    /// What a compute shader samples: the colour, or the depth aspect.
+    /// The view that a compute shader samples: of the colour or depth aspect.
     [[nodiscard]] VkImageView sampled_view(Handle handle) const;
 
-    /// Bytes of device memory behind the transient images.
+    /// Bytes of device memory of the transient images.
     [[nodiscard]] std::uint64_t image_bytes() const { return image_bytes_; }
 
     /// Records all passes, each labelled with its name and timed. Executions that share these
-    /// images may be under way at the same time on one queue; their buffers must not be the same.
+    /// images may be in progress at the same time on one queue; their buffers must differ.
     void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
 
     [[nodiscard]] const BakedGraph& baked() const { return baked_; }
@@ -54,7 +54,7 @@ private:
         gpu::Owned<VkFramebuffer> framebuffer;
     };
 
-    /// One vkCmdPipelineBarrier, filled in ahead so that executing only hands it over.
+    /// The arguments of a vkCmdPipelineBarrier, filled in ahead of execution.
     struct BarrierCall {
         VkPipelineStageFlags source_stages = 0;
         VkPipelineStageFlags destination_stages = 0;
@@ -83,8 +83,8 @@ private:
     std::uint64_t image_bytes_ = 0;
 };
 
-/// The executor of a graph that the library makes itself, so that it bakes is an invariant; throws
-/// Failure where it does not.
+/// The executor of a graph that the library builds itself. Such a graph always bakes; throws
+/// StatusException if it does not.
 [[nodiscard]] std::unique_ptr<Executor> make_executor(const gpu::Device& device,
                                                       const Graph& graph);
 

@@ -4,7 +4,7 @@
 
 namespace nearfield::graph {
 
-/// What the graph has to know about the format of an image.
+/// The properties of an image format that the graph needs.
 struct FormatTraits {
     VkFormat format = VK_FORMAT_UNDEFINED;
     const char* name = "";
@@ -13,7 +13,7 @@ struct FormatTraits {
     [[nodiscard]] bool is_color() const { return (aspects & VK_IMAGE_ASPECT_COLOR_BIT) != 0; }
 };
 
-/// Null for a format that the graph does not know: it could not tell its aspects.
+/// Null for a format that the graph does not know, and whose aspects it cannot determine.
 [[nodiscard]] const FormatTraits* find_format(VkFormat format) noexcept;
 
 }  // namespace nearfield::graph

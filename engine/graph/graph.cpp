@@ -20,7 +20,7 @@ Handle Graph::create_image(ImageDescription description) {
     return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
 }
 
-Handle Graph::import_buffer(BufferDescription description, Outside outside) {
+Handle Graph::import_buffer(BufferDescription description, ExternalAccess outside) {
     Resource& resource = resources_.emplace_back();
     resource.imported = true;
     resource.buffer = std::move(description);
@@ -28,7 +28,7 @@ Handle Graph::import_buffer(BufferDescription description, Outside outside) {
     return {.resource = static_cast<std::uint32_t>(resources_.size() - 1), .version = 0};
 }
 
-Handle Graph::import_image(ImportedImageDescription description, Outside outside) {
+Handle Graph::import_image(ImportedImageDescription description, ExternalAccess outside) {
     Resource& resource = resources_.emplace_back();
     resource.is_image = true;
     resource.imported = true;

@@ -10,10 +10,10 @@
 
 namespace nearfield::graph {
 
-/// How a pass touches a resource. Stages, access masks, image layouts and image usages follow from
+/// How a pass accesses a resource. Stages, access masks, image layouts and image usages follow from
 /// this alone (see access.hpp).
 enum class Access : std::uint8_t {
-    color_attachment,          ///< written (and tested against what was there) as colour
+    color_attachment,          ///< written (and tested against the previous content) as colour
     depth_stencil_attachment,  ///< written and tested as depth, stencil or both
     sampled_in_compute,        ///< image, read by texel fetch in a compute shader
     storage_read_in_compute,   ///< buffer, read in a compute shader
@@ -23,14 +23,14 @@ enum class Access : std::uint8_t {
     storage_read_in_fragment,  ///< buffer, read in a fragment shader
     transfer_read,             ///< buffer, read by a copy
     storage_image_in_compute,  ///< image, written by a compute shader
-    // What happens outside any graph, between this one and its next execution (Outside).
-    handed_over_buffer,  ///< buffer, read by the shaders of whoever uses the library
-    handed_over_image,   ///< image, sampled by these shaders
+    // Uses outside any graph, between this one and its next execution (ExternalAccess).
+    handed_over_buffer,  ///< buffer, read by the shaders of the library's user
+    handed_over_image,   ///< image, sampled by the shaders of the library's user
 };
 
-/// A resource at one version. Writing gives a new version and makes the old one invalid: who reads
-/// says whose output it reads, so the order of passes follows from the handles, not from the order
-/// of declaration.
+/// A resource at one version. A write yields a new version and invalidates the old one. A reader
+/// thus names the pass whose output it reads, so the order of passes follows from the handles and
+/// not from the order of declaration.
 struct Handle {
     std::uint32_t resource = UINT32_MAX;
     std::uint32_t version = 0;
@@ -38,12 +38,12 @@ struct Handle {
     friend bool operator==(const Handle&, const Handle&) = default;
 };
 
-/// An image that lives only inside the graph. Version 0 has no content.
+/// An image that exists only inside the graph. Version 0 has no content.
 struct ImageDescription {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{};
-    /// What sampling takes its bits for, where that is another format of the same size.
+    /// Format of the view for sampling, if it differs from the image's; of the same texel size.
     VkFormat sampled_format = VK_FORMAT_UNDEFINED;
 };
 
@@ -55,33 +55,32 @@ struct BufferDescription {
     bool read_by_host = false;     ///< its last version is made visible to the host at the end
 };
 
-/// An image of the caller's, of any extent. What it holds before the graph runs is lost.
+/// An image of the caller's, of any extent. Its content from before the graph runs is lost.
 struct ImportedImageDescription {
     std::string name;
     VkFormat format = VK_FORMAT_UNDEFINED;
 };
 
-/// What touches an imported resource on the same queue before the graph and after it; left out: the
-/// host alone, which waits for a fence in between.
-struct Outside {
-    std::optional<Access> before =
-        std::nullopt;  ///< version 0 of a buffer that it writes may be read
+/// The accesses to an imported resource on the same queue before and after the graph. If omitted,
+/// only the host accesses it, and it waits for a fence in between.
+struct ExternalAccess {
+    std::optional<Access> before = std::nullopt;  ///< if it writes a buffer, version 0 may be read
     std::optional<Access> after =
         std::nullopt;  ///< the last version is made visible to it at the end
 };
 
-/// A compute pass runs outside any render pass; it may copy too.
+/// A compute pass runs outside any render pass and may also copy.
 enum class PassKind : std::uint8_t { graphics, compute };
 
 /// One use of a resource by a pass.
 struct Use {
-    Handle handle;  ///< the version the pass sees; a write produces version + 1
+    Handle handle;  ///< the version that the pass sees; a write produces version + 1
     Access access{};
     bool write = false;
 };
 
-/// Records a pass's commands. Around it the graph has already put the barriers, the render pass
-/// (for a graphics pass), the label and the timestamps.
+/// Records a pass's commands. The graph has already recorded the barriers, the start of the render
+/// pass (for a graphics pass), the label and the first timestamp.
 using Record = std::function<void(VkCommandBuffer)>;
 
 struct Pass {
@@ -91,15 +90,15 @@ struct Pass {
     Record record;
 };
 
-/// Declares, inside add_pass, what a pass reads and writes.
+/// Declares, inside add_pass, the reads and writes of a pass.
 class PassBuilder {
 public:
     explicit PassBuilder(Pass& pass) : pass_(pass) {}
 
     void read(Handle handle, Access access);
-    /// Returns the handle of the new version. The former content is kept where the version is
-    /// above 0 (or the host wrote it); a version 0 is undefined to the pass, which has to fill
-    /// what it uses.
+    /// Returns the handle of the new version. The former content is kept if the version is above 0
+    /// (or the host wrote it); a version 0 is undefined to the pass, which has to initialise the
+    /// parts it uses.
     [[nodiscard]] Handle write(Handle handle, Access access);
 
 private:
@@ -108,10 +107,10 @@ private:
 
 struct Resource {
     bool is_image = false;
-    bool imported = false;     // always, of buffers
+    bool imported = false;     // always true for buffers
     ImageDescription image;    // where is_image; without an extent where imported
     BufferDescription buffer;  // otherwise
-    Outside outside;           // where imported
+    ExternalAccess outside;    // where imported
     /// Version 0 may be read.
     [[nodiscard]] bool has_content() const {
         return buffer.written_by_host || (!is_image && outside.before.has_value());
@@ -119,14 +118,14 @@ struct Resource {
     [[nodiscard]] const std::string& name() const { return is_image ? image.name : buffer.name; }
 };
 
-/// Passes and the resources they use, as declared. Knows nothing of a device.
+/// Passes and the resources they use, as declared. Independent of any device.
 class Graph {
 public:
     Handle create_image(ImageDescription description);
-    Handle import_buffer(BufferDescription description, Outside outside = {});
-    Handle import_image(ImportedImageDescription description, Outside outside);
+    Handle import_buffer(BufferDescription description, ExternalAccess outside = {});
+    Handle import_image(ImportedImageDescription description, ExternalAccess outside);
 
-    /// `setup` is called at once with a PassBuilder; `record` whenever the graph is executed.
+    /// Calls `setup` at once with a PassBuilder, and `record` whenever the graph is executed.
     template <class Setup>
     void add_pass(std::string name, PassKind kind, Setup&& setup, Record record) {
         Pass& pass = passes_.emplace_back();

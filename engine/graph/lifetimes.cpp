@@ -8,15 +8,15 @@ namespace nearfield::graph {
 
 namespace {
 
-/// Memory that images take in turns.
+/// Memory shared by images with disjoint lifetimes.
 struct Slot {
     VkFormat memory_class = VK_FORMAT_UNDEFINED;
     std::uint32_t last = 0;
 };
 
-/// Images of one class are promised the same memory types whatever their size and use: all colour
-/// formats, and each format with depth or stencil for itself. Images of two classes may have no
-/// memory type in common, so they share no slot.
+/// Vulkan guarantees images of one class the same memory types whatever their size and usage: all
+/// colour formats form one class, and each format with depth or stencil its own. Images of two
+/// classes may have no memory type in common, so they share no slot.
 VkFormat memory_class(const ImageDescription& image) {
     return find_format(image.format)->is_color() ? VK_FORMAT_UNDEFINED : image.format;
 }
@@ -38,8 +38,8 @@ void find_uses(const Graph& graph, BakedGraph& baked) {
 
 }  // namespace
 
-/// Greedy colouring of intervals, which needs the fewest slots when the intervals come in the order
-/// of their beginnings.
+/// Greedy colouring of intervals; it needs the fewest slots if the intervals are ordered by their
+/// start.
 void find_lifetimes(const Graph& graph, BakedGraph& baked) {
     find_uses(graph, baked);
     std::vector<std::uint32_t> images;

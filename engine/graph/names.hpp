@@ -4,8 +4,8 @@
 
 #include <string>
 
-/// Vulkan's words as the graph prints them: short, bits joined by a plus, "none" where there are
-/// none, and a number for what the graph itself never sets.
+/// Short Vulkan names as the graph prints them: bits joined by a plus, "none" for no bits, and a
+/// number for values that the graph itself never sets.
 namespace nearfield::graph {
 
 [[nodiscard]] std::string stage_names(VkPipelineStageFlags stages);

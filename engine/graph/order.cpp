@@ -9,7 +9,7 @@ namespace nearfield::graph {
 
 namespace {
 
-/// `before` has to run before `after`, for the sake of a version of a resource.
+/// `before` has to run before `after` because of a version of a resource.
 struct Edge {
     std::uint32_t before = 0;
     std::uint32_t after = 0;
@@ -17,7 +17,7 @@ struct Edge {
     bool replaces = false;  ///< `after` replaces what `before` reads; else it needs its output
 };
 
-/// The pass that writes on top of a version.
+/// The pass that writes on top of each version.
 using Writers = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;
 
 class Ordering {
@@ -96,8 +96,8 @@ private:
                            version_name(use.handle) + ", which nobody wrote");
     }
 
-    /// The first pass, in the order of declaration, that waits for nothing; the number of passes
-    /// where all wait.
+    /// The first pass, in the order of declaration, that waits for nothing; the number of passes if
+    /// all wait.
     [[nodiscard]] std::uint32_t first_ready() const {
         std::vector<bool> waits = done_;
         for (const Edge& edge : edges_) {
@@ -109,7 +109,7 @@ private:
                                           waits.begin());
     }
 
-    /// All that is left waits, so going from a pass to one that it waits for ends in a circle.
+    /// All remaining passes wait, so following each to one that it waits for ends in a cycle.
     [[nodiscard]] std::vector<Edge> find_circle() const {
         std::vector<Edge> path;
         auto pass = static_cast<std::uint32_t>(std::find(done_.begin(), done_.end(), false) -

@@ -8,7 +8,8 @@
 
 namespace nearfield::graph {
 
-/// Passes in order with their barriers and attachments, then resources with lifetimes and memory.
+/// Lists passes in order with their barriers and attachments, then resources with lifetimes and
+/// memory.
 [[nodiscard]] std::string print_text(const Graph& graph, const BakedGraph& baked);
 
 /// The same as a Graphviz digraph: boxes for passes, ellipses for versions of resources.

@@ -26,10 +26,10 @@ VkAttachmentDescription describe(const Graph& graph, const Attachment& attachmen
 }
 
 /// The graph's barriers order everything around the render pass, so these two dependencies order
-/// nothing: nothing comes before TOP_OF_PIPE or after BOTTOM_OF_PIPE. They stand here because
-/// Vulkan has implicit ones where none are stated. Correctness does not hang on either kind: the
-/// implicit ones belong to layout transitions, of which this render pass has none; but they name
-/// all commands, and a driver may take them for a wait.
+/// nothing: nothing comes before TOP_OF_PIPE or after BOTTOM_OF_PIPE. They replace the implicit
+/// dependencies that Vulkan adds otherwise. Correctness needs neither: the implicit ones belong to
+/// layout transitions, of which this render pass has none; but they name all commands, so a driver
+/// may treat them as a wait.
 std::array<VkSubpassDependency, 2> no_dependencies(VkPipelineStageFlags stages) {
     return {{{.srcSubpass = VK_SUBPASS_EXTERNAL,
               .dstSubpass = 0,

@@ -33,7 +33,7 @@ void BroadPhase::find(std::span<const Box> boxes, double reach, std::vector<Pair
         order_.emplace_back(boxes[i].min()[axis], i);
     }
     std::sort(order_.begin(), order_.end());
-    // Next to each other, as they are swept over, and grown by the reach once and for all.
+    // Stored in sweep order and grown by the reach once.
     sorted_.clear();
     for (const auto& [low, index] : order_) {
         const Box& box = boxes[index];
@@ -55,7 +55,7 @@ void BroadPhase::find(std::span<const Box> boxes, double reach, std::vector<Pair
 }
 
 void BroadPhase::sort_found(std::size_t boxes, std::vector<Pair>& pairs) {
-    // By the first box each to its place; few have the same one.
+    // Counting sort by the first box, then a sort of each bucket: few pairs share a first box.
     ends_.assign(boxes + 1, 0);
     for (const Pair& pair : found_) {
         ++ends_[pair.first + 1];

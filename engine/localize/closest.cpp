@@ -8,7 +8,7 @@
 
 namespace nearfield::localize {
 
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 using geometry::Vector;
 
 struct ClosestChains::Leaves {
@@ -25,10 +25,10 @@ struct ClosestChains::Leaves {
         search.pairs_.push_back({a, squared});
     }
 
-    /// The first edge of one leaf against every vertex of the other: real distances, at a price
-    /// that grows with the edges and not with their pairs.
+    /// Tests the first edge of one leaf against every vertex of the other: true distances, at a
+    /// cost linear in the edges rather than in their pairs.
     void tighten(const LazyTree& one, std::uint32_t i, const LazyTree& other, std::uint32_t j) {
-        const PlacedPolygon& polygon = one.polygon();
+        const TransformedPolygon& polygon = one.polygon();
         const Vector start = polygon.vertex(one[i].first);
         const Vector end = polygon.vertex(polygon.polygon().next(one[i].first));
         for (std::uint32_t v = other[j].first; v < other[j].first + other[j].count; ++v) {
@@ -40,7 +40,7 @@ struct ClosestChains::Leaves {
     }
 };
 
-Effort ClosestChains::find(const PlacedPolygon& a, const PlacedPolygon& b,
+Effort ClosestChains::find(const TransformedPolygon& a, const TransformedPolygon& b,
                            const OverlapOptions& options, std::vector<Chain>& chains) {
     tree_a_.plant(a, options.height, options.volume);
     tree_b_.plant(b, options.height, options.volume);
@@ -50,7 +50,7 @@ Effort ClosestChains::find(const PlacedPolygon& a, const PlacedPolygon& b,
     PairSearch search(tree_a_, tree_b_, leaves);
     search.run();
 
-    // A little more than the bound, for the rounding of placed vertices and of squares.
+    // The bound, increased for the rounding of transformed vertices and of squares.
     const double rounding = placement_rounding(a, tree_a_[LazyTree::root].box) +
                             placement_rounding(b, tree_b_[LazyTree::root].box);
     const double limit = upper_bound() * (1.0 + 1e-12) + rounding;

@@ -8,24 +8,24 @@
 
 namespace nearfield::localize {
 
-/// Finds where the closest features of two boundaries can be: branch and bound over both lazily
-/// evaluated hierarchies, down to their leaves (section 2.1 of the paper, "closest feature pairs").
-/// Keeps its memory from call to call.
+/// Finds the parts of two boundaries that can contain the closest features: branch and bound over
+/// both lazily evaluated hierarchies, down to their leaves (section 2.1 of the paper, "closest
+/// feature pairs"). Reuses its memory between calls.
 class ClosestChains {
 public:
-    /// Appends to `chains` those parts of A's boundary, leaf by leaf and in order along its rings,
-    /// that can hold a point as near to B's boundary as any. What is left out holds none. Of the
-    /// options, `grow` has no meaning here.
-    Effort find(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+    /// Appends to `chains` the parts of A's boundary, leaf by leaf and in order along its rings,
+    /// that can contain a point closest to B's boundary. Omitted parts contain none. `options.grow`
+    /// is ignored.
+    Effort find(const geometry::TransformedPolygon& a, const geometry::TransformedPolygon& b,
                 const OverlapOptions& options, std::vector<Chain>& chains);
 
-    /// Of the last search: some two boundary points are this close together.
+    /// Of the last search: an upper bound on the distance between the boundaries.
     [[nodiscard]] double upper_bound() const;
 
 private:
     struct LeafPair {
         std::uint32_t a = 0;
-        double squared = 0.0;  // no two points of the leaves are closer
+        double squared = 0.0;  // squared lower bound on the distance between points of the leaves
     };
     struct Leaves;
 

@@ -6,8 +6,8 @@
 namespace nearfield::localize {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
 using geometry::Polygon;
+using geometry::TransformedPolygon;
 
 Node Hierarchy::root() {
     return rings_node(0, polygon_->polygon().ring_count());
@@ -33,7 +33,7 @@ Node Hierarchy::rings_node(std::uint32_t ring, std::uint32_t rings) {
     Node node{ring, rings, begin, polygon.ring_end(ring + rings - 1) - begin, 0, {}};
     for (std::uint32_t r = ring; r < ring + rings; ++r) {
         const std::uint32_t first = polygon.ring_begin(r);
-        // All of a ring's vertices are the ends of all its edges but one.
+        // The vertices of all edges but the last are all of a ring's vertices.
         node.box.extend(polygon_->chain_box(r, first, polygon.ring_end(r) - first - 1));
     }
     if (volume_ == BoundingVolume::oriented) {
@@ -59,14 +59,14 @@ Node Hierarchy::edges_node(const Node& parent, std::uint32_t first, std::uint32_
 
 void Hierarchy::add_oriented_box(Node& node) {
     if (rounding_ == 0.0) {
-        // The first node is the root, with the box of all. Axes, projections and centres round a
-        // few times more than placing a vertex does.
+        // The root comes first and has the box of everything. Axes, projections and centres round a
+        // few times more than transforming a vertex does.
         rounding_ = 4.0 * placement_rounding(*polygon_, node.box);
     }
     const std::span<const geometry::Vector> vertices = polygon_->polygon().vertices();
     const std::uint32_t end = node.first + node.count;
     if (node.rings > 1 || end < polygon_->polygon().ring_end(node.ring)) {
-        // The rings' own vertices, or those of the edges and the one where the last edge ends.
+        // All vertices of the rings, or those of the edges plus the one where the last edge ends.
         const std::uint32_t count = node.rings > 1 ? node.count : node.count + 1;
         node.oriented = oriented_box(*polygon_, vertices.subspan(node.first, count), {}, rounding_);
     } else {
@@ -76,10 +76,10 @@ void Hierarchy::add_oriented_box(Node& node) {
     }
 }
 
-double placement_rounding(const PlacedPolygon& polygon, const Box& box) {
-    // Every step of the placement (centring, rotating the centre and the vertex, adding) rounds
-    // by at most half an epsilon of the coordinates it works on, and none of these exceed the
-    // centre's and the result's by much.
+double placement_rounding(const TransformedPolygon& polygon, const Box& box) {
+    // Every step of the transform (centring, rotating the centre and the vertex, adding) rounds by
+    // at most half an epsilon of its operands, and none of these exceed the centre's and the
+    // result's magnitudes by much.
     const double magnitude = box.min().lpNorm<Eigen::Infinity>() +
                              box.max().lpNorm<Eigen::Infinity>() +
                              polygon.polygon().centre().lpNorm<Eigen::Infinity>();

@@ -11,12 +11,12 @@ namespace nearfield::localize {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
 using geometry::Polygon;
 using geometry::segments_meet;
+using geometry::TransformedPolygon;
 using geometry::Vector;
 
-/// Pairs of so few edges are tested one by one: computing smaller boxes would cost as much.
+/// Pairs with this few edges are tested by brute force: computing smaller boxes would cost as much.
 constexpr std::uint32_t leaf_edges = 8;
 
 /// The vertices of a leaf's edges in the world.
@@ -24,7 +24,7 @@ struct Leaf {
     std::array<Vector, leaf_edges + 1> vertices;
     std::uint32_t edges = 0;
 
-    Leaf(const PlacedPolygon& placed, const Node& node) : edges(node.count) {
+    Leaf(const TransformedPolygon& placed, const Node& node) : edges(node.count) {
         const Polygon& polygon = placed.polygon();
         const std::uint32_t last = node.first + node.count;
         for (std::uint32_t i = node.first; i < last; ++i) {
@@ -45,7 +45,7 @@ public:
     BoundaryContact(Hierarchy& a, Hierarchy& b, double margin, BoundingVolume volume)
         : a_(a), b_(b), margin_(margin), volume_(volume) {}
 
-    /// True where edges of the two nodes meet.
+    /// True if edges of the two nodes intersect.
     [[nodiscard]] bool meet(const Node& a, const Node& b) {
         if (!volumes_meet(a, b, margin_, volume_)) {
             ++pairs_rejected_;
@@ -56,7 +56,7 @@ public:
         if (leaf_a && leaf_b) {
             return leaves_meet(Leaf(a_.polygon(), a), Leaf(b_.polygon(), b));
         }
-        // The larger one first: both get small together, and few boxes are computed twice.
+        // Split the larger node first: both shrink together, and few boxes are computed twice.
         if (leaf_b || (!leaf_a && a.count >= b.count)) {
             const std::array<Node, 2> halves = a_.halves(a);
             return meet(halves[0], b) || meet(halves[1], b);
@@ -91,10 +91,11 @@ private:
     std::uint64_t pairs_rejected_ = 0;
 };
 
-/// True where a ring of `inner` lies in `outer`, told by one vertex of each: their boundaries do
-/// not meet.
-bool any_ring_inside(const PlacedPolygon& inner, const PlacedPolygon& outer, const Box& outer_box) {
-    // Kept, so that a frame like the one before it allocates nothing.
+/// True if a ring of `inner` lies inside `outer`, decided by one vertex of each ring. Precondition:
+/// the boundaries do not intersect.
+bool any_ring_inside(const TransformedPolygon& inner, const TransformedPolygon& outer,
+                     const Box& outer_box) {
+    // Kept per thread, so that the steady state allocates nothing.
     thread_local geometry::Containment containment;
     containment.clear();
     const Polygon& polygon = inner.polygon();
@@ -110,7 +111,7 @@ bool any_ring_inside(const PlacedPolygon& inner, const PlacedPolygon& outer, con
 
 }  // namespace
 
-bool intersects(const PlacedPolygon& a, const PlacedPolygon& b, BoundingVolume volume,
+bool intersects(const TransformedPolygon& a, const TransformedPolygon& b, BoundingVolume volume,
                 Effort* effort) {
     constexpr std::uint32_t no_limit = std::numeric_limits<std::uint32_t>::max();
     Hierarchy tree_a(a, no_limit, volume);
@@ -126,8 +127,8 @@ bool intersects(const PlacedPolygon& a, const PlacedPolygon& b, BoundingVolume v
     if (boundaries_meet || !boxes_meet(root_a.box, root_b.box, margin)) {
         return boundaries_meet;
     }
-    // Without contact of the boundaries: were a point in both shapes, so would be a boundary point
-    // of what they have in common, hence a whole ring of one of them in the other.
+    // The boundaries do not intersect. If the shapes shared a point, they would share a boundary
+    // point of their intersection, so a whole ring of one would lie inside the other.
     return any_ring_inside(a, b, root_b.box) || any_ring_inside(b, a, root_a.box);
 }
 

@@ -8,18 +8,18 @@ namespace {
 using geometry::Box;
 
 bool worth_joining(const Box& a, const Box& b) {
-    // A region costs something by itself (a tile, its border, its commands), so a fifth more area
-    // is a fair price for one region fewer.
-    constexpr double most_growth = 1.2;
-    return a.intersects(b) || a.merged(b).volume() < most_growth * (a.volume() + b.volume());
+    // A region has a fixed cost (a tile, its border, its commands), so a fifth more area is a fair
+    // price for one region fewer.
+    constexpr double max_growth = 1.2;
+    return a.intersects(b) || a.merged(b).volume() < max_growth * (a.volume() + b.volume());
 }
 
 }  // namespace
 
 void join_boxes(std::vector<Box>& boxes) {
-    // The first `joined` boxes are done: no two of them are worth joining. Each further box takes
-    // in those it joins with and, having grown, is held against all the others again. Every such
-    // round leaves a box fewer, so the whole is quadratic.
+    // The first `joined` boxes are final: no two of them are worth joining. Each further box
+    // absorbs those it joins with and, having grown, is compared with all others again. Every such
+    // pass leaves one box fewer, so the whole is quadratic.
     std::size_t joined = 0;
     for (std::size_t next = 0; next < boxes.size(); ++next) {
         Box box = boxes[next];

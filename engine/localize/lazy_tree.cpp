@@ -4,7 +4,7 @@
 
 namespace nearfield::localize {
 
-void LazyTree::plant(const geometry::PlacedPolygon& polygon, std::uint32_t height,
+void LazyTree::plant(const geometry::TransformedPolygon& polygon, std::uint32_t height,
                      BoundingVolume volume) {
     hierarchy_.emplace(polygon, height, volume);
     volume_ = volume;

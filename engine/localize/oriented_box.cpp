@@ -9,16 +9,17 @@ namespace nearfield::localize {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 using geometry::Vector;
 
 Vector turned_left(const Vector& v) {
     return {-v.y(), v.x()};
 }
 
-/// The direction in which vertices spread most: the larger eigenvector of their covariance.
+/// The direction of the largest spread of the vertices: the dominant eigenvector of their
+/// covariance.
 Vector principal_axis(const std::array<std::span<const Vector>, 2>& runs) {
-    // From one of the vertices, so that far from the polygon's centre nothing cancels.
+    // Relative to one of the vertices, so that nothing cancels far from the polygon's centre.
     const Vector origin = runs[0].front();
     Vector sum = Vector::Zero();
     double xx = 0.0;
@@ -42,7 +43,7 @@ Vector principal_axis(const std::array<std::span<const Vector>, 2>& runs) {
     return {std::cos(angle), std::sin(angle)};
 }
 
-/// How far a box reaches from its centre along a unit direction.
+/// The extent of a box from its centre along a unit direction.
 double reach(const OrientedBox& box, const Vector& direction) {
     return box.half.x() * std::abs(box.axis.dot(direction)) +
            box.half.y() * std::abs(geometry::cross(box.axis, direction));
@@ -50,7 +51,7 @@ double reach(const OrientedBox& box, const Vector& direction) {
 
 }  // namespace
 
-OrientedBox oriented_box(const PlacedPolygon& placed, std::span<const Vector> run,
+OrientedBox oriented_box(const TransformedPolygon& placed, std::span<const Vector> run,
                          std::span<const Vector> wrapped, double rounding) {
     const std::array<std::span<const Vector>, 2> runs{run, wrapped};
     const Vector axis = principal_axis(runs);

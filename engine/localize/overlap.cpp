@@ -11,16 +11,16 @@ namespace nearfield::localize {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
 using geometry::Polygon;
+using geometry::TransformedPolygon;
 
-/// Refining ends early where so many pairs of boxes still meet: boundaries so entangled are not
-/// told apart by smaller boxes, and neither time nor memory may grow with the square of the edges.
-/// The chains are coarser then, which the law allows.
-constexpr std::size_t most_pairs = std::size_t{1} << 18U;
+/// Refinement stops once this many pairs of boxes still overlap. Smaller boxes do not separate
+/// boundaries this entangled, and neither time nor memory may grow with the square of the edges.
+/// The chains are then coarser, but still valid.
+constexpr std::size_t max_pairs = std::size_t{1} << 18U;
 
-/// A node of A and where the list of those nodes of B stands that it meets. Where it meets none it
-/// is settled and stays as it is.
+/// A node of A and the range of its list of overlapping nodes of B. A node with no overlap is
+/// settled: it is not refined any further.
 struct Candidate {
     Node node;
     std::size_t list_begin = 0;
@@ -31,7 +31,7 @@ struct Candidate {
 
 /// One level of both trees.
 struct Level {
-    std::vector<Candidate> candidates;  ///< of A, in order along its rings, settled ones too
+    std::vector<Candidate> candidates;  ///< of A, in order along its rings, settled ones included
     std::vector<Node> nodes;            ///< of B
     std::vector<std::uint32_t> lists;   ///< indices into `nodes`
 
@@ -42,20 +42,20 @@ struct Level {
     }
 };
 
-/// What a descent works with. Kept per thread, so that a frame like the one before it allocates
-/// nothing; most_pairs bounds what is kept.
+/// The working memory of a descent. Kept per thread, so that the steady state allocates nothing;
+/// max_pairs bounds its size.
 struct Scratch {
     Level level;
     Level next;
-    /// Where the halves of a node of B begin among the nodes of the next level, and how many.
+    /// The range of a B node's halves among the nodes of the next level.
     struct Halves {
         std::uint32_t begin = 0;
         std::uint32_t count = 0;
     };
     std::vector<Halves> halves;
-    std::vector<Candidate> of_b;  // as the candidates of A, where both are asked for
+    std::vector<Candidate> of_b;  // the same for B, if both are requested
     std::vector<Candidate> unordered;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // first edge, place above
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // first edge, index above
     geometry::Containment containment;
 };
 
@@ -64,11 +64,11 @@ Scratch& thread_scratch() {
     return scratch;
 }
 
-/// What a descent found out about one boundary.
+/// The result of a descent for one boundary.
 struct Boundary {
     const std::vector<Candidate>& candidates;  ///< all of it, in order
-    const PlacedPolygon& own;
-    const PlacedPolygon& other;
+    const TransformedPolygon& own;
+    const TransformedPolygon& other;
     Box box_of_other;
     double margin = 0.0;
 
@@ -80,7 +80,7 @@ struct Boundary {
 /// Descends both trees together, level by level, so that no box is computed twice.
 class Descent {
 public:
-    Descent(const PlacedPolygon& a, const PlacedPolygon& b, const OverlapOptions& options)
+    Descent(const TransformedPolygon& a, const TransformedPolygon& b, const OverlapOptions& options)
         : volume_(options.volume),
           tree_a_(a, options.height, options.volume),
           tree_b_(b, options.height, options.volume),
@@ -89,8 +89,8 @@ public:
           level_(thread_scratch().level),
           next_(thread_scratch().next),
           halves_(thread_scratch().halves) {
-        // A settled chain then lies clear of B's boundary by more than rounding, so that one
-        // vertex of it decides for all of it.
+        // A settled chain is then clear of B's boundary by more than rounding, so one of its
+        // vertices decides for the whole chain.
         margin_ =
             options.grow + placement_rounding(a, root_a_.box) + placement_rounding(b, root_b_.box);
         level_.clear();
@@ -103,19 +103,19 @@ public:
         level_.candidates.push_back({root_a_, 0, level_.lists.size()});
     }
 
-    /// Refines as long as there is something to split and it is worth it.
+    /// Refines while some node splits and the number of pairs allows it.
     void run() {
-        while (level_.lists.size() <= most_pairs && split_nodes()) {
+        while (level_.lists.size() <= max_pairs && split_nodes()) {
             split_candidates();
             std::swap(level_, next_);
         }
     }
 
-    /// The same, and keeps what becomes of B: boxes meet both ways.
+    /// Runs the descent and also keeps the candidates of B: box overlap is symmetric.
     void run_both_ways() {
         std::vector<Candidate>& found = thread_scratch().unordered;
         found.clear();
-        while (level_.lists.size() <= most_pairs && split_nodes()) {
+        while (level_.lists.size() <= max_pairs && split_nodes()) {
             for (std::size_t i = 0; i < level_.nodes.size(); ++i) {
                 if (halves_[i].count == 0) {
                     found.push_back({level_.nodes[i], 0, 0});
@@ -134,11 +134,11 @@ public:
         order_of_b();
     }
 
-    /// The results: a boundary in order.
+    /// The resulting boundary of A, in order.
     [[nodiscard]] Boundary of_a() const {
         return {level_.candidates, tree_a_.polygon(), tree_b_.polygon(), root_b_.box, margin_};
     }
-    /// After run_both_ways().
+    /// The same for B. Precondition: run_both_ways().
     [[nodiscard]] Boundary of_b() const {
         return {thread_scratch().of_b, tree_b_.polygon(), tree_a_.polygon(), root_a_.box, margin_};
     }
@@ -147,8 +147,8 @@ public:
     }
 
 private:
-    /// Makes the next level's nodes of B from those that still meet something. False where nothing
-    /// on either side splits any more.
+    /// Creates the next level's nodes of B from those that still overlap a candidate. Returns false
+    /// if nothing on either side splits any more.
     bool split_nodes() {
         next_.clear();
         bool any = false;
@@ -176,7 +176,7 @@ private:
         return any;
     }
 
-    /// Nodes of B come level by level.
+    /// Sorts the candidates of B by edge: they arrive level by level.
     static void order_of_b() {
         Scratch& scratch = thread_scratch();
         scratch.order.clear();
@@ -205,7 +205,7 @@ private:
         }
     }
 
-    /// Makes a candidate of the next level, with those halves of its parent's nodes that it meets.
+    /// Adds a candidate to the next level, with the halves of its parent's nodes that it overlaps.
     void pass_on(const Candidate& parent, const Node& node) {
         const std::size_t list_begin = next_.lists.size();
         for (std::size_t i = parent.list_begin; i < parent.list_end; ++i) {
@@ -251,7 +251,7 @@ public:
         }
     }
 
-    /// Joins the ring's last chain with its first where they meet at the ring's first vertex.
+    /// Joins the ring's last chain with its first if both touch the ring's first vertex.
     void finish_ring() {
         if (chains_.size() > ring_begin_ + 1) {
             Chain& front = chains_[ring_begin_];
@@ -269,13 +269,13 @@ public:
 private:
     const Polygon& polygon_;
     std::vector<Chain>& chains_;
-    std::size_t ring_begin_;  // where the chains of the current ring begin
+    std::size_t ring_begin_;  // index of the current ring's first chain
 };
 
-/// Tells of settled chains whether they lie in the other shape. Asked in order along a boundary:
-/// the answer can change only where the boundaries may cross, so it is kept from one chain to the
-/// next. All that has to be found out is asked in a first walk and answered together, for the
-/// second.
+/// Determines whether settled chains lie inside the other shape, in order along a boundary. The
+/// answer can change only where the boundaries may cross, so it carries over from one chain to the
+/// next. A first walk collects the points to test; all are tested together; a second walk reads the
+/// answers.
 class SettledChains {
 public:
     explicit SettledChains(const Boundary& boundary)
@@ -283,7 +283,7 @@ public:
         containment_.clear();
     }
 
-    /// A chain that may cross the other's boundary lies before the next settled one.
+    /// Call where a chain that may cross the other boundary precedes the next settled one.
     void forget() { known_ = false; }
 
     void ask(std::uint32_t ring, std::uint32_t first, const Box& box) {
@@ -292,7 +292,7 @@ public:
         }
     }
 
-    /// Between the two walks.
+    /// Call between the two walks.
     void answer() {
         containment_.answer(boundary_.other);
         known_ = false;
@@ -306,7 +306,7 @@ public:
     }
 
 private:
-    /// True where the chain before does not say it.
+    /// True if the chain before does not determine the answer.
     bool is_new(std::uint32_t ring) {
         const bool is_new = !known_ || ring != ring_;
         ring_ = ring;
@@ -322,10 +322,10 @@ private:
     bool inside_ = false;
 };
 
-/// Calls `use(ring, first, count, box)` for each ring's part of a node. A node of several rings is
-/// left where the rings are clear of B together, or where refining ended early.
+/// Calls `use(ring, first, count, box)` for each ring's part of a node. A node of several rings
+/// remains where the rings are all clear of B, or where refinement stopped early.
 template <class Use>
-void for_each_part(const Node& node, const PlacedPolygon& a, const Use& use) {
+void for_each_part(const Node& node, const TransformedPolygon& a, const Use& use) {
     if (node.rings == 1) {
         use(node.ring, node.first, node.count, node.box);
         return;
@@ -338,7 +338,7 @@ void for_each_part(const Node& node, const PlacedPolygon& a, const Use& use) {
     }
 }
 
-/// Appends the chains of a boundary that may lie in the other shape.
+/// Appends the chains of a boundary that may lie inside the other shape.
 void append_chains_in_volume(const Boundary& boundary, std::vector<Chain>& chains) {
     SettledChains settled(boundary);
     const auto walk = [&](const auto& use_open, const auto& use_settled) {
@@ -366,7 +366,7 @@ void append_chains_in_volume(const Boundary& boundary, std::vector<Chain>& chain
 
 }  // namespace
 
-Effort chains_near_boundary(const PlacedPolygon& a, const PlacedPolygon& b,
+Effort chains_near_boundary(const TransformedPolygon& a, const TransformedPolygon& b,
                             const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
     descent.run();
@@ -380,7 +380,7 @@ Effort chains_near_boundary(const PlacedPolygon& a, const PlacedPolygon& b,
     return descent.effort();
 }
 
-Effort chains_in_volume(const PlacedPolygon& a, const PlacedPolygon& b,
+Effort chains_in_volume(const TransformedPolygon& a, const TransformedPolygon& b,
                         const OverlapOptions& options, std::vector<Chain>& chains) {
     Descent descent(a, b, options);
     descent.run();
@@ -388,7 +388,7 @@ Effort chains_in_volume(const PlacedPolygon& a, const PlacedPolygon& b,
     return descent.effort();
 }
 
-Effort chains_in_each_other(const PlacedPolygon& a, const PlacedPolygon& b,
+Effort chains_in_each_other(const TransformedPolygon& a, const TransformedPolygon& b,
                             const OverlapOptions& options, std::vector<Chain>& of_a,
                             std::vector<Chain>& of_b) {
     Descent descent(a, b, options);

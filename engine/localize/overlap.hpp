@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 #include <nearfield/localization.hpp>
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace nearfield::localize {
 
-/// Consecutive edges of one ring: first, first + 1, ... (wrapping at the ring's end), and the
-/// world box around them.
+/// Consecutive edges of one ring: first, first + 1, ... (wrapping at the ring's end), and their
+/// bounding box in the world.
 struct Chain {
     std::uint32_t ring = 0;
     std::uint32_t first = 0;  ///< index of the first edge, counted through all rings
@@ -17,10 +17,10 @@ struct Chain {
     geometry::Box box;
 };
 
-/// What localisation did, for statistics and tests.
+/// Work done by localisation, for statistics and tests.
 struct Effort {
     std::uint64_t nodes_evaluated = 0;  ///< bounding volumes computed
-    std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found apart
+    std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found disjoint
 
     Effort& operator+=(const Effort& other) {
         nodes_evaluated += other.nodes_evaluated;
@@ -32,42 +32,45 @@ struct Effort {
 struct OverlapOptions {
     /// Maximum height of each tree: a ring has at most 2^height leaves. 0: top-level boxes only.
     std::uint32_t height = 12;
-    /// The boxes of A are grown by this much on every side before they are held against those of
-    /// B, world units.
+    /// The boxes of A are grown by this much on every side before they are compared with those of
+    /// B, in world units.
     double grow = 0.0;
     BoundingVolume volume = BoundingVolume::axis_aligned;
 };
 
-/// The parts of A's boundary that may lie inside B or within `grow` of B's boundary: every chain
-/// that is left out lies wholly outside B and farther than `grow` from its boundary. Chains come
-/// in ring order; neighbouring ones are joined. A chain that meets no bounding volume of B's
-/// boundary is settled by one point of it: inside B or not (so containment without contact of the
-/// boundaries is found). Appends to `chains`.
+/// The parts of A's boundary that may lie inside B or within `grow` of B's boundary: every omitted
+/// chain lies wholly outside B and farther than `grow` from its boundary. Chains come in ring
+/// order; neighbouring ones are joined. A chain that overlaps no bounding volume of B's boundary is
+/// classified by one of its points: inside B or not (this detects containment without contact of
+/// the boundaries). Appends to `chains`.
 ///
-/// No tree is stored: a node is a range of edges, its box is computed when it is visited (section
-/// 2.1 of the paper).
-Effort chains_in_volume(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                        const OverlapOptions& options, std::vector<Chain>& chains);
+/// No tree is stored: a node is a range of edges, and its box is computed when it is visited
+/// (section 2.1 of the paper).
+Effort chains_in_volume(const geometry::TransformedPolygon& a,
+                        const geometry::TransformedPolygon& b, const OverlapOptions& options,
+                        std::vector<Chain>& chains);
 
-/// The same of A in B and of B in A, by one descent.
-Effort chains_in_each_other(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                            const OverlapOptions& options, std::vector<Chain>& of_a,
-                            std::vector<Chain>& of_b);
+/// chains_in_volume() for A in B and for B in A, by a single descent.
+Effort chains_in_each_other(const geometry::TransformedPolygon& a,
+                            const geometry::TransformedPolygon& b, const OverlapOptions& options,
+                            std::vector<Chain>& of_a, std::vector<Chain>& of_b);
 
 /// The parts of A's boundary that may come within `grow` of B's boundary. Appends to `chains`.
-Effort chains_near_boundary(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
-                            const OverlapOptions& options, std::vector<Chain>& chains);
+Effort chains_near_boundary(const geometry::TransformedPolygon& a,
+                            const geometry::TransformedPolygon& b, const OverlapOptions& options,
+                            std::vector<Chain>& chains);
 
-/// True where the closed shapes share a point: boundaries meet (touching counts, and so does a gap
-/// that the rounding of the placed vertices can account for), or one shape holds the other. The
-/// same hierarchy, driven down to a few edges, with an early way out. Adds what it did to `effort`
-/// where that is given.
-[[nodiscard]] bool intersects(const geometry::PlacedPolygon& a, const geometry::PlacedPolygon& b,
+/// True if the closed shapes share a point: their boundaries intersect (touching counts, and so
+/// does a gap within the rounding of the transformed vertices), or one shape contains the other.
+/// Uses the same hierarchy, down to a few edges, and returns as soon as the answer is known. Adds
+/// the work done to `effort` if that is not null.
+[[nodiscard]] bool intersects(const geometry::TransformedPolygon& a,
+                              const geometry::TransformedPolygon& b,
                               BoundingVolume volume = BoundingVolume::axis_aligned,
                               Effort* effort = nullptr);
 
-/// Joins boxes into fewer: boxes that overlap always, others where the joint box is hardly larger
-/// than the two. Result: disjoint boxes that cover the given ones. In place.
+/// Joins boxes into fewer: always those that overlap, others if the joint box is hardly larger than
+/// the two. The resulting boxes are disjoint and cover the given ones. In place.
 void join_boxes(std::vector<geometry::Box>& boxes);
 
 }  // namespace nearfield::localize

@@ -6,12 +6,12 @@
 
 namespace nearfield::localize {
 
-/// Branch and bound over the pairs of nodes of two trees of one kind of volume: the nearer pair
-/// first, and no pair whose boxes are farther apart than what was found so far.
+/// Branch and bound over pairs of nodes of two trees with the same kind of volume: visits the
+/// nearer pair first, and skips pairs whose boxes are farther apart than the best distance so far.
 ///
-/// `Leaves` says what to do at the bottom:
-///   double squared_bound()                      nothing farther apart than this matters any more
-///   bool is_leaf(const LazyTree&, index)        true where a node is not to be split
+/// `Leaves` defines the leaf operations:
+///   double squared_bound()                      pairs farther apart than this are irrelevant
+///   bool is_leaf(const LazyTree&, index)        true if a node is not to be split
 ///   void use(index_a, index_b, squared)         a pair of leaves, their boxes that far apart
 template <class Leaves>
 class PairSearch {
@@ -20,7 +20,7 @@ public:
 
     void run() { visit(LazyTree::root, LazyTree::root, distance(LazyTree::root, LazyTree::root)); }
 
-    /// Pairs of nodes that were not looked into.
+    /// The number of node pairs that were pruned.
     [[nodiscard]] std::uint64_t pairs_rejected() const { return pairs_rejected_; }
 
 private:
@@ -39,7 +39,7 @@ private:
             leaves_.use(a, b, squared);
             return;
         }
-        // The larger one first: both get small together.
+        // Split the larger node first: both shrink together.
         if (leaf_b || (!leaf_a && a_[a].count >= b_[b].count)) {
             const std::uint32_t half = a_.first_half(a);
             visit_nearer_first(half, b, half + 1, b);

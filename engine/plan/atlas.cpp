@@ -14,7 +14,8 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
         return tiles[i].height != tiles[j].height ? tiles[i].height > tiles[j].height : i < j;
     });
 
-    // A square as wide as the cells ask for, so that a batch of small tiles gets a small image.
+    // Just wide enough for a square of all cells, so that a batch of small tiles gets a small
+    // image.
     double cells = 0.0;
     std::uint32_t widest = 1;
     for (const TileSize& tile : tiles) {
@@ -25,7 +26,7 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
         std::min(std::ceil(std::sqrt(cells) * 1.1), static_cast<double>(largest_side_));
     const std::uint32_t shelf_width = std::max(widest, static_cast<std::uint32_t>(side));
 
-    rounds_ = tiles.empty() ? 0 : 1;
+    tile_batches_ = tiles.empty() ? 0 : 1;
     extent_ = {};
     std::uint32_t x = 0;
     std::uint32_t y = 0;
@@ -37,10 +38,10 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
             shelf_height = 0;
         }
         if (y + tiles[i].height > largest_side_) {
-            ++rounds_;
+            ++tile_batches_;
             x = y = shelf_height = 0;
         }
-        places[i] = {rounds_ - 1, x, y};
+        places[i] = {tile_batches_ - 1, x, y};
         x += tiles[i].width;
         shelf_height = std::max(shelf_height, tiles[i].height);
         extent_.width = std::max(extent_.width, x);

@@ -9,11 +9,11 @@ namespace {
 
 using geometry::Vector;
 
-/// So few edges are tested at every cell rather than sorted out any further.
+/// Up to this many edges are tested at every cell instead of being culled further.
 constexpr std::size_t few_edges = 2;
 
-/// Edges shorter than this, in cells, are points: what is divided by their squared length would be
-/// too large for single precision.
+/// Edges shorter than this, in cells, count as points: a division by their squared length would
+/// overflow single precision.
 constexpr double shortest_edge = 1e-15;
 
 }  // namespace
@@ -58,8 +58,8 @@ void BlockEdges::append(std::uint32_t block, std::vector<SegmentData>& segments)
 void BlockEdges::find_candidates(const TileBoundary& boundary, double slack) {
     const Vector centre(0.5 * width_, 0.5 * height_);
     const double nearest = boundary.distance(centre);
-    // In double precision so far. Edges are cut to a window around the tile, so that what rounding
-    // to floats may change about a distance depends on it and not on how far an edge reaches.
+    // Double precision up to here. Edges are cut to a window around the tile, so that the rounding
+    // error of a distance in floats depends on the window and not on how far an edge reaches.
     window_ = nearest + 2.0 * (centre.norm() + slack) + 1.0;
     slack_ = static_cast<float>(2.0 * (slack + 0.01 + 2e-6 * window_));
     near_.clear();

@@ -6,13 +6,13 @@
 namespace nearfield::plan {
 namespace {
 
-using geometry::PlacedPolygon;
 using geometry::Polygon;
+using geometry::TransformedPolygon;
 using geometry::Vector;
 
 /// Calls `visit(edge, length)` for each edge of a chain, in order, wrapping at the ring's end.
 template <class Visit>
-void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Visit&& visit) {
+void for_each_edge(const TransformedPolygon& placed, const localize::Chain& chain, Visit&& visit) {
     const Polygon& polygon = placed.polygon();
     const std::uint32_t begin = polygon.ring_begin(chain.ring);
     const std::uint32_t end = polygon.ring_end(chain.ring);
@@ -26,7 +26,7 @@ void for_each_edge(const PlacedPolygon& placed, const localize::Chain& chain, Vi
 
 }  // namespace
 
-Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
+Vector position(const TransformedPolygon& polygon, const BoundaryPoint& point) {
     Vector a = polygon.vertex(point.edge);
     if (point.parameter == 0.0) {
         return a;
@@ -34,7 +34,7 @@ Vector position(const PlacedPolygon& polygon, const BoundaryPoint& point) {
     return a + point.parameter * (polygon.vertex(polygon.polygon().next(point.edge)) - a);
 }
 
-void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
+void sample_chains(const TransformedPolygon& polygon, const std::vector<localize::Chain>& chains,
                    double spacing, const geometry::Box& within,
                    std::vector<BoundaryPoint>& points) {
     EdgeSampler sampler(polygon.polygon(), spacing);
@@ -42,7 +42,7 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
             const double parts = sampler.parts_of(edge);
             const PartRange range = parts_within(polygon, edge, parts, within);
-            // An edge may have more parts than 32 bits can count, few of which lie in the box.
+            // An edge may have more parts than 32 bits can count, but few of them lie in the box.
             const auto count = static_cast<std::uint32_t>(std::max(0.0, range.end - range.first));
             for (std::uint32_t i = 0; i < count; ++i) {
                 points.push_back({edge, (range.first + i) / parts});
@@ -51,13 +51,14 @@ void sample_chains(const PlacedPolygon& polygon, const std::vector<localize::Cha
     }
 }
 
-void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
+void vertices_of_chains(const TransformedPolygon& polygon,
+                        const std::vector<localize::Chain>& chains,
                         std::vector<BoundaryPoint>& points) {
     for (const localize::Chain& chain : chains) {
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
             points.push_back({edge, 0.0});
         });
-        // The chain's last vertex starts an edge that may be in no chain.
+        // The chain's last vertex starts an edge that may belong to no chain.
         const Polygon& shape = polygon.polygon();
         const std::uint32_t size = shape.ring_end(chain.ring) - shape.ring_begin(chain.ring);
         if (chain.count < size) {
@@ -67,7 +68,7 @@ void vertices_of_chains(const PlacedPolygon& polygon, const std::vector<localize
     }
 }
 
-double most_vertices(const std::vector<localize::Chain>& chains) {
+double max_vertices(const std::vector<localize::Chain>& chains) {
     double count = 0.0;
     for (const localize::Chain& chain : chains) {
         count += chain.count + 1.0;
@@ -75,8 +76,8 @@ double most_vertices(const std::vector<localize::Chain>& chains) {
     return count;
 }
 
-double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Chain>& chains,
-                    double spacing, const geometry::Box& within) {
+double max_samples(const TransformedPolygon& polygon, const std::vector<localize::Chain>& chains,
+                   double spacing, const geometry::Box& within) {
     double count = 0.0;
     for (const localize::Chain& chain : chains) {
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double length) {
@@ -88,7 +89,7 @@ double most_samples(const PlacedPolygon& polygon, const std::vector<localize::Ch
     return count;
 }
 
-double most_samples(const Polygon& polygon, double spacing) {
+double max_samples(const Polygon& polygon, double spacing) {
     return static_cast<double>(polygon.size()) + polygon.length_along_axes() / spacing;
 }
 

@@ -13,8 +13,7 @@ Status invalid(const std::string& message) {
     return {StatusCode::invalid_query, message};
 }
 
-// What is wrong is put into words only where something is: a frame without errors allocates
-// nothing.
+// Messages are composed only after an error was found: a frame without errors allocates nothing.
 
 bool is_length(double length) {
     return length > 0.0 && length <= largest_coordinate;
@@ -64,7 +63,7 @@ bool is_usable(const Pose& pose) {
            is_usable(pose.translation.y);
 }
 
-/// `which` pose it is: "A's pose".
+/// `which` names the pose: "A's pose".
 Status unusable(const Pose& pose, const std::string& which) {
     if (!std::isfinite(pose.angle)) {
         return invalid("the angle of " + which + " is " + number(pose.angle));
@@ -118,7 +117,7 @@ Status no_technique(Technique technique, const AvailableTechniques& available) {
                                    "(Context::create_cpu); ask for cpu or automatic"};
 }
 
-/// `what` of a query needs a technique that this context does not have.
+/// The error for a query that uses `what`, which none of this context's techniques answers.
 Status none_answers(const char* what, const AvailableTechniques& available) {
     return {
         StatusCode::unsupported_technique,
@@ -234,7 +233,7 @@ Status check_query(const TimeOfImpactQuery& query, const AvailableTechniques& av
         return invalid("the time bound is " + number(query.time_bound) +
                        "; it must be above 0 and at most 1");
     }
-    if (query.most_steps == 0) {
+    if (query.max_steps == 0) {
         return invalid("the most steps are 0; at least 1 has to be allowed");
     }
     if (!(query.contact_distance >= 0.0 && is_usable(query.contact_distance))) {
@@ -269,11 +268,11 @@ Status too_deviant(double tolerance, const Deviations& deviations, double bound)
     const double together = deviations.a + deviations.b;
     const std::string shapes = "the shapes' rings may be off by " + number(deviations.a) +
                                " (A) and " + number(deviations.b) + " (B), ";
-    if (together > most_deviation * tolerance) {
-        return invalid(shapes + "together more than " + number(most_deviation) +
+    if (together > max_deviation * tolerance) {
+        return invalid(shapes + "together more than " + number(max_deviation) +
                        " of the tolerance " + number(tolerance) +
                        "; tessellate finer, or ask for at least " +
-                       number(together / most_deviation));
+                       number(together / max_deviation));
     }
     return invalid(shapes + "which with what this device's raster needs is " + number(bound) +
                    ", more than the tolerance " + number(tolerance) + "; tessellate finer");

@@ -9,18 +9,18 @@
 
 namespace nearfield::plan {
 
-/// What a round of the compute technique takes beside edge lists and points, as shaders/masks.glsl
-/// declares it (std430, words of 32 bits). Coordinates are in sub-pixel steps from the tile's low
-/// corner: the snapped vertices that the raster would draw.
+/// The work of a tile batch of the compute technique, beyond edge lists and points, in the layout
+/// of shaders/masks.glsl (std430, 32-bit words). Coordinates are in sub-pixel steps from the tile's
+/// low corner: the same snapped vertices that the raster technique would draw.
 ///
-/// A mask is a bit a cell, rows of whole words. Masks and other things that live on the device
-/// alone lie in its scratch memory, at the word that is named.
+/// A mask has one bit per cell, in rows of whole words. Masks and other device-only data lie in the
+/// device's scratch memory, at the word given.
 
-/// Cells along a side of a block of a field tile, but for those at its high borders. At most half a
-/// word of a mask, so that a row of a block lies in one word.
+/// Side of a block of a field tile, in cells; blocks at the tile's high borders may be smaller. At
+/// most half a mask word, so that a row of a block lies in one word.
 inline constexpr std::uint32_t block_side = 16;
 
-/// Where a mask lies.
+/// Position and size of a mask.
 struct MaskData {
     std::uint32_t first_word = 0;
     std::uint32_t words_per_row = 0;
@@ -36,17 +36,17 @@ struct MaskEdgeData {
 };
 static_assert(sizeof(MaskEdgeData) == 20);
 
-/// A row of a mask that edges have inverted samples of.
+/// A row of a mask in which edges have inverted samples.
 struct MaskRowData {
     std::uint32_t first_word = 0;
     std::uint32_t words = 0;
 };
 
-/// An offset polygon: the fan of triangles around its first corner.
+/// An offset polygon: a triangle fan around its first corner.
 struct MaskPolygonData {
     std::array<std::int32_t, 16> corners{};  ///< x, y of eight
     std::uint32_t overlap = 0;               ///< in ComputeWork::overlaps
-    std::uint32_t run = 0;                   ///< of A's edges, in Round::runs
+    std::uint32_t run = 0;                   ///< of A's edges, in TileBatch::runs
 };
 static_assert(sizeof(MaskPolygonData) == 72);
 
@@ -54,11 +54,11 @@ static_assert(sizeof(MaskPolygonData) == 72);
 struct OverlapData {
     std::uint32_t mask_a = 0;  ///< in ComputeWork::masks
     std::uint32_t mask_b = 0;
-    /// Where the run of every cell of A's boundary lies in the scratch memory, a word a cell;
-    /// no_runs where nobody asks for it.
+    /// Where the runs of the cells of A's boundary start in the scratch memory, one word per cell;
+    /// no_runs if they are not requested.
     std::uint32_t first_run = 0;
-    std::uint32_t tile = 0;  ///< in Round::tiles
-    std::uint32_t list = 0;  ///< 1: the samples are listed, not counted only
+    std::uint32_t tile = 0;  ///< in TileBatch::tiles
+    std::uint32_t list = 0;  ///< 1: samples are listed; 0: only counted
 };
 static_assert(sizeof(OverlapData) == 20);
 inline constexpr std::uint32_t no_runs = UINT32_MAX;
@@ -82,7 +82,7 @@ struct SegmentData {
 };
 static_assert(sizeof(SegmentData) == 16);
 
-/// A block whose cells want their distances.
+/// A block of cells whose distances are requested.
 struct BlockData {
     std::uint32_t first_segment = 0;  ///< in ComputeWork::segments
     std::uint32_t segments = 0;
@@ -90,12 +90,12 @@ struct BlockData {
     std::uint32_t tile_width = 0;  ///< from row to row in the read-back, in words
     std::uint32_t value = 0;       ///< where its low cell's value goes in the field's read-back
     std::uint32_t sign = 0;        ///< where the signs of its lowest row lie in the scratch memory
-    std::uint32_t first_sign = 0;  ///< in that word, its low cell's bit
+    std::uint32_t first_sign = 0;  ///< its low cell's bit in that word
     std::uint32_t words_per_row = 0;  ///< from row to row of signs
 };
 static_assert(sizeof(BlockData) == 32);
 
-/// The work of a round.
+/// The compute work of a tile batch.
 struct ComputeWork {
     std::vector<MaskData> masks;
     std::vector<MaskEdgeData> edges;
@@ -108,26 +108,26 @@ struct ComputeWork {
     /// Blocks of field tiles (BlockEdges) and all their segments, block after block.
     std::vector<BlockData> blocks;
     std::vector<SegmentData> segments;
-    /// Blocks whose cells or points want the nearest of the shape's own edges, each with lists of
-    /// them relative to the tile; none of them has features at cells where `features` is false.
+    /// Blocks whose cells or points need the nearest of the shape's own edges, each with edge lists
+    /// relative to the tile. Where `features` is false, none of them writes features at cells.
     std::vector<TileData> feature_blocks;
     bool features = false;
-    /// Points at which a field is reconstructed; they stand in the geometry array, behind the
-    /// lists: position in the tile; the block, the low one of the four cells around (column | row
-    /// << 16, in the tile).
+    /// Points at which a field is reconstructed. They follow the lists in the geometry array:
+    /// position in the tile; the block; the low one of the four surrounding cells (column | row <<
+    /// 16, in the tile).
     std::vector<EdgeListWriter::Entry> points;
 
-    std::uint64_t mask_words = 0;  ///< scratch memory starts with the masks, all zero at first,
-    std::uint64_t run_words = 0;   ///< then the runs of cells, all ones at first
+    std::uint64_t mask_words = 0;  ///< scratch memory starts with the masks, initially zero,
+    std::uint64_t run_words = 0;   ///< then the runs of cells, initially all ones
 
     void clear();
 
     [[nodiscard]] std::uint64_t scratch_words() const { return mask_words + run_words; }
 
-    /// Where each kind stands in one array of words, one after the other.
+    /// Where each kind lies in one array of words, one kind after the other.
     struct Ranges {
         WorkRange masks, edges, rows, polygons_a, polygons_b, overlaps, overlap_rows;
-        std::uint64_t words = 0;  ///< of all together
+        std::uint64_t words = 0;  ///< of all kinds together
     };
     [[nodiscard]] Ranges ranges() const;
 };

@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vector;
 
-/// A run's vertices and its straight edge are rounded to floats apart from each other.
+/// A run's vertices and its straight edge are rounded to floats separately.
 constexpr double deviation_slack = 1.0 / 1024.0;
 
 /// The part of an edge with |x| and |y| at most `extent`, if there is one.
@@ -34,7 +34,7 @@ std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
     if (from > to) {
         return std::nullopt;
     }
-    // An end that needs no cut stays the very same number: neighbours share it.
+    // An end that needs no cut keeps its exact coordinates: neighbouring edges share it.
     return TileEdge{from == 0.0 ? edge.a : Vector(edge.a + from * d),
                     to == 1.0 ? edge.b : Vector(edge.a + to * d), edge.simplified};
 }
@@ -111,7 +111,7 @@ EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double ex
 
 EdgeListData EdgeListWriter::write_list() {
     if (geometry_.size() % 2 != 0) {
-        geometry_.emplace_back();  // edges and boxes are read by fours of numbers
+        geometry_.emplace_back();  // edges and boxes are read four numbers at a time
     }
     EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());

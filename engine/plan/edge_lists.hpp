@@ -8,7 +8,7 @@
 
 namespace nearfield::plan {
 
-/// Writes lists of edges, as compute shaders read them, into one array of 2-vectors.
+/// Writes lists of edges into one array of 2-vectors, in the layout that the compute shaders read.
 class EdgeListWriter {
 public:
     struct Entry {
@@ -18,19 +18,19 @@ public:
 
     /// Starts a new array.
     void clear() { geometry_.clear(); }
-    /// Starts a new tile: runs of edges already written belong to another frame of coordinates.
+    /// Starts a new tile: runs of edges written so far are in other coordinates and are not reused.
     void begin_tile(const TileBoundary& boundary);
 
     /// Writes one list; position i of the list is edge i. Edges that stand for themselves are cut,
     /// in double precision, to the square |x|, |y| <= `extent` around the tile's low corner, so
-    /// that no coordinate is larger than a float can tell apart. Nothing outside may matter: edges
-    /// wholly outside are left out.
+    /// that every coordinate stays within what a float resolves. Nothing outside the square may
+    /// matter: edges wholly outside are omitted.
     EdgeListData write(const std::vector<TileEdge>& edges, double extent);
 
     [[nodiscard]] const std::vector<Entry>& geometry() const { return geometry_; }
 
 private:
-    /// Where an edge's run stands, if `tile` wrote it.
+    /// Where an edge's run lies, valid if `tile` wrote it.
     struct WrittenRun {
         std::uint64_t tile = 0;
         std::uint32_t place = 0;
@@ -46,7 +46,7 @@ private:
     std::vector<Entry> geometry_;
     std::vector<EdgeData> list_;
     std::vector<WrittenRun> runs_;  // by simplified edge
-    std::uint64_t tile_ = 0;        // counts the tiles begun
+    std::uint64_t tile_ = 0;        // number of tiles begun
 };
 
 }  // namespace nearfield::plan

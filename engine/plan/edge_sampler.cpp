@@ -11,9 +11,9 @@ using geometry::Vector;
 
 namespace {
 
-/// Every so many edges of a ring its samples start anew, at a vertex: what is sampled depends on
-/// nothing farther back.
-constexpr std::uint32_t most_edges_back = 64;
+/// Every this many edges, a ring's samples restart at a vertex, so that samples never depend on
+/// anything farther back.
+constexpr std::uint32_t max_edges_back = 64;
 
 }  // namespace
 
@@ -31,10 +31,10 @@ double EdgeSampler::length(std::uint32_t edge) const {
 }
 
 bool EdgeSampler::starts_anew(std::uint32_t edge) const {
-    return (edge - polygon_.ring_begin(polygon_.ring_of(edge))) % most_edges_back == 0;
+    return (edge - polygon_.ring_begin(polygon_.ring_of(edge))) % max_edges_back == 0;
 }
 
-/// Walks back to where the samples of a short edge can be told from, and up to it again.
+/// Walks back to the last edge whose samples are independent of earlier edges, and forward again.
 void EdgeSampler::catch_up(std::uint32_t edge) {
     std::uint32_t from = edge;
     double from_length = 0.0;
@@ -46,7 +46,7 @@ void EdgeSampler::catch_up(std::uint32_t edge) {
     }
 }
 
-/// The parts of an edge, from the samples before.
+/// Returns the number of parts of an edge, continuing from the samples before it.
 double EdgeSampler::advance(std::uint32_t edge, double edge_length) {
     next_ = edge + 1;
     if (edge_length <= spacing_ && !starts_anew(edge) && since_last_ + edge_length <= spacing_) {
@@ -62,10 +62,10 @@ double parts_of_length(double length, double spacing) {
     return std::max(1.0, std::ceil(length / spacing));
 }
 
-PartRange parts_within(const geometry::PlacedPolygon& placed, std::uint32_t edge, double parts,
+PartRange parts_within(const geometry::TransformedPolygon& placed, std::uint32_t edge, double parts,
                        const geometry::Box& within) {
     if (parts < 16.0) {
-        return {0.0, parts};  // not worth a look
+        return {0.0, parts};  // too few to be worth the test
     }
     Vector a = placed.vertex(edge);
     Vector b = placed.vertex(placed.polygon().next(edge));
@@ -76,7 +76,7 @@ PartRange parts_within(const geometry::PlacedPolygon& placed, std::uint32_t edge
             return {};
         }
     }
-    // A part more at either end, for rounding.
+    // One more part at either end, for rounding.
     const double from = (a - start).norm() / whole * parts;
     const double to = (b - start).norm() / whole * parts;
     return {std::max(0.0, std::floor(from) - 1.0), std::min(parts, std::ceil(to) + 2.0)};

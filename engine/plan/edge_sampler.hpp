@@ -1,22 +1,22 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 
 #include <cstdint>
 #include <limits>
 
 namespace nearfield::plan {
 
-/// How many samples the edges of a polygon have, as sample_chains() has it: an edge is divided into
-/// so many even parts, and sampled where each begins. Edges may be asked about in any order; the
-/// least is done for those that follow each other.
+/// Number of samples on each edge of a polygon, as sample_chains() places them: an edge is divided
+/// into that many equal parts and sampled at the start of each. Edges may be queried in any order;
+/// consecutive edges are cheapest.
 class EdgeSampler {
 public:
-    /// What is referred to has to stay.
+    /// Keeps a reference: the polygon must outlive the sampler.
     EdgeSampler(const geometry::Polygon& polygon, double spacing)
         : polygon_(polygon), spacing_(spacing) {}
 
-    /// A whole number, which may be huge; 0 for an edge that is left out.
+    /// Number of parts of an edge: a whole number, possibly huge; 0 for an edge without samples.
     [[nodiscard]] double parts_of(std::uint32_t edge);
 
 private:
@@ -31,21 +31,21 @@ private:
     double since_last_ = 0.0;  // sample, along the boundary to the next edge
 };
 
-/// Into how many parts an edge of such a length is divided where it is not left out.
+/// Number of parts of an edge of this length, if it is sampled at all.
 [[nodiscard]] double parts_of_length(double length, double spacing);
 
-/// Of the parts of an edge those that can begin in a box, and perhaps some beside it: first, ...,
-/// end - 1. Whole numbers.
+/// The parts first, ..., end - 1 of an edge: those that can start in a box, and perhaps a few
+/// others. Whole numbers.
 struct PartRange {
     double first = 0.0;
     double end = 0.0;
 };
-[[nodiscard]] PartRange parts_within(const geometry::PlacedPolygon& placed, std::uint32_t edge,
+[[nodiscard]] PartRange parts_within(const geometry::TransformedPolygon& placed, std::uint32_t edge,
                                      double parts, const geometry::Box& within);
 
-/// The same for who leaves out what is outside in other ways, mostly: all parts unless they are
-/// very many.
-[[nodiscard]] inline PartRange parts_roughly_within(const geometry::PlacedPolygon& placed,
+/// The same, for callers that filter out most of the outside by themselves: all parts, unless there
+/// are very many.
+[[nodiscard]] inline PartRange parts_roughly_within(const geometry::TransformedPolygon& placed,
                                                     std::uint32_t edge, double parts,
                                                     const geometry::Box& within) {
     constexpr double very_many = 1024.0;

@@ -40,7 +40,7 @@ HWY_INLINE NearEdges load(const EdgeStack& edges, std::size_t i) {
             hn::LoadU(d, edges.number(EdgeStack::inverse) + i)};
 }
 
-/// From the point of an edge that is nearest to a place, to that place.
+/// Vector to a place from the point of an edge that is nearest to it.
 struct WayFrom {
     Vector x;
     Vector y;
@@ -70,7 +70,7 @@ struct Rivals {
     }
 };
 
-/// A place, and by lane the nearest edge so far.
+/// A place and, per lane, the nearest edge so far.
 struct SeenFrom {
     float x;
     float y;
@@ -133,7 +133,7 @@ HWY_INLINE Rivals find_rivals(const EdgeStack& edges, std::size_t first, std::si
     return rivals;
 }
 
-/// From the corners to a rival, and the slack more.
+/// Distances from the corners to a rival, plus the slack.
 HWY_INLINE void measure(const EdgeStack& edges, std::size_t rival, const EdgeNode& node,
                         float slack, float* bounds) {
     const float along_x = edges.number(EdgeStack::along_x)[rival];
@@ -151,7 +151,7 @@ HWY_INLINE void measure(const EdgeStack& edges, std::size_t rival, const EdgeNod
     }
 }
 
-/// Of distances from a node's centre the tangents there, at its corners.
+/// The tangents, at a node's centre, of the distances to edges, evaluated at the corners.
 struct Tangents {
     Vector at[corners];
 
@@ -170,7 +170,7 @@ struct Tangents {
         at[3] = hn::Add(right, slope_y);
     }
 
-    /// Where an edge may be nearer somewhere than a rival with these bounds.
+    /// The lanes in which an edge may be nearer somewhere than a rival with these bounds.
     [[nodiscard]] HWY_INLINE Mask any_within(const float* bounds) const {
         const Floats d;
         return hn::Or(
@@ -199,7 +199,7 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         if (hn::AllFalse(d, near)) {
             continue;
         }
-        // In registers: compressed into memory, some processors take many times as long.
+        // In registers: some processors are many times slower when compressing into memory.
         const auto keep = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
             hn::StoreU(hn::Compress(numbers, near), d, edges.number(number) + pushed);
         };

@@ -5,14 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 
-/// \file
-/// What can be nearest in a box, sorted out with vectors: compiled for several instruction sets of
-/// which the best that the machine has is chosen at run time. In single precision, relative to a
-/// place nearby.
+/// \file Finds the edges that can be nearest in a box, with SIMD: compiled for several instruction
+/// sets, of which the best that the machine supports is selected at run time. Single precision,
+/// relative to a nearby origin.
 
 namespace nearfield::plan {
 
-/// Edges that may be near, list upon list.
+/// A stack of lists of edges that may be near.
 class EdgeStack : public geometry::FloatArrays<5> {
 public:
     enum Number : std::uint8_t {
@@ -24,7 +23,7 @@ public:
     };
 };
 
-/// A box around its centre.
+/// A box given by its centre and half extents.
 struct EdgeNode {
     float x = 0.0F;
     float y = 0.0F;
@@ -32,13 +31,13 @@ struct EdgeNode {
     float half_height = 0.0F;
 };
 
-/// Pushes, of the edges first, ..., end - 1, those that can be nearest somewhere in a box, in the
-/// same order. At least one edge. `slack`: what the distances of two edges may be off together.
+/// Pushes those of the edges first, ..., end - 1 that can be nearest somewhere in a box, in the
+/// same order; at least one edge. `slack`: how far the distances of two edges may be off together.
 ///
-/// The distance to an edge is a convex function: it lies above its tangent at the centre, and what
-/// another one exceeds a linear function by is largest at a corner. So an edge whose tangent lies
-/// above the distance to some other one at all four corners is nearest nowhere in the box. Held
-/// against it are the edges nearest to the centre and to each corner.
+/// The distance to an edge is a convex function, so it lies above its tangent at the centre; and
+/// the excess of another edge's distance over a linear function is largest at a corner. An edge
+/// whose tangent exceeds the distance to some other edge at all four corners is therefore nearest
+/// nowhere in the box. The edges nearest to the centre and to each corner serve as the others.
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack);
 

@@ -8,12 +8,12 @@
 namespace nearfield::plan {
 namespace {
 
-// Coordinates inside a tile are floats below 2^11 cells: what rounding they suffer, in cells, with
-// room for the few operations of a distance.
+// Bound, in cells, on the rounding error of coordinates inside a tile, which are floats below 2^11
+// cells; includes the few operations of a distance.
 constexpr double float_rounding = 1.0 / 1024.0;
 
-// Error of the distance mesh, in cells. Where resolve walks the original edges, errors of the mesh
-// and of simplification cost it work but no accuracy, so both are coarse there.
+// Error of the distance mesh, in cells. Where the resolve pass walks the original edges, errors of
+// the mesh and of simplification cost time but no accuracy, so both are coarse there.
 constexpr double points_mesh_error = 0.5;
 constexpr double field_mesh_error = 0.125;
 
@@ -22,10 +22,10 @@ constexpr double field_mesh_error = 0.125;
 ErrorBudget penetration_budget(const PenetrationQuery& query, const Deviations& deviations) {
     const double d = query.tolerance;
     ErrorBudget budget = search_budget(d);
-    // Depth changes by no more than the way along the boundary, and samples are at most a cell
-    // apart on it; vertices are all looked at.
+    // Depth changes by at most the distance moved along the boundary, on which samples are at most
+    // a cell apart; vertices are all evaluated.
     const double sampling = query.points == PenetrationPoints::boundary ? budget.cell / 2.0 : 0.0;
-    // Of the shape itself, a boundary point lies off A's rings and its depth off B's.
+    // Relative to the exact shapes, a boundary point lies off A's rings and its depth off B's.
     budget.tessellation = deviations.a + deviations.b;
     budget.bound = sampling + float_rounding * d + budget.tessellation;
     return budget;
@@ -33,7 +33,7 @@ ErrorBudget penetration_budget(const PenetrationQuery& query, const Deviations& 
 
 ErrorBudget contact_budget(double tolerance, const Deviations& deviations) {
     ErrorBudget budget = search_budget(tolerance);
-    // As for penetration: distances change by no more than the way along the boundary.
+    // As for penetration: distances change by at most the distance moved along the boundary.
     budget.tessellation = deviations.a + deviations.b;
     budget.bound = budget.cell / 2.0 + float_rounding * tolerance + budget.tessellation;
     return budget;
@@ -54,15 +54,15 @@ ErrorBudget intersection_budget(const IntersectionQuery& query, geometry::Subpix
     budget.simplification = d / 16.0;
     budget.tessellation = std::max(deviations.a, deviations.b);
     const double left = d - budget.tessellation;
-    // The snapping of the raster in units of half a cell's diagonal.
+    // The raster's snapping in units of half a cell's diagonal.
     const double snapping = grid.largest_move() * std::numbers::sqrt2;
     double half_diagonal = 0.0;
     if (query.kind == IntersectionKind::volume_volume) {
         half_diagonal = (left - budget.simplification) / (1.0 + snapping);
     } else {
-        // The offset reaches the curves themselves, which the rings may be off:
-        // overreach * (half_diagonal + simplification + tessellation) + 3 snapping +
-        // simplification + tessellation = d
+        // The offset must reach the exact curves, from which the rings may deviate: overreach *
+        // (half_diagonal + simplification + tessellation) + 3 snapping + simplification +
+        // tessellation = d
         const double overreach = geometry::offset_overreach;
         half_diagonal = (left - overreach * (budget.simplification + budget.tessellation) -
                          budget.simplification) /
@@ -80,18 +80,18 @@ ErrorBudget field_budget(const DistanceFieldQuery& query, geometry::SubpixelGrid
     ErrorBudget budget;
     budget.cell = d * std::numbers::sqrt2;
     if (query.technique == Technique::cpu) {
-        // No mesh and no snapping. Features are those of the shape itself, and so are points.
+        // No mesh and no snapping. Features are those of the original shape, and so are points.
         const FieldParts parts = field_parts(query);
         budget.tessellation = deviations.b;
         budget.simplification = parts.values && !parts.features ? d / 4.0 : 0.0;
         budget.bound = budget.simplification + float_rounding * d + budget.tessellation;
         return budget;
     }
-    // A distance mesh cannot be finer than the raster's snapping lets it be.
+    // A distance mesh cannot be finer than the raster's snapping allows.
     budget.mesh = std::max(field_mesh_error, 10.0 * grid.largest_move()) * budget.cell;
-    // The sample itself is a cell's centre, so there is no sampling error: what is left is the
-    // simplified boundary, a feature that won although another is nearer by up to the error of the
-    // mesh, the raster's snapping of that mesh and of the fill, and rounding.
+    // The sample is a cell's centre, so there is no sampling error. What remains: the simplified
+    // boundary; a feature that won although another is nearer by up to the error of the mesh; the
+    // raster's snapping of that mesh and of the fill; rounding.
     const double rest = budget.mesh + (2.0 * grid.largest_move() + float_rounding) * budget.cell;
     budget.tessellation = deviations.b;
     const double left = d - rest - budget.tessellation;

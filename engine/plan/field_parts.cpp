@@ -9,7 +9,7 @@ FieldParts field_parts(const DistanceFieldQuery& query) {
     FieldParts parts;
     parts.blended = differences && query.gradient == GradientMethod::blended;
     parts.gradients = parts.blended && query.gradients;
-    // The host takes differences of values.
+    // The host computes differences from values.
     parts.host_values = query.values || parts.blended || (differences && query.gradients);
     parts.host_features =
         query.features || (query.gradients && query.gradient == GradientMethod::analytic);

@@ -7,7 +7,7 @@ namespace nearfield::plan {
 namespace {
 
 std::uint64_t cells_along(double length, double cell) {
-    // A length that is a whole number of cells up to rounding gets that number.
+    // A length that is a whole number of cells up to rounding yields that number.
     const double count = std::ceil(length / cell - 1e-9);
     return static_cast<std::uint64_t>(std::clamp(count, 1.0, 1e18));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 #include <engine/geometry/vector.hpp>
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct Grid {
     std::uint64_t width = 0;
     std::uint64_t height = 0;
 
-    /// The smallest grid from the low corner of `box` on that covers it; at least one cell.
+    /// The smallest grid that starts at the low corner of `box` and covers it; at least one cell.
     static Grid covering(const geometry::Box& box, double cell);
 
     [[nodiscard]] double cells() const {
@@ -23,11 +23,12 @@ struct Grid {
     }
 };
 
-/// From coordinates relative to a polygon's centre to cells of a tile, composed in double precision
-/// so that nothing is lost far from the origin of the world.
+/// Transforms coordinates relative to a polygon's centre to cells of a tile. Composed in double
+/// precision, so that no precision is lost far from the world's origin.
 class ToCells {
 public:
-    ToCells(const geometry::PlacedPolygon& polygon, const geometry::Vector& origin, double cell)
+    ToCells(const geometry::TransformedPolygon& polygon, const geometry::Vector& origin,
+            double cell)
         : matrix_(polygon.rotation() / cell),
           offset_((polygon.translation() - origin) / cell),
           cell_(cell) {}
@@ -36,17 +37,17 @@ public:
     [[nodiscard]] double cells(double length) const { return length / cell_; }
 
     geometry::Vector operator()(const geometry::Vector& v) const { return matrix_ * v + offset_; }
-    /// A box around all of `box`, up to rounding.
+    /// A box that encloses all of `box`, up to rounding.
     [[nodiscard]] geometry::Box operator()(const geometry::Box& box) const {
         const geometry::Vector centre = (*this)(box.center());
         const geometry::Vector half = matrix_.cwiseAbs() * (0.5 * box.sizes());
         return {centre - half, centre + half};
     }
-    /// Back to coordinates relative to the polygon's centre.
+    /// Transforms back to coordinates relative to the polygon's centre.
     [[nodiscard]] geometry::Vector inverse(const geometry::Vector& cells) const {
         return matrix_.transpose() * (cells - offset_) * (cell_ * cell_);
     }
-    /// What rounding may change about the place of anything in `box`, in cells, and more.
+    /// Generous upper bound, in cells, on how far rounding moves anything in `box`.
     [[nodiscard]] double rounding(const geometry::Box& box) const {
         return 64.0 * std::numeric_limits<double>::epsilon() *
                (offset_.norm() + cells(box.max().norm() + box.min().norm()) + 1.0);

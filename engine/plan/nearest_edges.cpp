@@ -32,9 +32,9 @@ void NearestEdgeFinder::find(const TileBoundary& boundary, const NeededBlocks& n
 void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double slack) {
     const Vector centre(0.5 * needed_->width(), 0.5 * needed_->height());
     const double nearest = boundary.distance(centre);
-    // In double precision so far. What can matter lies within a window around the tile; edges are
-    // cut to it, so that what rounding to floats may change about a distance, which is granted on
-    // top of the slack, depends on the window and not on how far an edge reaches.
+    // Double precision up to here. Everything relevant lies within a window around the tile. Edges
+    // are cut to the window, so that the rounding error of a distance in floats, which is added to
+    // the slack, depends on the window and not on how far an edge reaches.
     const double window = nearest + 2.0 * (centre.norm() + slack) + 1.0;
     slack_ = slack + 0.01 + 1e-6 * window;
     const double limit = nearest + 2.0 * (centre.norm() + slack_);
@@ -95,7 +95,7 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
     }
     const double distance = std::sqrt(static_cast<double>(nearest));
     const double limit = distance + 2.0 * (half_diagonal + slack_);
-    // Far from the boundary a finer look changes little.
+    // Far from the boundary, finer blocks gain little.
     if (count == 1 || half_diagonal < distance / 8.0) {
         reach_out(first, end, x, y, limit, half_diagonal, distance + half_diagonal + slack_);
         return;
@@ -127,7 +127,7 @@ void NearestEdgeFinder::reach_out(std::size_t first, std::size_t end, float x, f
         }
         const std::uint32_t index = candidates_[i];
         const Candidate& edge = edges_[index];
-        // How far left of the edge's line the centre lies; an edge of no length has no side.
+        // Distance of the centre to the left of the edge's line; an edge of no length has no side.
         const float left =
             (edge.dx * (y - edge.ay) - edge.dy * (x - edge.ax)) * edge.inverse_length;
         if (left > -wide) {

@@ -9,29 +9,29 @@
 
 namespace nearfield::plan {
 
-/// An edge that can be nearest to a needed sample, and how far from it, in cells. A side that holds
-/// no such sample has reach 0.
+/// An edge that can be nearest to a needed sample, and the largest distance of such a sample from
+/// it, in cells. A side without such samples has reach 0.
 struct NearestEdge {
     TileEdge edge;
-    double reach_left = 0.0;  ///< left of the way from a to b
+    double reach_left = 0.0;  ///< left of the direction from a to b
     double reach_right = 0.0;
     [[nodiscard]] double reach() const { return std::max(reach_left, reach_right); }
 };
 
-/// Finds the edges that can be nearest to a needed sample of a tile: a quadtree over the tile's
-/// blocks, on the way down which candidates drop out. The samples of a part of the tile are no
-/// farther from the boundary than its centre is, plus half its diagonal; an edge that is farther
-/// than that from all of them is out.
+/// Finds the edges that can be nearest to a needed sample of a tile. Descends a quadtree over the
+/// tile's blocks and drops candidates at every level: a sample in a node is no farther from the
+/// boundary than the node's centre plus half the node's diagonal, and an edge farther than that
+/// from every sample is dropped.
 class NearestEdgeFinder {
 public:
     /// Replaces `result`, in ring order. `slack`: how far, in cells, the true boundary and a drawn
-    /// distance may be off; within it, the true boundary's nearest edge is found as well as the
-    /// simplified one's.
+    /// distance may be off; the edge nearest on any boundary within it is found as well as the
+    /// nearest simplified edge.
     void find(const TileBoundary& boundary, const NeededBlocks& needed, double slack,
               std::vector<NearestEdge>& result);
 
 private:
-    /// An edge, or what of it lies near the tile, in floats relative to the tile's centre.
+    /// An edge, cut to its part near the tile, in floats relative to the tile's centre.
     struct Candidate {
         float ax, ay, dx, dy;
         float inverse_squared_length;
@@ -48,7 +48,7 @@ private:
     double slack_ = 0.0;
     std::vector<TileEdge> near_;    // all that can matter somewhere in the tile, in ring order
     std::vector<Candidate> edges_;  // the same
-    std::vector<std::uint32_t> candidates_;  // of those, a stack: one list a level
+    std::vector<std::uint32_t> candidates_;  // indices of edges_: a stack with one list per level
     std::vector<float> squared_;  // by place on the stack: squared distance to the centre
     std::vector<double> reach_left_, reach_right_;  // by near edge
 };

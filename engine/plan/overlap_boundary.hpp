@@ -6,14 +6,14 @@
 
 namespace nearfield::plan {
 
-/// A boundary as a tile of an intersection sees it: simplified where the tile looks, and nothing
-/// but a few edges elsewhere. The same for every technique, so that samples are, too. Valid until
-/// the next call to `shapes`.
+/// A boundary for one tile of an intersection: simplified near the tile and reduced to a few edges
+/// elsewhere. Identical for every technique, so that the samples are, too. Valid until the next
+/// call to `shapes`.
 [[nodiscard]] inline TileBoundary overlap_boundary(const geometry::Polygon& polygon,
                                                    const Pose& pose, const ErrorBudget& budget,
                                                    const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;
-    const geometry::PlacedPolygon placed(polygon, pose);
+    const geometry::TransformedPolygon placed(polygon, pose);
     // Farther than crossing_edges() looks and offset polygons reach.
     const double beyond = 2.0 * budget.offset + budget.simplification + 4.0 * cell;
     const geometry::Box drawn(tile.origin(),

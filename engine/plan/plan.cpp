@@ -3,7 +3,8 @@
 namespace nearfield::plan {
 
 void Plan::clear() {
-    // But for the queries: the planner writes each anew, and thousands would be written twice.
+    // Everything but the queries: the planner overwrites each of them, and clearing thousands would
+    // write them twice.
     resident.clear();
     with_gradient_normals.clear();
     tiles.clear();
@@ -11,11 +12,11 @@ void Plan::clear() {
     points.clear();
     field_points.clear();
     extent = {};
-    rounds = 0;
-    raster_rounds = 0;
-    tiles_by_round.clear();
-    points_by_round.clear();
-    field_points_by_round.clear();
+    tile_batches = 0;
+    raster_tile_batches = 0;
+    tiles_by_batch.clear();
+    points_by_batch.clear();
+    field_points_by_batch.clear();
     result_bytes = 0.0;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <engine/geometry/mesh.hpp>
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 #include <engine/plan/atlas.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -29,29 +29,29 @@ enum class TileKind : std::uint8_t {
 struct Tile {
     std::uint32_t query = 0;
     TileKind kind{};
-    std::uint32_t region = 0;  ///< of the query's regions, the one it belongs to
+    std::uint32_t region = 0;  ///< the query's region that it belongs to
     Grid grid;                 ///< of that region
     std::uint64_t column = 0;  ///< in that grid, of the tile's low corner without its halo
     std::uint64_t row = 0;
     std::uint32_t width = 0;  ///< drawn, the halo included
     std::uint32_t height = 0;
-    std::uint32_t halo = 0;  ///< cells drawn around what the tile stands for, on every side
+    std::uint32_t halo = 0;  ///< cells drawn around the tile's own cells, on every side
     AtlasPlace place;
-    /// Which blocks of the tile hold points, or all of them for a field. Not for overlap.
+    /// The blocks of the tile that hold points; all of them for a field. Unused for overlap.
     NeededBlocks needed;
 
-    /// Of what is drawn, in cells of the tile.
+    /// Centre of the drawn cells, in cells of the tile.
     [[nodiscard]] geometry::Vector centre() const { return {0.5 * width, 0.5 * height}; }
-    /// Of what is drawn, in the world.
+    /// Low corner of the drawn cells, in the world.
     [[nodiscard]] geometry::Vector origin() const {
         return grid.origin + grid.cell * geometry::Vector(static_cast<double>(column) - halo,
                                                           static_cast<double>(row) - halo);
     }
 };
 
-/// A boundary point and the tile its cell belongs to.
+/// A boundary point and the tile that its cell belongs to.
 struct PlannedPoint {
-    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< of points that the CPU answers
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< for points that the CPU answers
 
     BoundaryPoint point;
     std::uint32_t tile = 0;
@@ -59,18 +59,18 @@ struct PlannedPoint {
 
 /// A point at which a field is reconstructed, between four cells of a tile.
 struct PlannedFieldPoint {
-    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< of points that the CPU answers
+    static constexpr std::uint32_t no_tile = UINT32_MAX;  ///< for points that the CPU answers
 
     geometry::Vector position;  ///< in the world
     std::uint32_t tile = 0;
     std::uint32_t column = 0;  ///< of the low one of the four cells, in the tile, or grid, as drawn
     std::uint32_t row = 0;
-    double across = 0.0;  ///< of the way from the centre of that cell to the next, along x
+    double across = 0.0;  ///< fraction from the centre of that cell to the next, along x
     double up = 0.0;      ///< and along y
 };
 
-/// What one query became, or one direction of it. The polygons live in the shape store until the
-/// batch is done.
+/// The planned form of a query, or of one direction of it. The polygons live in the shape store
+/// until the batch is done.
 struct PlannedQuery {
     static constexpr std::uint32_t none = UINT32_MAX;
 
@@ -85,17 +85,18 @@ struct PlannedQuery {
     std::uint32_t point_count = 0;
     /// Points outside B are resolved as well.
     bool outside = false;
-    /// Technique::cpu: nothing is rendered for it.
+    /// Technique::cpu: nothing is rendered for the query.
     bool on_cpu = false;
-    /// On the CPU, with nothing planned: PointPenetration or PointContacts finds the points.
-    bool edge_by_edge = false;
-    /// Technique::compute: its tiles have no place in the atlas, and rounds of their own.
+    /// Answered on the CPU with nothing planned: PointPenetration or PointContacts finds the
+    /// points.
+    bool brute_force = false;
+    /// Technique::compute: its tiles have no place in the atlas, and tile batches of their own.
     bool by_compute = false;
-    /// Where the other direction stands in Plan::queries: points of B in the field of A.
+    /// Index in Plan::queries of the other direction: points of B in the field of A.
     std::uint32_t reverse = none;
     std::uint32_t first_cpu_tile = 0;  ///< of an intersection on the CPU
     std::uint32_t cpu_tile_count = 0;
-    /// What it comes to stays on the device as well.
+    /// Its results stay on the device as well.
     bool resident = false;
     FieldParts field;  ///< of a distance field
     double farthest =
@@ -104,21 +105,21 @@ struct PlannedQuery {
     std::uint32_t field_point_count = 0;
 };
 
-/// Positions in an array in order of rounds, and within a round in order.
-class ByRound {
+/// Indices of an array, sorted by tile batch; original order within each tile batch.
+class ByTileBatch {
 public:
-    /// `round_of(i)` is the round of element i, below `rounds`.
+    /// `tile_batch_of(i)` is the tile batch of element i, below `tile_batches`.
     template <class RoundOf>
-    void sort(std::size_t count, std::uint32_t rounds, RoundOf&& round_of) {
-        starts_.assign(rounds + 1, 0);
+    void sort(std::size_t count, std::uint32_t tile_batches, RoundOf&& tile_batch_of) {
+        starts_.assign(tile_batches + 1, 0);
         for (std::size_t i = 0; i < count; ++i) {
-            ++starts_[round_of(i)];
+            ++starts_[tile_batch_of(i)];
         }
-        // Backwards, so that each round's end moves down to its start.
+        // Backwards, so that the end of each tile batch moves down to its start.
         std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
         order_.resize(count);
         for (std::size_t i = count; i > 0; --i) {
-            order_[--starts_[round_of(i - 1)]] = static_cast<std::uint32_t>(i - 1);
+            order_[--starts_[tile_batch_of(i - 1)]] = static_cast<std::uint32_t>(i - 1);
         }
     }
     void clear() {
@@ -126,39 +127,40 @@ public:
         order_.clear();
     }
 
-    /// The elements of a round.
+    /// The elements of a tile batch.
     [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t round) const {
         return std::span(order_).subspan(starts_[round], starts_[round + 1] - starts_[round]);
     }
 
 private:
-    std::vector<std::uint32_t> starts_;  // by round; then the end of the last
+    std::vector<std::uint32_t> starts_;  // by tile batch; then the end of the last
     std::vector<std::uint32_t> order_;
 };
 
-/// A batch as tiles: what is to be rendered, where, and for whom.
+/// A batch as tiles: what is rendered, where, and for which query.
 struct Plan {
-    /// By position in the batch; behind them the other directions of some.
+    /// By position in the batch, followed by the other directions of some queries.
     std::vector<PlannedQuery> queries;
-    BoundingVolume bounding_volume{};     ///< what hierarchies are made of
+    BoundingVolume bounding_volume{};     ///< that hierarchies are made of
     geometry::SubpixelGrid subpixel;      ///< that overlaps are snapped to
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
-    /// Contacts whose normals are to be gradients of the distance.
+    /// Contact queries with gradient normals.
     std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;
     std::vector<Tile> cpu_tiles;                  ///< of overlaps that the CPU finds, by query
     std::vector<PlannedPoint> points;             ///< in order of queries, then along A's rings
-    std::vector<PlannedFieldPoint> field_points;  ///< in order of queries, then as asked
+    std::vector<PlannedFieldPoint> field_points;  ///< by query, then as in the query
     TileSize extent;                              ///< of the atlas
-    std::uint32_t rounds = 0;
-    std::uint32_t raster_rounds = 0;  ///< the first ones; the others are the compute technique's
-    ByRound tiles_by_round;
-    ByRound points_by_round;
-    ByRound field_points_by_round;
-    /// Bytes all results may need on the host.
+    std::uint32_t tile_batches = 0;
+    std::uint32_t raster_tile_batches =
+        0;  ///< the first ones; the others are the compute technique's
+    ByTileBatch tiles_by_batch;
+    ByTileBatch points_by_batch;
+    ByTileBatch field_points_by_batch;
+    /// Bytes that all results may need on the host.
     double result_bytes = 0.0;
-    /// So many jobs at the same time have room for what each keeps while it answers; at least 1.
-    std::uint32_t most_jobs = 1;
+    /// Number of jobs that can run at the same time within the memory limit; at least 1.
+    std::uint32_t max_jobs = 1;
 
     void clear();
 };

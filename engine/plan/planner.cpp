@@ -1,11 +1,11 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
+#include <engine/base/stopwatch.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/plan/technique.hpp>
-#include <engine/stopwatch.hpp>
 #include <nearfield/jobs.hpp>
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace nearfield::plan {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 
-// Signs, features, distances, hits and two stencils (8 bytes each where stencil comes with depth);
-// signs in white, signed features with their distances, gradients.
+// Signs, features, distances, hits and two stencils (8 bytes each where the stencil comes with
+// depth); signs in white, signed features with their distances, gradients.
 constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0;
 
-// What a sample takes while all of a boundary's are kept at once and none is planned: its place,
-// what is nearest to it, the contact it may be.
+// Memory per sample while all samples of a boundary are kept at once and none is planned: its
+// position, the nearest feature, the potential contact.
 constexpr double bytes_of_kept_sample = 256.0;
 
 Status unknown_shape(const char* which, ShapeHandle handle) {
@@ -31,7 +31,7 @@ Status unknown_shape(const char* which, ShapeHandle handle) {
                                            ") is not a shape of this context, or was removed"};
 }
 
-/// An empty result of the right kind that keeps the memory of the last one.
+/// Returns an empty result of the right kind that keeps the memory of the last one.
 template <class Result>
 Result& reuse(AnyResult& any) {
     if (!std::holds_alternative<Result>(any)) {
@@ -79,7 +79,7 @@ Result& reuse(AnyResult& any) {
 }  // namespace
 
 Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
-    // Images get a quarter of the memory at the most; smaller ones only mean more rounds.
+    // Images take at most a quarter of the memory; smaller images only mean more tile batches.
     const auto images = [this] {
         return bytes_per_pixel * limits_.largest_atlas * limits_.largest_atlas;
     };
@@ -91,7 +91,7 @@ Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
     point_tiles_ = PointTiles(std::min(limits_.points_tile, limits_.largest_tile));
     packer_ = AtlasPacker(limits_.largest_atlas);
     memory_for_results_ = std::max(0.0, static_cast<double>(limits_.memory) - images());
-    most_to_keep_ = memory_for_results_ / 4.0 / bytes_of_kept_sample;
+    max_to_keep_ = memory_for_results_ / 4.0 / bytes_of_kept_sample;
 }
 
 void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -103,8 +103,8 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
         plan_all(queries, shapes, plan, results, submissions);
     }
     plan.result_bytes += rough_bytes_;
-    const double with_room = most_to_keep_ / std::max(1.0, most_kept_);
-    plan.most_jobs = static_cast<std::uint32_t>(std::clamp(with_room, 1.0, 1.0 * most_jobs));
+    const double with_room = max_to_keep_ / std::max(1.0, max_kept_);
+    plan.max_jobs = static_cast<std::uint32_t>(std::clamp(with_room, 1.0, 1.0 * max_jobs));
 }
 
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
@@ -113,7 +113,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
     plan.subpixel = limits_.subpixel;
-    localize_milliseconds_ = rough_bytes_ = most_kept_ = 0.0;
+    localize_milliseconds_ = rough_bytes_ = max_kept_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
@@ -137,7 +137,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                         plan.resident.push_back(query_);
                     }
                 }
-                // Success is not copied: it is what thousands of queries have in common.
+                // Success is not copied: thousands of queries have it in common.
                 if (Status status = check_query(query, limits_.techniques); !status.ok()) {
                     result.status = std::move(status);
                 }
@@ -158,7 +158,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                     result.status = unknown_shape("B", query.b.shape);
                 }
                 if (result.status.ok()) {
-                    // Of a distance field's A nothing but its box is used.
+                    // Only the box of a distance field's A is used.
                     constexpr bool of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
                     planned.deviations = {of_b_alone ? 0.0 : planned.a->deviation(),
                                           planned.b->deviation()};
@@ -178,18 +178,19 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
     if (plan_->result_bytes <= limit) {
         return;
     }
-    // Memory grows with (1/d)^growth: what this query alone would take at a coarser tolerance.
+    // Memory grows with (1/d)^growth, which yields the tolerance at which this query alone fits.
     const double smallest = tolerance * std::pow(query_bytes_ / limit, 1.0 / growth);
     std::string hint = limit == 0.0 ? "; images take all of Settings::memory_limit"
                        : query_bytes_ > limit
                            ? "; the smallest tolerance that fits is about " +
                                  number(static_cast<float>(smallest * 1.05))
                            : "; together with the queries before it the batch is too large";
-    throw Failure({StatusCode::too_large,
-                   "query " + std::to_string(query_) + " with tolerance " + number(tolerance) +
-                       " needs up to " + number(std::ceil(plan_->result_bytes / 1048576.0)) +
-                       " MiB, more than the limit of " + number(std::floor(limit / 1048576.0)) +
-                       " MiB" + hint});
+    throw StatusException(
+        {StatusCode::too_large, "query " + std::to_string(query_) + " with tolerance " +
+                                    number(tolerance) + " needs up to " +
+                                    number(std::ceil(plan_->result_bytes / 1048576.0)) +
+                                    " MiB, more than the limit of " +
+                                    number(std::floor(limit / 1048576.0)) + " MiB" + hint});
 }
 
 localize::OverlapOptions Planner::overlap_options(double grow) const {
@@ -225,21 +226,22 @@ void Planner::add_regions(double cell, ResultSummary& result) {
     }
 }
 
-/// A side that a Region cannot state is an error.
+/// Throws if a side exceeds what a Region can state.
 void Planner::require_sides(double tolerance) const {
     for (const Grid& grid : grids_) {
         if (std::max(grid.width, grid.height) > UINT32_MAX) {
-            throw Failure({StatusCode::too_large,
-                           "query " + std::to_string(query_) + " with tolerance " +
-                               number(tolerance) + " has a region of " +
-                               std::to_string(grid.width) + " x " + std::to_string(grid.height) +
-                               " cells; a side has at most " + std::to_string(UINT32_MAX)});
+            throw StatusException({StatusCode::too_large,
+                                   "query " + std::to_string(query_) + " with tolerance " +
+                                       number(tolerance) + " has a region of " +
+                                       std::to_string(grid.width) + " x " +
+                                       std::to_string(grid.height) + " cells; a side has at most " +
+                                       std::to_string(UINT32_MAX)});
         }
     }
 }
 
-/// What bit masks of the query's grids take by the compute technique, each with a bit a cell: the
-/// masks themselves on the device, and their rows on both sides.
+/// Memory for bit masks of the query's grids by the compute technique, one bit per cell: the masks
+/// themselves on the device, and their rows on both host and device.
 double Planner::bytes_of_masks(int masks) const {
     constexpr double bytes_per_row = 4.0 * (sizeof(MaskRowData) + sizeof(OverlapRowData));
     double bytes = 0.0;
@@ -279,9 +281,9 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
     }
 }
 
-/// A round of the compute technique takes as many cells as an atlas image has, which bounds what
-/// its masks and lists take: whole words and blocks count.
-void Planner::add_compute_rounds() {
+/// A tile batch of the compute technique takes as many cells as an atlas image has, which bounds
+/// the memory for masks and lists. Whole words and blocks count.
+void Planner::add_compute_tile_batches() {
     const auto whole = [](std::uint32_t cells, std::uint32_t step) {
         const std::uint32_t steps = (cells + step - 1) / step;
         return static_cast<double>(steps) * step;
@@ -295,10 +297,10 @@ void Planner::add_compute_rounds() {
         const double own = whole(tile.width, 32) * whole(tile.height, block_side);
         cells += own;
         if (cells > most) {
-            ++plan_->rounds;
+            ++plan_->tile_batches;
             cells = own;
         }
-        tile.place = {plan_->rounds - 1, 0, 0};
+        tile.place = {plan_->tile_batches - 1, 0, 0};
     }
 }
 
@@ -317,24 +319,25 @@ void Planner::pack() {
         }
     }
     plan_->extent = packer_.extent();
-    plan_->rounds = packer_.rounds();
-    plan_->raster_rounds = plan_->rounds;
-    add_compute_rounds();
+    plan_->tile_batches = packer_.tile_batches();
+    plan_->raster_tile_batches = plan_->tile_batches;
+    add_compute_tile_batches();
     const std::vector<Tile>& tiles = plan_->tiles;
     const std::vector<PlannedPoint>& points = plan_->points;
     const std::vector<PlannedFieldPoint>& field_points = plan_->field_points;
-    plan_->tiles_by_round.sort(tiles.size(), plan_->rounds,
+    plan_->tiles_by_batch.sort(tiles.size(), plan_->tile_batches,
                                [&](std::size_t i) { return tiles[i].place.round; });
-    // Points that are answered on the CPU have no tile: they come after all rounds.
-    const std::uint32_t no_round = plan_->rounds;
-    plan_->points_by_round.sort(points.size(), plan_->rounds + 1, [&](std::size_t i) {
+    // Points that the CPU answers have no tile: they follow all tile batches.
+    const std::uint32_t no_round = plan_->tile_batches;
+    plan_->points_by_batch.sort(points.size(), plan_->tile_batches + 1, [&](std::size_t i) {
         const std::uint32_t tile = points[i].tile;
         return tile == PlannedPoint::no_tile ? no_round : tiles[tile].place.round;
     });
-    plan_->field_points_by_round.sort(field_points.size(), plan_->rounds + 1, [&](std::size_t i) {
-        const std::uint32_t tile = field_points[i].tile;
-        return tile == PlannedFieldPoint::no_tile ? no_round : tiles[tile].place.round;
-    });
+    plan_->field_points_by_batch.sort(
+        field_points.size(), plan_->tile_batches + 1, [&](std::size_t i) {
+            const std::uint32_t tile = field_points[i].tile;
+            return tile == PlannedFieldPoint::no_tile ? no_round : tiles[tile].place.round;
+        });
 }
 
 }  // namespace nearfield::plan

@@ -12,11 +12,11 @@ namespace nearfield::plan {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 using geometry::Vector;
 
-/// Bytes of what is asked for at every cell: in the result, and on the way there as drawn in tiles
-/// of at most `side` cells and their halos.
+/// Bytes of the requested outputs at cells: in the result, and on the way there in tiles of at most
+/// `side` cells drawn with their halos.
 double bytes_of_cells(const DistanceFieldQuery& query, const FieldParts& parts, const Grid& grid,
                       double side) {
     const double resident = query.resident ? 2.0 * sizeof(std::uint32_t) : 0.0;
@@ -105,8 +105,8 @@ std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
                    geometry::to_vector(query.rectangle->max));
     }
     const PlannedQuery& planned = plan_->queries[query_];
-    const Box box_a = PlacedPolygon(*planned.a, query.a.pose).box();
-    const Box box = box_a.intersection(PlacedPolygon(*planned.b, query.b.pose).box());
+    const Box box_a = TransformedPolygon(*planned.a, query.a.pose).box();
+    const Box box = box_a.intersection(TransformedPolygon(*planned.b, query.b.pose).box());
     if (box.isEmpty()) {
         result.status = {StatusCode::invalid_query,
                          "the bounding boxes of A and B have nothing in common; give the "
@@ -119,7 +119,7 @@ std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
 bool Planner::check_field(const Box& box, ResultSummary& result) const {
     const PlannedQuery& planned = plan_->queries[query_];
     const double tolerance = result.tolerance;
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     const Box box_b = b.box();
     result.status = check_deviations(tolerance, planned.deviations, planned.budget.bound);
     if (result.status.ok()) {
@@ -128,8 +128,8 @@ bool Planner::check_field(const Box& box, ResultSummary& result) const {
                                 geometry::largest_magnitude(b, planned.pose_b, box_b)));
     }
     if (result.status.ok()) {
-        // No cell is nearer to B than the boxes are to each other: what is refused for its distance
-        // in the end is refused before any work where that can be told.
+        // No cell is nearer to B than the boxes are to each other: a field too far away is rejected
+        // before any work where the boxes show it.
         const double gap = box.exteriorDistance(box_b);
         result.status = check_distance(tolerance, planned.budget.bound + far_rounding * gap, gap);
     }
@@ -155,10 +155,10 @@ bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {
                 " along a side; use a larger tolerance or a smaller rectangle"};
         return false;
     }
-    // Distances change by no more than the way walked.
+    // Distances change by at most the distance moved.
     const Vector half =
         0.5 * grid.cell * Vector(static_cast<double>(grid.width), static_cast<double>(grid.height));
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     const Vector centre = grid.origin + half;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < planned.b->size(); ++i) {
@@ -224,7 +224,8 @@ Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& gr
                         " is outside the grid of the field, which covers " + place(grid.origin) +
                         " to " + place(high)};
         }
-        // The cell the point lies in says which tile; the halo holds what else is looked at.
+        // The cell that contains the point determines the tile; the halo holds the neighbouring
+        // cells.
         const auto cell = [](double coordinate, std::uint64_t count) {
             const double last = static_cast<double>(count - 1);
             return static_cast<std::uint64_t>(std::clamp(std::floor(coordinate), 0.0, last));

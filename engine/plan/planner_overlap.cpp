@@ -1,8 +1,8 @@
+#include <engine/base/stopwatch.hpp>
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/stopwatch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace nearfield::plan {
 namespace {
 
 using geometry::Box;
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 
 constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 
@@ -24,8 +24,8 @@ void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     result.cell = planned.budget.cell;
     result.kind = query.kind;
     result.strategy = query.strategy;
-    const PlacedPolygon a(*planned.a, query.a.pose);
-    const PlacedPolygon b(*planned.b, query.b.pose);
+    const TransformedPolygon a(*planned.a, query.a.pose);
+    const TransformedPolygon b(*planned.b, query.b.pose);
     const Box box_a = a.box();
     const Box box_b = b.box();
     if (!check_strategy(query.strategy, result) || !check_boxes(box_a, box_b, result)) {
@@ -78,10 +78,10 @@ bool Planner::check_boxes(const Box& a, const Box& b, ResultSummary& result) con
     return result.status.ok();
 }
 
-void Planner::find_common_volume(const PlacedPolygon& a, const PlacedPolygon& b, const Box& within,
-                                 ResultSummary& result) {
-    // The boundary of the overlap is what lies of either boundary in the other volume: all of it
-    // in one box.
+void Planner::find_common_volume(const TransformedPolygon& a, const TransformedPolygon& b,
+                                 const Box& within, ResultSummary& result) {
+    // The boundary of the overlap consists of the parts of either boundary in the other volume: one
+    // box covers it all.
     chains_.clear();
     count(localize::chains_in_each_other(a, b, overlap_options(0.0), chains_, chains_), result);
     if (!chains_.empty()) {
@@ -93,8 +93,9 @@ void Planner::find_common_volume(const PlacedPolygon& a, const PlacedPolygon& b,
     join_chain_boxes(within, 0.0);
 }
 
-void Planner::find_near_boundary(IntersectionKind kind, const PlacedPolygon& a,
-                                 const PlacedPolygon& b, const Box& within, ResultSummary& result) {
+void Planner::find_near_boundary(IntersectionKind kind, const TransformedPolygon& a,
+                                 const TransformedPolygon& b, const Box& within,
+                                 ResultSummary& result) {
     const double grow = plan_->queries[query_].budget.bound;
     chains_.clear();
     count(kind == IntersectionKind::boundary_volume
@@ -104,7 +105,7 @@ void Planner::find_near_boundary(IntersectionKind kind, const PlacedPolygon& a,
     join_chain_boxes(geometry::grown(within, grow), grow);
 }
 
-/// What the tiles of the query's grids take themselves, where nothing is kept for their cells.
+/// Memory for the tiles of the query's grids themselves, where nothing is kept for their cells.
 double Planner::bytes_of_tiles() const {
     double tiles = 0.0;
     for (const Grid& grid : grids_) {

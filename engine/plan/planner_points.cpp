@@ -1,7 +1,7 @@
+#include <engine/base/stopwatch.hpp>
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/stopwatch.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -13,35 +13,34 @@ namespace nearfield::plan {
 
 using geometry::Box;
 using geometry::grown;
-using geometry::PlacedPolygon;
+using geometry::TransformedPolygon;
 
 namespace {
 
-// What a point may take on the host: planned and resolved, in the result and in the buffers on the
-// way there.
+// Host memory per point: planned and resolved, in the result and in the buffers on the way there.
 constexpr double bytes_per_point =
     sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
 
-// The same of one that stays on the device: its details, its place in the tables, its record.
+// The same for a resident point: its details, its table entry, its record.
 constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
 
 double bytes_of_point(const PlannedQuery& query) {
     return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
 }
 
-// Of either boundary, for a search that is finished exactly.
-constexpr double most_search_samples = 4096.0;
+// For either boundary, in a search that is finished exactly.
+constexpr double max_search_samples = 4096.0;
 
-// Of a whole boundary: so many that 32 bits number them, and the parts of an edge, with room to
-// spare.
-constexpr double most_numbered_samples = 1U << 30U;
+// For a whole boundary: keeps the numbers of samples, and of the parts of an edge, well within 32
+// bits.
+constexpr double max_numbered_samples = 1U << 30U;
 
 }  // namespace
 
 bool Planner::check_numbers(ResultSummary& result) const {
     const PlannedQuery& planned = plan_->queries[query_];
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
     if (result.status.ok()) {
         result.status = check_resolution(result.tolerance,
@@ -52,10 +51,10 @@ bool Planner::check_numbers(ResultSummary& result) const {
 }
 
 bool Planner::can_keep(double samples) {
-    if (samples > most_to_keep_) {
+    if (samples > max_to_keep_) {
         return false;
     }
-    most_kept_ = std::max(most_kept_, samples);
+    max_kept_ = std::max(max_kept_, samples);
     return true;
 }
 
@@ -84,18 +83,18 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     const bool vertices = query.points == PenetrationPoints::vertices;
     const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
     const double of_boundary =
-        vertices ? static_cast<double>(planned.a->size()) : most_samples(*planned.a, budget.cell);
-    const bool may_be_by_edge = planned.on_cpu && of_boundary <= most_numbered_samples;
-    planned.edge_by_edge = may_be_by_edge && fits_roughly(of_boundary, bytes_of_record);
-    if (planned.edge_by_edge) {
-        // Nothing is planned: of the budget no more is asked for.
+        vertices ? static_cast<double>(planned.a->size()) : max_samples(*planned.a, budget.cell);
+    const bool may_be_by_edge = planned.on_cpu && of_boundary <= max_numbered_samples;
+    planned.brute_force = may_be_by_edge && fits_roughly(of_boundary, bytes_of_record);
+    if (planned.brute_force) {
+        // Nothing is planned: only the bound of the budget is used.
         planned.budget.bound = budget.bound;
         planned.budget.cell = budget.cell;
         return;
     }
     planned.budget = budget;
-    const PlacedPolygon a(*planned.a, query.a.pose);
-    const PlacedPolygon b(*planned.b, query.b.pose);
+    const TransformedPolygon a(*planned.a, query.a.pose);
+    const TransformedPolygon b(*planned.b, query.b.pose);
     if (!check_numbers(result)) {
         return;
     }
@@ -109,9 +108,9 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     const double samples =
-        vertices ? most_vertices(chains_) : most_samples(a, chains_, result.cell, box_b);
-    planned.edge_by_edge = may_be_by_edge && fits(samples, bytes_of_record, query.tolerance);
-    if (planned.edge_by_edge) {
+        vertices ? max_vertices(chains_) : max_samples(a, chains_, result.cell, box_b);
+    planned.brute_force = may_be_by_edge && fits(samples, bytes_of_record, query.tolerance);
+    if (planned.brute_force) {
         return;
     }
     join_chain_boxes(box_b, 0.0);
@@ -136,7 +135,7 @@ std::uint32_t Planner::add_reverse() {
     return index;
 }
 
-void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within, double samples,
+void Planner::sample_boundary(const TransformedPolygon& polygon, const Box& within, double samples,
                               const ResultSummary& result) {
     require_memory(bytes_of_point(plan_->queries[query_]) * samples, result.tolerance, 1.0);
     samples_.clear();
@@ -145,7 +144,7 @@ void Planner::sample_boundary(const PlacedPolygon& polygon, const Box& within, d
 
 void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummary& result) {
     PlannedQuery& planned = plan_->queries[index];
-    const PlacedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon a(*planned.a, planned.pose_a);
     planned.first_point = static_cast<std::uint32_t>(plan_->points.size());
     add_regions(result.cell, result);
     if (planned.on_cpu) {
@@ -160,7 +159,7 @@ void Planner::spread_points(std::uint32_t index, const Box& within, ResultSummar
     planned.point_count = static_cast<std::uint32_t>(plan_->points.size()) - planned.first_point;
 }
 
-double Planner::find_contact_chains(const PlacedPolygon& a, const PlacedPolygon& b,
+double Planner::find_contact_chains(const TransformedPolygon& a, const TransformedPolygon& b,
                                     double contact_distance, std::vector<localize::Chain>& chains,
                                     ResultSummary& result) {
     const Stopwatch start;
@@ -168,18 +167,19 @@ double Planner::find_contact_chains(const PlacedPolygon& a, const PlacedPolygon&
     count(localize::chains_near_boundary(a, b, overlap_options(contact_distance), chains_), result);
     localize_milliseconds_ += start.milliseconds();
     chains.assign(chains_.begin(), chains_.end());
-    return most_samples(a, chains, result.cell, grown(b.box(), contact_distance));
+    return max_samples(a, chains, result.cell, grown(b.box(), contact_distance));
 }
 
 void Planner::add_contact_points(std::uint32_t index, double contact_distance,
                                  const std::vector<localize::Chain>& chains, double samples,
                                  ResultSummary& result) {
     const PlannedQuery& planned = plan_->queries[index];
-    const Box within = grown(PlacedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
+    const Box within =
+        grown(TransformedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
     chains_.assign(chains.begin(), chains.end());
     join_chain_boxes(within, 0.0);
     if (!chains_.empty()) {
-        sample_boundary(PlacedPolygon(*planned.a, planned.pose_a), within, samples, result);
+        sample_boundary(TransformedPolygon(*planned.a, planned.pose_a), within, samples, result);
         spread_points(index, within, result);
     }
 }
@@ -195,22 +195,22 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
         plan_->with_gradient_normals.push_back(query_);
     }
     const double of_boundaries =
-        most_samples(*planned.a, result.cell) + most_samples(*planned.b, result.cell);
-    // Gradients are found around what was planned.
+        max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
+    // Gradients are computed around planned points.
     const bool may_be_by_edge =
-        planned.on_cpu && !gradients && of_boundaries <= most_numbered_samples;
+        planned.on_cpu && !gradients && of_boundaries <= max_numbered_samples;
     const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
-    planned.edge_by_edge = may_be_by_edge && fits_roughly(of_boundaries, bytes_of_record);
-    if (planned.edge_by_edge || !check_numbers(result)) {
+    planned.brute_force = may_be_by_edge && fits_roughly(of_boundaries, bytes_of_record);
+    if (planned.brute_force || !check_numbers(result)) {
         return;
     }
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     const double near = query.contact_distance;
     const double of_a = find_contact_chains(a, b, near, chains_of_[0], result);
     const double of_b = find_contact_chains(b, a, near, chains_of_[1], result);
-    planned.edge_by_edge = may_be_by_edge && fits(of_a + of_b, bytes_of_record, query.tolerance);
-    if (planned.edge_by_edge) {
+    planned.brute_force = may_be_by_edge && fits(of_a + of_b, bytes_of_record, query.tolerance);
+    if (planned.brute_force) {
         return;
     }
     const std::uint32_t reverse = add_reverse();
@@ -221,26 +221,26 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
 double Planner::find_closest_chains(std::uint32_t index, std::vector<localize::Chain>& chains,
                                     ResultSummary& result) {
     const PlannedQuery& planned = plan_->queries[index];
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    const PlacedPolygon b(*planned.b, planned.pose_b);
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
     const Stopwatch start;
     chains_.clear();
     count(closest_.find(a, b, overlap_options(0.0), chains_), result);
     localize_milliseconds_ += start.milliseconds();
     chains.assign(chains_.begin(), chains_.end());
-    return most_samples(a, chains, result.cell, grown(a.box(), result.cell));
+    return max_samples(a, chains, result.cell, grown(a.box(), result.cell));
 }
 
 void Planner::add_closest_points(std::uint32_t index, const std::vector<localize::Chain>& chains,
                                  ResultSummary& result) {
     PlannedQuery& planned = plan_->queries[index];
     planned.budget = search_budget(result.cell / std::numbers::sqrt2);
-    const PlacedPolygon a(*planned.a, planned.pose_a);
-    // A little more than all of A, so that rounding drops no point.
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    // A box slightly larger than A, so that rounding drops no point.
     const Box everything = grown(a.box(), result.cell);
     chains_.assign(chains.begin(), chains.end());
     join_chain_boxes(everything, 0.0);
-    sample_boundary(a, everything, most_samples(a, chains_, result.cell, everything), result);
+    sample_boundary(a, everything, max_samples(a, chains_, result.cell, everything), result);
     // A short chain may lie between two samples.
     for (const localize::Chain& chain : chains_) {
         samples_.push_back({chain.first, 0.0});
@@ -262,12 +262,12 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     planned.outside = true;
     result.cell = planned.budget.cell;
     if (planned.on_cpu || !check_numbers(result)) {
-        return;  // ClosestDecoder does all of the rest on the CPU
+        return;  // ClosestDecoder does the rest on the CPU
     }
     const Stopwatch start;
     localize::Effort effort;
-    result.intersects = localize::intersects(PlacedPolygon(*planned.a, planned.pose_a),
-                                             PlacedPolygon(*planned.b, planned.pose_b),
+    result.intersects = localize::intersects(TransformedPolygon(*planned.a, planned.pose_a),
+                                             TransformedPolygon(*planned.b, planned.pose_b),
                                              limits_.bounding_volume, &effort);
     chains_.clear();
     count(effort, result);
@@ -280,8 +280,8 @@ void Planner::add_closest(double tolerance, bool both_ways, ResultSummary& resul
     if (both_ways) {
         samples = std::max(samples, find_closest_chains(reverse, chains_of_[1], result));
     }
-    // The exact search takes over from wherever the samples leave off: more of them gain nothing.
-    result.cell *= std::max(1.0, samples / most_search_samples);
+    // The exact search continues wherever the samples end, so more samples gain nothing.
+    result.cell *= std::max(1.0, samples / max_search_samples);
     if (both_ways) {
         add_closest_points(reverse, chains_of_[1], result);
     }

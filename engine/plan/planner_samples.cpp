@@ -10,11 +10,10 @@
 namespace nearfield::plan {
 namespace {
 
-// What a sample may take on the host: in the result and in the buffers on the way there.
+// Host memory per sample: in the result and in the buffers on the way there.
 constexpr double bytes_per_sample = sizeof(IntersectionSample) + 48.0;
 
-// What a cell takes whose sample is to stay on the device: its hit, or its run of edges, and room
-// for the sample.
+// Memory per cell with a resident sample: its hit, or its run of edges, and space for the sample.
 constexpr double bytes_per_resident_cell = sizeof(std::uint32_t) + sizeof(IntersectionSampleData);
 
 double cells_of(const std::vector<Grid>& grids) {
@@ -27,7 +26,7 @@ double cells_of(const std::vector<Grid>& grids) {
 
 }  // namespace
 
-/// Of an intersection with the query's grids, but for bit masks.
+/// Memory for an intersection with the query's grids, without bit masks.
 double Planner::bytes_of_samples(const IntersectionQuery& query) const {
     const double cells = cells_of(grids_);
     const bool stay = query.resident && query.resident_samples;
@@ -35,14 +34,14 @@ double Planner::bytes_of_samples(const IntersectionQuery& query) const {
            (stay ? bytes_per_resident_cell * cells : 0.0);
 }
 
-/// There is room for every cell or none at all: what does not fit is refused before any work.
+/// Either every cell has space or the query is rejected before any work.
 bool Planner::check_resident(const IntersectionQuery& query, IntersectionResult& result) {
     const double cells = cells_of(grids_);
-    const double most_counted = UINT32_MAX;
+    const double max_counted = UINT32_MAX;
     const double room =
         static_cast<double>(limits_.largest_range - sizeof(IntersectionSummaryData)) /
         sizeof(IntersectionSampleData);
-    const double most = query.resident_samples ? std::min(room, most_counted) : most_counted;
+    const double most = query.resident_samples ? std::min(room, max_counted) : max_counted;
     if (cells <= most) {
         return true;
     }

@@ -29,9 +29,10 @@ std::uint64_t index_along(double coordinate, std::uint64_t count) {
 
 }  // namespace
 
-void PointTiles::spread(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,
-                        const Box& within, const std::vector<Box>& boxes,
-                        const std::vector<Grid>& grids, std::uint32_t query, Plan& plan) {
+void PointTiles::spread(const geometry::TransformedPolygon& a,
+                        const std::vector<BoundaryPoint>& samples, const Box& within,
+                        const std::vector<Box>& boxes, const std::vector<Grid>& grids,
+                        std::uint32_t query, Plan& plan) {
     find_cells(a, samples, within, boxes, grids);
     keys_.clear();
     for (const PointCell& cell : cells_) {
@@ -60,7 +61,7 @@ void PointTiles::spread(const geometry::PlacedPolygon& a, const std::vector<Boun
     trim_to_points(plan);
 }
 
-void PointTiles::find_cells(const geometry::PlacedPolygon& a,
+void PointTiles::find_cells(const geometry::TransformedPolygon& a,
                             const std::vector<BoundaryPoint>& samples, const Box& within,
                             const std::vector<Box>& boxes, const std::vector<Grid>& grids) {
     kept_.clear();

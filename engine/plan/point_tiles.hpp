@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/geometry/placed_polygon.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
 #include <engine/plan/plan.hpp>
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace nearfield::plan {
 
-/// Spreads a query's boundary points over tiles. Only what holds points becomes a tile.
+/// Assigns a query's boundary points to tiles. Only areas that hold points become tiles.
 class PointTiles {
 public:
     /// Tiles of at most `side` x `side` cells.
     explicit PointTiles(std::uint32_t side) : side_(side) {}
 
     /// Appends the points of `samples` that lie in `within` to the plan, and the tiles they need.
-    /// `boxes` and `grids` are the query's regions; a point belongs to the box that holds it, or to
-    /// the nearest one where rounding left it outside all of them.
-    void spread(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,
+    /// `boxes` and `grids` are the query's regions; a point belongs to the box that contains it, or
+    /// to the nearest one if rounding left it outside all of them.
+    void spread(const geometry::TransformedPolygon& a, const std::vector<BoundaryPoint>& samples,
                 const geometry::Box& within, const std::vector<geometry::Box>& boxes,
                 const std::vector<Grid>& grids, std::uint32_t query, Plan& plan);
 
@@ -38,9 +38,9 @@ private:
         }
     };
 
-    void find_cells(const geometry::PlacedPolygon& a, const std::vector<BoundaryPoint>& samples,
-                    const geometry::Box& within, const std::vector<geometry::Box>& boxes,
-                    const std::vector<Grid>& grids);
+    void find_cells(const geometry::TransformedPolygon& a,
+                    const std::vector<BoundaryPoint>& samples, const geometry::Box& within,
+                    const std::vector<geometry::Box>& boxes, const std::vector<Grid>& grids);
     void trim_to_points(Plan& plan) const;
     [[nodiscard]] TileKey tile_of(const PointCell& cell) const {
         return {cell.grid, cell.row / side_, cell.column / side_};

@@ -7,8 +7,8 @@ namespace nearfield::plan {
 void find_shapes(std::span<const AnyQuery> queries, const FindShape& find_shape,
                  std::vector<QueryShapes>& shapes) {
     shapes.resize(queries.size());
-    // Who asks about many pairs asks both ways, or about all pairs of one shape in turn: most
-    // shapes are those of the query before. At first that is none.
+    // Callers with many pairs often query both directions, or all pairs of one shape in turn, so
+    // most shapes are those of the query before. Initially the null handle.
     ShapeHandle last_a;
     ShapeHandle last_b;
     QueryShapes last;

@@ -9,16 +9,16 @@
 
 namespace nearfield::plan {
 
-/// Finds a shape's polygon, or null.
+/// Finds a shape's polygon; null if there is none.
 using FindShape = std::function<const geometry::Polygon*(ShapeHandle)>;
 
-/// The polygons of a query; null where it has none, or names one that is not there.
+/// The polygons of a query; null where the query names no shape, or one that does not exist.
 struct QueryShapes {
     const geometry::Polygon* a = nullptr;
     const geometry::Polygon* b = nullptr;
 };
 
-/// Replaces `shapes` by those of each query, looked up once for all that need them.
+/// Replaces `shapes` by those of each query, looked up once for all users.
 void find_shapes(std::span<const AnyQuery> queries, const FindShape& find_shape,
                  std::vector<QueryShapes>& shapes);
 

@@ -8,7 +8,7 @@
 
 namespace nearfield::plan {
 
-/// What a result says of a grid.
+/// A grid as results report it.
 [[nodiscard]] inline Region region_of(const Grid& grid) {
     const geometry::Vector max =
         grid.origin + grid.cell * geometry::Vector(static_cast<double>(grid.width),

@@ -12,11 +12,11 @@
 
 namespace nearfield::plan {
 
-/// A simplified boundary, ring after ring, under a hierarchy of boxes over consecutive edges: what
-/// is near a tile is found without a look at every edge. Relative to the shape's centre, so that
-/// one serves every pose. The arrays belong to someone else.
+/// A simplified boundary, ring after ring, under a hierarchy of boxes over consecutive edges, so
+/// that the edges near a tile are found without visiting all. Coordinates are relative to the
+/// shape's centre, so that one boundary serves every pose. Does not own its arrays.
 struct SimplifiedBoundary {
-    /// Edges under a box of the lowest level, and boxes under a box of any other.
+    /// Edges per box of the lowest level, and boxes per box of every other level.
     static constexpr std::uint32_t fan_out = 4;
 
     const geometry::Polygon* polygon = nullptr;
@@ -33,14 +33,14 @@ struct SimplifiedBoundary {
         return (edge == ring_begin[ring] ? ring_begin[ring + 1] : edge) - 1;
     }
 
-    /// Calls `visit(edge)` in order for the edges of every box of the lowest level that is entered
-    /// with all boxes above it. `enter(box, first, end)` says whether to look into the box around
-    /// the edges first, ..., end - 1.
+    /// Calls `visit(edge)`, in order, for the edges of every box of the lowest level that is
+    /// entered along with all boxes above it. `enter(box, first, end)` decides whether to enter the
+    /// box around the edges first, ..., end - 1.
     template <class Enter, class Visit>
     void traverse(Enter&& enter, Visit&& visit) const;
 
-    /// The edges of one box of the lowest level: the first of them, on the way down to which
-    /// `distance(box)` was smallest.
+    /// Descends to the box with the smallest `distance(box)` at each level; returns the first edge
+    /// of the box reached at the lowest level.
     template <class Distance>
     [[nodiscard]] std::uint32_t descend(Distance&& distance) const;
 
@@ -69,7 +69,7 @@ template <class Enter, class Visit>
 void SimplifiedBoundary::traverse(Enter&& enter, Visit&& visit) const {
     const Levels tree = levels();
     std::uint32_t level = tree.top;
-    std::uint64_t step = 1;  // edges under a box of the level
+    std::uint64_t step = 1;  // edges per box of the level
     for (std::uint32_t i = 0; i <= level; ++i) {
         step *= fan_out;
     }

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::uint32_t free_slot = UINT32_MAX;
 
-/// With more edges than this (about 40 MB) all are forgotten, lest a batch with ever new tolerances
-/// for one big shape needs memory without end.
-constexpr std::size_t most_edges = std::size_t{1} << 20U;
+/// Above this many edges (about 40 MB) the cache is emptied, so that a batch that keeps changing
+/// the tolerance for one big shape does not use unbounded memory.
+constexpr std::size_t max_edges = std::size_t{1} << 20U;
 
 std::uint64_t mixed(std::uint64_t value) {
     value *= 0x9e3779b97f4a7c15ULL;
@@ -41,7 +41,7 @@ SimplifiedBoundary SimplifiedShapes::get(const geometry::Polygon& polygon, doubl
     return view(polygon, entry.whole);
 }
 
-SimplifiedBoundary SimplifiedShapes::get_near(const geometry::PlacedPolygon& placed,
+SimplifiedBoundary SimplifiedShapes::get_near(const geometry::TransformedPolygon& placed,
                                               const geometry::Box& window, double deviation,
                                               double longest_run) {
     const geometry::Polygon& polygon = placed.polygon();
@@ -54,8 +54,8 @@ SimplifiedBoundary SimplifiedShapes::get_near(const geometry::PlacedPolygon& pla
     if (entry.whole.edge_count > 0) {
         return view(polygon, entry.whole);
     }
-    // All of a shape that many windows look at is simplified once they took as much work together,
-    // all of a small one at once.
+    // A shape queried through many windows is simplified as a whole once the windows together took
+    // as much work; a small shape at once.
     constexpr std::uint32_t worth_a_window = 4 * geometry::edges_of_a_block;
     if (polygon.size() > worth_a_window && entry.edges_of_windows < polygon.size()) {
         const Place part = simplified_in(window);
@@ -83,7 +83,7 @@ SimplifiedShapes::Entry& SimplifiedShapes::find_or_add(const Key& key) {
     }
     std::uint32_t& place = slot(key);
     const bool is_there = place != free_slot && entries_[place].whole.edge_count > 0;
-    if (!is_there && edges_.size() > most_edges) {
+    if (!is_there && edges_.size() > max_edges) {
         clear();
     }
     if (place == free_slot) {

@@ -7,9 +7,9 @@
 
 namespace nearfield::plan {
 
-/// The techniques that a context can answer with. The CPU's is always among them.
+/// The techniques available in a context. The CPU's always is.
 struct AvailableTechniques {
-    bool device = true;  ///< false: neither of the two below can be had at all
+    bool device = true;  ///< false: neither of the two below is available
     bool raster = true;
     bool compute = true;
 
@@ -25,7 +25,7 @@ struct AvailableTechniques {
     }
 };
 
-/// What the queries of a kind are called that the CPU alone answers; null for other kinds.
+/// What messages call a kind of query that only the CPU answers; null for other kinds.
 template <class Query>
 inline constexpr const char* answered_by_cpu_alone = nullptr;
 template <>
@@ -35,8 +35,8 @@ inline constexpr const char* answered_by_cpu_alone<TimeOfImpactQuery> = "times o
 template <>
 inline constexpr const char* answered_by_cpu_alone<SeparationVectorQuery> = "separation vectors";
 
-/// What of a query a technique has no answer for, in words for a message; null where it answers all
-/// of it.
+/// Describes, for a message, the part of a query that a technique does not answer; null if it
+/// answers all of it.
 template <class Query>
 [[nodiscard]] const char* unanswered(Technique technique, const Query& query) {
     if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
@@ -60,7 +60,8 @@ template <class Query>
                       query);
 }
 
-/// Where the answer is is known only after the device was asked once, and it has to be asked again.
+/// Returns whether a query needs a second submission because the first one determines where to
+/// evaluate the rest.
 template <class Query>
 [[nodiscard]] bool takes_a_second_submission(const Query& query) {
     if constexpr (std::is_same_v<Query, ContactQuery>) {

@@ -14,7 +14,7 @@ double TileBoundary::distance(const Vector& point, std::uint32_t edge) const {
 }
 
 double TileBoundary::distance(const Vector& point) const {
-    // A good guess first, then all that can be nearer.
+    // Start from a good guess, then visit everything that can be nearer.
     const Vector local = to_cells_.inverse(point);
     const std::uint32_t guess = simplified_.descend(
         [&](const geometry::Box& box) { return box.squaredExteriorDistance(local); });
@@ -30,8 +30,8 @@ double TileBoundary::distance(const Vector& point) const {
 
 namespace {
 
-/// Appends an edge that starts or ends left of `right`. What of an edge that may be cut lies right
-/// of it is replaced by an upright edge in the same rows, so that no coordinate grows large.
+/// Appends an edge that starts or ends left of `right`. If the edge may be cut, its part beyond
+/// `right` is replaced by a vertical edge in the same rows, so that no coordinate grows large.
 void push_upright_beyond(double right, const TileEdge& edge, bool may_be_cut,
                          std::vector<TileEdge>& edges) {
     if (!may_be_cut || std::max(edge.a.x(), edge.b.x()) <= right) {
@@ -49,14 +49,14 @@ void push_upright_beyond(double right, const TileEdge& edge, bool may_be_cut,
     }
 }
 
-/// Joins consecutive edges that stay right of a tile into upright ones.
+/// Joins consecutive edges that stay right of a tile into vertical ones.
 class RightOfTile {
 public:
     RightOfTile(const TileBoundary& boundary, double x, double low, double high,
                 std::vector<TileEdge>& edges)
         : boundary_(&boundary), x_(x), low_(low), high_(high), edges_(&edges) {}
 
-    /// Takes edges first, ..., end - 1; what it is given must come in order.
+    /// Adds the edges first, ..., end - 1; calls must come in order.
     void add(std::uint32_t first, std::uint32_t end) {
         const SimplifiedBoundary& simplified = boundary_->simplified();
         const auto ring_of = simplified.ring_of;
@@ -73,7 +73,7 @@ public:
         end_ = end;
     }
 
-    /// Appends what was joined so far.
+    /// Appends the edge joined so far.
     void close() {
         if (first_ < end_) {
             const Vector a(x_, boundary_->start(first_).y());

@@ -9,22 +9,22 @@
 
 namespace nearfield::plan {
 
-/// Edges longer than this, in cells, stand for themselves in the tiles' simplified boundaries:
-/// their far ends may be cut off, so that what is left has coordinates that a float can tell apart.
+/// Edges longer than this, in cells, represent only themselves in the tiles' simplified boundaries:
+/// their far ends may be cut off, so that the rest has coordinates that a float can resolve.
 inline constexpr double longest_tile_run = 64.0;
 
-/// An edge as one tile sees it, in cells of the tile.
+/// An edge as seen by one tile, in cells of the tile.
 struct TileEdge {
     geometry::Vector a;
     geometry::Vector b;
-    /// Which simplified edge it is (or a part of); no_simplified: a chain right of the tile, of
-    /// which only the rows it spans matter.
+    /// The simplified edge that this is, or is a part of; no_simplified: a chain right of the tile,
+    /// of which only the rows it spans matter.
     std::uint32_t simplified = 0;
 };
 inline constexpr std::uint32_t no_simplified = UINT32_MAX;
 
-/// A simplified boundary in cells of a tile. End points are transformed when asked for: a tile asks
-/// for those near it only.
+/// A simplified boundary in cells of a tile. End points are transformed on demand, since a tile
+/// only needs those near it.
 class TileBoundary {
 public:
     TileBoundary(const SimplifiedBoundary& simplified, const ToCells& to_cells)
@@ -45,7 +45,7 @@ public:
         return to_cells_(simplified_.polygon->vertices()[simplified_.edges[edge].last]);
     }
 
-    /// From a point to the simplified boundary, in cells.
+    /// Distance from a point to the simplified boundary, in cells.
     [[nodiscard]] double distance(const geometry::Vector& point) const;
     [[nodiscard]] double distance(const geometry::Vector& point, std::uint32_t edge) const;
 
@@ -71,7 +71,7 @@ public:
         for_edges_near(centre, centre.norm() + 2.0 * offset + 2.0, visit);
     }
 
-    /// A box around all of `box`, which is relative to the shape's centre, in cells.
+    /// A box that encloses all of `box`, in cells; `box` is relative to the shape's centre.
     [[nodiscard]] geometry::Box in_cells(const geometry::Box& box) const {
         return geometry::grown(to_cells_(box), rounding_);
     }
@@ -84,8 +84,8 @@ private:
 
 /// Appends every edge that a ray towards +x from a point of the tile can cross: edges in the tile's
 /// rows that are not left of it. Chains wholly right of the tile are replaced by one vertical edge
-/// that spans the same rows, which changes no parity. `slack`: how far, in cells, the true boundary
-/// may be from its simplified edges.
+/// that spans the same rows, which preserves the parity. `slack`: how far, in cells, the true
+/// boundary may be from its simplified edges.
 void crossing_edges(const TileBoundary& boundary, std::uint32_t width, std::uint32_t height,
                     double slack, std::vector<TileEdge>& edges);
 

@@ -6,7 +6,7 @@ void report_tiles(const Plan& plan, std::vector<TileReport>& reports) {
     reports.reserve(reports.size() + plan.tiles.size());
     for (const Tile& tile : plan.tiles) {
         const PlannedQuery& planned = plan.queries[tile.query];
-        // The other direction of a query stands behind all queries of the batch.
+        // The other direction of a query follows all queries of the batch.
         const auto query = static_cast<std::uint32_t>(planned.query - plan.queries.front().query);
         const geometry::Vector low = tile.origin();
         const geometry::Vector high =

@@ -7,7 +7,7 @@
 
 namespace nearfield::plan {
 
-/// Appends what there is to say about the tiles of a plan to `reports`.
+/// Appends a report on each tile of a plan to `reports`.
 void report_tiles(const Plan& plan, std::vector<TileReport>& reports);
 
 }  // namespace nearfield::plan

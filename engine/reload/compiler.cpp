@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/reload/compiler.hpp>
 
 #include <fcntl.h>
@@ -20,11 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& what, int error) {
-    throw Failure({StatusCode::unavailable,
-                   "shaders cannot be reloaded: " + what + ": " + std::strerror(error)});
+    throw StatusException({StatusCode::unavailable,
+                           "shaders cannot be reloaded: " + what + ": " + std::strerror(error)});
 }
 
-/// A folder for what the compiler writes, gone in the end.
+/// A folder for the compiler's output, removed on destruction.
 class ScratchFolder {
 public:
     ScratchFolder() {
@@ -47,7 +47,7 @@ private:
     fs::path path_;
 };
 
-/// What a process writes, read through a pipe of which it has the other end.
+/// A pipe through which a child process's output is read.
 class Pipe {
 public:
     Pipe() {
@@ -69,7 +69,7 @@ public:
             ends_[1] = -1;
         }
     }
-    /// Until whoever writes is done.
+    /// Reads until the writer closes its end.
     [[nodiscard]] std::string read_all() const {
         std::string text;
         std::array<char, 4096> part{};
@@ -87,8 +87,7 @@ private:
     std::array<int, 2> ends_{-1, -1};
 };
 
-/// Runs a program to its end; returns whether it says that it succeeded, and in `output` all that
-/// it said.
+/// Runs a program to its end; returns whether it succeeded, and its messages in `output`.
 bool run(std::vector<std::string> words, std::string& output) {
     std::vector<char*> arguments;
     arguments.reserve(words.size() + 1);

@@ -1,4 +1,4 @@
-#include <engine/failure.hpp>
+#include <engine/base/status_exception.hpp>
 #include <engine/reload/compiler.hpp>
 #include <engine/reload/shader_reload.hpp>
 
@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Failure unusable(const std::string& message, std::vector<std::string> reasons = {}) {
-    return Failure({StatusCode::invalid_shader, message + "; the shaders in use stay in use",
-                    std::move(reasons)});
+StatusException unusable(const std::string& message, std::vector<std::string> reasons = {}) {
+    return StatusException({StatusCode::invalid_shader,
+                            message + "; the shaders in use stay in use", std::move(reasons)});
 }
 
 std::string text_of(const fs::path& file) {
@@ -41,7 +41,7 @@ std::string included_in(const std::string& line) {
     return includes ? line.substr(begin + 1, end - begin - 1) : std::string();
 }
 
-/// Adds the text of a file, and of all that it includes, however far down.
+/// Adds the text of a file and of everything that it includes, recursively.
 void add_text(const fs::path& folder, const fs::path& file, std::set<fs::path>& added,
               std::string& text) {
     if (!added.insert(file).second) {

@@ -9,19 +9,18 @@
 
 namespace nearfield::reload {
 
-/// Compiles the shaders of the library from their sources again, for who works on them. What
-/// changed is found by content: of a shader, and of everything that it includes.
+/// Development aid: recompiles the library's shaders from their sources. Changes are detected by
+/// content: of a shader and of everything that it includes.
 class ShaderReload {
 public:
     explicit ShaderReload(const gpu::Device& device) : device_(&device) {}
 
-    /// Compiles what changed since it was compiled here last, and has the device use what comes out
-    /// otherwise than what is in use: for pipelines that are made from now on. Returns how many
-    /// shaders that are. `folder`: of the sources; null: the one the library was built from. Throws
-    /// Failure (invalid_shader) with the compiler's words, which it logs too; nothing has changed
-    /// then.
+    /// Compiles the shaders that changed since the last call; pipelines made from now on use those
+    /// whose words differ from the ones in use. Returns the number of such shaders. `folder`: of
+    /// the sources; null: the one the library was built from. Throws StatusException
+    /// (invalid_shader) with the compiler's messages, which it also logs; then nothing has changed.
     [[nodiscard]] std::uint32_t compile_changed(const char* folder);
-    /// What came of the last compile_changed() is of no use: goes back to what was before it, once.
+    /// Reverts the last compile_changed(), whose result was unusable; once.
     void take_back();
 
 private:
@@ -30,7 +29,7 @@ private:
     [[nodiscard]] std::uint32_t compile(const std::filesystem::path& folder, const Texts& texts);
 
     const gpu::Device* device_;
-    Texts compiled_;      // the text that each shader was compiled from last, with what it includes
+    Texts compiled_;      // by shader: the text last compiled, with its includes
     Texts former_texts_;  // before the last compile_changed()
     gpu::ShaderWords former_words_;
 };

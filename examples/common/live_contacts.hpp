@@ -13,25 +13,26 @@
 
 namespace nearfield::examples {
 
-/// Half the diagonal of a grid cell, and how close counts as contact; world units.
+/// Half the diagonal of a grid cell, and the contact distance; world units.
 inline constexpr double tolerance = 0.06;
 inline constexpr double contact_distance = 0.2;
 
-/// What there is to draw: contacts, and where the shapes were that they belong to.
+/// The data for drawing: contacts, and the poses that they belong to.
 struct Snapshot {
-    std::uint64_t version = 0;  ///< Scene::version() then; 0 before there are any results
+    std::uint64_t version = 0;  ///< Scene::version() at that time; 0 before the first results
     std::array<Pose, 2> poses;
     std::vector<ContactRecord> contacts;
 };
 
 /// Finds the contacts of a scene on the device that draws it, in the host's own command buffers.
-/// All of it on the host's render thread.
+/// Use it on the host's render thread only.
 class LiveContacts {
 public:
-    LiveContacts(const HostDevice& host, std::uint32_t frames_in_flight, const Scene& scene);
+    LiveContacts(const HostDevice& host, std::uint32_t batches_in_flight, const Scene& scene);
 
-    /// Records the search for the contacts of the scene as it is now. Takes over those of the frame
-    /// `frames_in_flight` before, which the host knows to be done, as the snapshot to draw.
+    /// Records the contact query for the current scene. The contacts of the frame
+    /// `batches_in_flight` earlier, which the host knows to be complete, become the snapshot to
+    /// draw.
     void record(VkCommandBuffer commands, std::uint64_t frame, const Scene& scene);
 
     [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
@@ -39,7 +40,7 @@ public:
 private:
     struct Pending {
         Ticket ticket;
-        Snapshot asked;  ///< but for the contacts
+        Snapshot asked;  ///< without the contacts
     };
 
     void take_over(const Pending& pending);
@@ -47,7 +48,7 @@ private:
     Context context_;
     std::uint32_t frames_in_flight_ = 0;
     std::array<ShapeHandle, 2> shapes_;
-    // Kept from frame to frame, and with them their memory.
+    // Kept from frame to frame to reuse the memory.
     Batch batch_;
     QueryHandle<ContactQuery> query_;
     Results results_;

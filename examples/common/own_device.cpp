@@ -61,7 +61,7 @@ OwnDevice::OwnDevice(VkInstance instance, const CanPresent& can_present) {
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 }
 
-// The first family that nearfield can work in and that can present.
+// Selects the first family that nearfield can use and that can present.
 void OwnDevice::choose(VkInstance instance, const CanPresent& can_present) {
     std::uint32_t count = 0;
     require(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");

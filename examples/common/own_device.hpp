@@ -11,8 +11,8 @@
 
 namespace nearfield::examples {
 
-/// Every instance extension that makes surfaces for windows (VK_KHR_surface, VK_KHR_xcb_surface
-/// and their like) of those the loader has.
+/// The loader's instance extensions that create window surfaces (VK_KHR_surface, VK_KHR_xcb_surface
+/// and similar ones).
 [[nodiscard]] std::vector<std::string> surface_extensions();
 
 /// A Vulkan 1.1 instance.
@@ -29,7 +29,7 @@ private:
     VkInstance instance_ = VK_NULL_HANDLE;
 };
 
-/// Whether a queue family can present to the window in question.
+/// Whether a queue family can present to the window.
 using CanPresent = std::function<bool(VkPhysicalDevice, std::uint32_t family)>;
 
 /// A device with one queue that draws, computes and presents.
@@ -54,7 +54,7 @@ private:
     std::uint32_t queue_family_ = 0;
 };
 
-/// What is handed to nearfield.
+/// The handles for nearfield.
 [[nodiscard]] HostDevice host_device(VkInstance instance, const OwnDevice& device);
 
 }  // namespace nearfield::examples

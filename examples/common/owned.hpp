@@ -60,7 +60,7 @@ inline void require(VkResult result, const char* call) {
     }
 }
 
-/// create<Fence>(device, vkCreateFence, info, "vkCreateFence"): the object, or an exception.
+/// create<Fence>(device, vkCreateFence, info, "vkCreateFence") returns the object or throws.
 template <class Object, class Function, class Info>
 Object create(VkDevice device, Function function, const Info& info, const char* call) {
     typename Object::handle_type handle = VK_NULL_HANDLE;

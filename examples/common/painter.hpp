@@ -8,18 +8,19 @@
 
 namespace nearfield::examples {
 
-/// A Vulkan renderer in small: coloured triangles in pixels, one pipeline, a vertex buffer for each
+/// A minimal Vulkan renderer: coloured triangles in pixels, one pipeline, a vertex buffer for each
 /// frame in flight.
 class Painter {
 public:
-    /// Draws in the first subpass of `render_pass`, or of one compatible with it: one colour
-    /// attachment, one sample a pixel, with or without depth (which is left alone).
+    /// Draws in the first subpass of `render_pass`, or of a compatible one: one colour attachment,
+    /// one sample per pixel, with or without depth (which is not used).
     Painter(VkPhysicalDevice physical_device, VkDevice device, VkRenderPass render_pass,
-            std::uint32_t frames_in_flight);
+            std::uint32_t batches_in_flight);
 
-    /// Copies the triangles to a frame's slot, whose former frame the device is done with.
+    /// Copies the triangles to a slot. Precondition: the device has finished the slot's previous
+    /// frame.
     void upload(std::uint32_t slot, std::span<const Vertex> triangles);
-    /// Draws what was uploaded last to the slot; inside the render pass.
+    /// Draws the slot's last upload. Call inside the render pass.
     void draw(VkCommandBuffer commands, std::uint32_t slot, VkExtent2D extent) const;
 
 private:

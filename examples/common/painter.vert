@@ -1,6 +1,6 @@
 #version 450
 
-// Pixels from the upper left corner to Vulkan's clip coordinates.
+// Transforms pixels from the upper left corner to Vulkan's clip coordinates.
 
 layout(location = 0) in vec2 pixel;
 layout(location = 1) in vec4 color;

@@ -56,8 +56,8 @@ struct Edge {
     }
 };
 
-/// Fills by the odd-even rule: between the heights of two vertices edges do not cross, so what lies
-/// between every second pair of them there is a trapezoid.
+/// Fills by the odd-even rule: between the heights of two vertices no edges cross, so the area
+/// between every second pair of edges is a trapezoid.
 void add_fill(Triangles& triangles, const std::vector<Ring>& rings, const Color& color) {
     std::vector<Edge> edges;
     std::vector<double> heights;

@@ -18,18 +18,18 @@ inline constexpr Color normal_color{250, 170, 60, 255};
 inline constexpr Color outside_color{255, 255, 255, 255};  ///< a contact outside the other shape
 inline constexpr Color inside_color{255, 60, 90, 255};     ///< a contact inside it
 
-/// Pixels.
+/// In pixels.
 inline constexpr double marker_radius = 2.5;
 inline constexpr double normal_length = 16.0;
 
-/// A corner of a triangle: pixels from the upper left corner of the window.
+/// A vertex of a triangle: pixels from the upper left corner of the window.
 struct Vertex {
     float x = 0.0F;
     float y = 0.0F;
     Color color{};
 };
 
-/// Triangles, the later over the earlier: fills, outlines, normals, contact points.
+/// Returns triangles, later ones over earlier ones: fills, outlines, normals, contact points.
 [[nodiscard]] std::vector<Vertex> draw(const Scene& scene, const Snapshot& snapshot,
                                        const View& view);
 

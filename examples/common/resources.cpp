@@ -32,7 +32,7 @@ VkImageMemoryBarrier whole_image(VkImage image, VkImageLayout from, VkImageLayou
     return barrier;
 }
 
-// The image keeps its layout, the buffer can be read by the CPU once the device is done.
+// The image keeps its layout; the CPU can read the buffer once the device has finished.
 void record_copy(VkCommandBuffer commands, VkImage image, VkImageLayout layout, VkExtent2D extent,
                  VkBuffer buffer) {
     VkImageMemoryBarrier before = whole_image(image, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);

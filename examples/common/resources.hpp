@@ -20,7 +20,7 @@ struct HostBuffer {
     void* mapped = nullptr;
 };
 
-/// An image with memory and view of its own.
+/// An image with its own memory and view.
 struct DeviceImage {
     DeviceImage() = default;
     DeviceImage(VkPhysicalDevice physical_device, VkDevice device, VkFormat format,
@@ -31,12 +31,12 @@ struct DeviceImage {
     ImageView view;
 };
 
-/// A view of all of a plain image.
+/// Makes a view of the whole image.
 [[nodiscard]] ImageView make_view(VkDevice device, VkImage image, VkFormat format,
                                   VkImageAspectFlags aspect);
 
-/// The pixels of a colour image of 4 bytes each, row by row from the top; waits for the device. The
-/// image has `layout` and keeps it, and was made to be copied from.
+/// Reads the pixels of a colour image with 4 bytes each, row by row from the top; waits for the
+/// device. The image is in `layout`, keeps it, and must have been made as a copy source.
 [[nodiscard]] std::vector<std::uint8_t> read_back(const OwnDevice& device, VkImage image,
                                                   VkImageLayout layout, VkExtent2D extent);
 

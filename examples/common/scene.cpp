@@ -39,7 +39,7 @@ std::vector<Ring> star_with_hole() {
 Scene::Scene() : bodies_{{{hook(), {{-1.6, 0.0}, 0.1}}, {star_with_hole(), {{1.9, 0.3}, 0.2}}}} {}
 
 void Scene::press(const Vector2& mouse) {
-    for (std::size_t i = bodies_.size(); i-- > 0;) {  // the one drawn last lies on top
+    for (std::size_t i = bodies_.size(); i-- > 0;) {  // the body drawn last is on top
         if (contains(bodies_[i], mouse)) {
             const Vector2& at = bodies_[i].pose.translation;
             held_ = Hold{i, {at.x - mouse.x, at.y - mouse.y}};

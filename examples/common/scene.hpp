@@ -10,13 +10,13 @@
 
 namespace nearfield::examples {
 
-/// A shape and where it is.
+/// A shape with its pose.
 struct Body {
     std::vector<Ring> rings;
     Pose pose;
 };
 
-/// Two shapes that a mouse drags about. World coordinates: y up, the origin in the middle.
+/// Two shapes that the mouse can drag. World coordinates: y up, the origin in the middle.
 class Scene {
 public:
     Scene();
@@ -26,9 +26,9 @@ public:
     /// Grows with every change; never 0.
     [[nodiscard]] std::uint64_t version() const { return version_; }
 
-    /// Takes hold of the shape under the mouse, if there is one.
+    /// Grabs the shape under the mouse, if there is one.
     void press(const Vector2& mouse);
-    /// Moves the shape that is held.
+    /// Moves the grabbed shape.
     void move(const Vector2& mouse);
     void release() { held_.reset(); }
 
@@ -43,13 +43,13 @@ private:
     std::uint64_t version_ = 1;
 };
 
-/// From shape coordinates to world coordinates.
+/// Transforms shape coordinates to world coordinates.
 [[nodiscard]] Vector2 place(const Pose& pose, const Vector2& point);
-/// Whether a point in world coordinates lies in the body, by the odd-even rule.
+/// True if the body contains a point in world coordinates, by the odd-even rule.
 [[nodiscard]] bool contains(const Body& body, const Vector2& point);
 
-/// What part of the world a window shows: `height` units from its lower to its upper edge, the
-/// origin in the middle. Pixels count from the upper left corner.
+/// The part of the world that a window shows: `height` units from its lower to its upper edge, with
+/// the origin in the middle. Pixels count from the upper left corner.
 struct View {
     static constexpr double height = 6.0;
     double width_in_pixels = 0.0;
@@ -60,8 +60,8 @@ struct View {
     [[nodiscard]] Vector2 to_world(const Vector2& pixel) const;
 };
 
-/// What the scripted mouse of a screenshot does: takes hold of the second shape and moves it, on a
-/// straight way of `drag_steps` steps, by what the command line says.
+/// The scripted mouse input of a screenshot: it grabs the second shape and moves it in a straight
+/// line of `drag_steps` steps by the offset given on the command line.
 inline constexpr Vector2 drag_from{1.9, 0.9};
 inline constexpr int drag_steps = 8;
 [[nodiscard]] Vector2 drag_position(const Vector2& by, int step);

@@ -7,7 +7,7 @@
 
 namespace nearfield::examples {
 
-/// The value, or the library's error thrown: an example has nothing better to do with it.
+/// Returns the value or throws the library's error; examples have no better error handling.
 template <class Value>
 Value value_of(Expected<Value> expected) {
     if (!expected.ok()) {

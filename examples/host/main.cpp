@@ -1,5 +1,5 @@
-// A host with a Vulkan device of its own: nearfield records a batch into the host's command buffer,
-// the host submits it with its frame, and reads the answer when the frame is done.
+// A host with its own Vulkan device: nearfield records a batch into the host's command buffer, the
+// host submits it with its frame, and reads the answer when the frame is complete.
 #include <nearfield/nearfield.hpp>
 
 #include <vulkan/vulkan.h>
@@ -35,7 +35,7 @@ VkInstance make_instance() {
     return instance;
 }
 
-// Fills in the first physical device that meets nearfield's requirements, and a queue family.
+// Selects the first physical device that meets nearfield's requirements, and a queue family.
 void choose_device(nearfield::HostDevice& host) {
     std::uint32_t count = 0;
     check(vkEnumeratePhysicalDevices(host.instance, &count, nullptr), "vkEnumeratePhysicalDevices");
@@ -58,7 +58,7 @@ void choose_device(nearfield::HostDevice& host) {
     std::exit(1);
 }
 
-// Makes the device with no feature and no extension: nearfield needs none.
+// Makes the device without features and extensions: nearfield needs none.
 void make_device(nearfield::HostDevice& host) {
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -103,7 +103,7 @@ void run_frame(nearfield::Context& context, const nearfield::HostDevice& host,
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     check(vkQueueSubmit(host.queue, 1, &submit, fence), "vkQueueSubmit");
-    // A real host goes on with the next frames; it learns later that this one is done.
+    // A real host continues with the next frames and learns later that this one is complete.
     check(vkWaitForFences(host.device, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     context.frame_completed(frame);
 

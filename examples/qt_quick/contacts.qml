@@ -1,7 +1,7 @@
 import QtQuick
 import Nearfield
 
-// The item draws under everything else; Qt Quick's own items lie on top.
+// The item draws below everything else; Qt Quick's own items are on top.
 Contacts {
     id: contacts
 

@@ -13,7 +13,7 @@ ContactsItem::ContactsItem(QQuickItem* parent) : QQuickItem(parent) {
 
 ContactsItem::~ContactsItem() {
     if (window() != nullptr) {
-        ContactsItem::releaseResources();  // ~QQuickItem would call its own
+        ContactsItem::releaseResources();  // ~QQuickItem would call its own version
     }
 }
 
@@ -24,10 +24,10 @@ void ContactsItem::attach(QQuickWindow* window) {
     }
     const auto side = std::make_shared<RenderSide>(*window);
     render_side_ = side;
-    // The item's thread stands still meanwhile, so both sides may be looked at.
+    // The item's thread is blocked during this call, so both sides may be accessed.
     connect(window, &QQuickWindow::beforeSynchronizing, this, &ContactsItem::synchronize,
             Qt::DirectConnection);
-    // It runs on during these, so they have nothing to do with the item.
+    // The item's thread runs during these, so they must not access the item.
     connect(
         window, &QQuickWindow::beforeRendering, window, [side] { side->record(); },
         Qt::DirectConnection);
@@ -39,7 +39,7 @@ void ContactsItem::attach(QQuickWindow* window) {
         Qt::DirectConnection);
 }
 
-// Called where the item leaves its window: what belongs to the render thread dies there.
+// Called when the item leaves its window. Objects of the render thread are destroyed there.
 void ContactsItem::releaseResources() {
     disconnect(window(), &QQuickWindow::beforeSynchronizing, this, nullptr);
     window()->scheduleRenderJob(QRunnable::create([side = render_side_] { side->leave(); }),

@@ -8,8 +8,8 @@
 
 namespace nearfield::examples {
 
-/// A Qt Quick item that shows two shapes and their contacts, on the window's own Vulkan device,
-/// under all other items. The mouse drags the shapes.
+/// A Qt Quick item that shows two shapes and their contacts on the window's own Vulkan device,
+/// below all other items. The mouse drags the shapes.
 class ContactsItem : public QQuickItem {
     Q_OBJECT
     Q_PROPERTY(int count READ count NOTIFY count_changed)
@@ -18,9 +18,9 @@ public:
     explicit ContactsItem(QQuickItem* parent = nullptr);
     ~ContactsItem() override;
 
-    /// Contacts in the last frame that was shown.
+    /// The number of contacts in the last frame shown.
     [[nodiscard]] int count() const { return count_; }
-    /// Why nothing can be shown; empty where all is well.
+    /// The reason why nothing can be shown; empty if there is no error.
     [[nodiscard]] QString error() const { return error_; }
 
 signals:

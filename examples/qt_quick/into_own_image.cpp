@@ -14,7 +14,9 @@ namespace nearfield::examples {
 namespace {
 
 constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-constexpr VkImageLayout layout_after = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;  // Qt leaves it so
+constexpr VkImageLayout layout_after =
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;  // the layout in which
+                                               // Qt leaves it
 
 class IntoOwnImage : public Way {
 public:
@@ -40,7 +42,7 @@ public:
         control_->beginFrame();
         control_->sync();
         control_->render();
-        control_->endFrame();  // waits until the image is there
+        control_->endFrame();  // waits until the image is complete
         const std::vector<std::uint8_t> pixels =
             read_back(device_, image_.image.get(), layout_after, extent());
         return QImage(pixels.data(), view_->width(), view_->height(), QImage::Format_RGBA8888)
@@ -65,7 +67,8 @@ private:
             image_.image.get(), VK_IMAGE_LAYOUT_UNDEFINED, format, view_->size()));
     }
 
-    // What is below goes first: the window, the image, the device, Qt's wrapper, the instance.
+    // Destruction runs from the bottom: the window, the image, the device, Qt's wrapper, the
+    // instance.
     OwnInstance own_instance_;
     QVulkanInstance instance_;
     OwnDevice device_;

@@ -10,8 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
-// Two shapes that the mouse drags, and their contacts, drawn by our own Vulkan pipeline under the
-// items of Qt Quick; nearfield works on the same device, inside the frames of Qt.
+// Two shapes that the mouse drags, and their contacts, drawn by our own Vulkan pipeline below the
+// items of Qt Quick. nearfield works on the same device, within Qt's frames.
 
 namespace {
 
@@ -68,7 +68,7 @@ std::unique_ptr<Way> make_way(const Options& options) {
     throw UsageError("--way is qt, ours or image, not \"" + options.way.toStdString() + "\"");
 }
 
-/// The mouse does something at a place of the world.
+/// Sends a mouse event at a position in world coordinates.
 void send_mouse(QQuickView& view, QEvent::Type type, const nearfield::Vector2& world) {
     const auto at = View{double(view.width()), double(view.height())}.to_pixel(world);
     const bool moves = type == QEvent::MouseMove;
@@ -82,7 +82,7 @@ void send_mouse(QQuickView& view, QEvent::Type type, const nearfield::Vector2& w
 void take_screenshot(Way& way, const ContactsItem& item, const Options& options) {
     const auto render = [&way, &item] {
         QImage picture = way.render();
-        QCoreApplication::processEvents();  // what the render thread has to tell
+        QCoreApplication::processEvents();  // messages from the render thread
         if (!item.error().isEmpty()) {
             throw std::runtime_error(item.error().toStdString());
         }
@@ -96,7 +96,7 @@ void take_screenshot(Way& way, const ContactsItem& item, const Options& options)
     }
     send_mouse(way.view(), QEvent::MouseButtonRelease, drag_position(options.drag, drag_steps));
     QImage picture;
-    for (int frame = 0; frame < 8; ++frame) {  // more than are in flight, and the label's own
+    for (int frame = 0; frame < 8; ++frame) {  // more than are in flight, and one for the label
         picture = render();
     }
     if (!picture.save(options.screenshot)) {
@@ -139,7 +139,7 @@ int run(const QGuiApplication& application) {
     return status;
 }
 
-/// Qt ends the program where it cannot reach the display; not as a crash, please.
+/// Qt aborts the program if it cannot reach the display; exit with a status instead.
 void print_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
     std::fprintf(stderr, "%s\n", qPrintable(qFormatLogMessage(type, context, text)));
     if (type == QtFatalMsg) {

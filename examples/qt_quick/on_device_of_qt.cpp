@@ -12,7 +12,7 @@ namespace {
 class OnDeviceOfQt : public Way {
 public:
     OnDeviceOfQt() {
-        // Qt would make an instance by itself, but one of Vulkan 1.0.
+        // By default Qt would create a Vulkan 1.0 instance.
         instance_.setApiVersion(QVersionNumber(1, 1));
         instance_.setExtensions(QQuickGraphicsConfiguration::preferredInstanceExtensions());
         create(instance_);
@@ -24,7 +24,7 @@ public:
 
 private:
     QVulkanInstance instance_;
-    QQuickView view_;  // and with it Qt's device: gone before the instance
+    QQuickView view_;  // and with it Qt's device: destroyed before the instance
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ public:
     QImage render() override { return render_window(view_); }
 
 private:
-    // The window goes first, then the device, then Qt's wrapper of the instance, then that.
+    // Destruction order: the window, the device, Qt's wrapper of the instance, the instance.
     OwnInstance own_instance_;
     QVulkanInstance instance_;
     std::optional<OwnDevice> device_;

@@ -9,7 +9,7 @@
 namespace nearfield::examples {
 namespace {
 
-// Qt gives pointers to Vulkan's handles.
+// Qt returns pointers to Vulkan handles.
 template <class Resource>
 Resource resource(QQuickWindow& window, QSGRendererInterface::Resource which) {
     const void* found = window.rendererInterface()->getResource(&window, which);
@@ -36,7 +36,7 @@ HostDevice host_device(QQuickWindow& window) {
     return host;
 }
 
-std::uint32_t frames_in_flight(QQuickWindow& window) {
+std::uint32_t batches_in_flight(QQuickWindow& window) {
     return static_cast<std::uint32_t>(window.graphicsStateInfo().framesInFlight);
 }
 
@@ -44,22 +44,22 @@ std::uint32_t frames_in_flight(QQuickWindow& window) {
 
 RenderSide::Guest::Guest(QQuickWindow& window, const Scene& scene)
     : device(resource<VkDevice>(window, QSGRendererInterface::DeviceResource)),
-      contacts(host_device(window), frames_in_flight(window), scene),
+      contacts(host_device(window), batches_in_flight(window), scene),
       painter(resource<VkPhysicalDevice>(window, QSGRendererInterface::PhysicalDeviceResource),
               device, resource<VkRenderPass>(window, QSGRendererInterface::RenderPassResource),
-              frames_in_flight(window)) {}
+              batches_in_flight(window)) {}
 
 RenderSide::Guest::~Guest() {
-    vkDeviceWaitIdle(device);  // Qt's last frames may still draw with what goes now
+    vkDeviceWaitIdle(device);  // Qt's last frames may still use the objects destroyed next
 }
 
 const Snapshot* RenderSide::snapshot() const {
     return guest_ ? &guest_->contacts.snapshot() : nullptr;
 }
 
-// Qt numbers frames only modulo those in flight; it waited for the one that had this slot before.
+// Qt numbers frames only modulo those in flight; it has waited for the slot's previous frame.
 void RenderSide::record() {
-    guarded([this] {
+    catch_to_status([this] {
         if (!guest_) {
             guest_.emplace(window_, scene_);
         }
@@ -73,7 +73,7 @@ void RenderSide::record() {
 }
 
 void RenderSide::draw() {
-    guarded([this] {
+    catch_to_status([this] {
         const QSize size = window_.size() * window_.effectiveDevicePixelRatio();
         const auto slot = static_cast<std::uint32_t>(window_.graphicsStateInfo().currentFrameSlot);
         guest_->painter.upload(slot, examples::draw(scene_, guest_->contacts.snapshot(),
@@ -92,7 +92,7 @@ void RenderSide::leave() {
     has_left_ = true;
 }
 
-void RenderSide::guarded(const std::function<void()>& work) {
+void RenderSide::catch_to_status(const std::function<void()>& work) {
     if (has_left_ || !error_.empty()) {
         return;
     }
@@ -100,7 +100,7 @@ void RenderSide::guarded(const std::function<void()>& work) {
         work();
     } catch (const std::exception& error) {
         error_ = error.what();
-        // One more frame, in which the item hears of it.
+        // One more frame, so that the item receives the result.
         QMetaObject::invokeMethod(&window_, &QQuickWindow::update, Qt::QueuedConnection);
     }
 }

@@ -12,30 +12,31 @@ class QQuickWindow;
 
 namespace nearfield::examples {
 
-/// What the item does on the render thread of its window. It outlives the item where that goes
-/// while a frame is being rendered. No exception leaves it: Qt could not pass one on.
+/// The item's work on the render thread of its window. It outlives the item if the item is
+/// destroyed while a frame is being rendered. It throws no exceptions, because Qt could not pass
+/// them on.
 class RenderSide {
 public:
     explicit RenderSide(QQuickWindow& window) : window_(window) {}
 
-    /// Takes over the scene, while the thread that the item lives on stands still.
+    /// Copies the scene. The item's thread must be blocked.
     void set_scene(const Scene& scene) { scene_ = scene; }
-    /// What was drawn last; nothing before there was a frame.
+    /// The last snapshot drawn; null before the first frame.
     [[nodiscard]] const Snapshot* snapshot() const;
-    /// Why nothing can be drawn; empty where all is well.
+    /// The reason why nothing can be drawn; empty if there is no error.
     [[nodiscard]] const std::string& error() const { return error_; }
 
     /// Before the render pass: records nearfield's work into Qt's command buffer.
     void record();
     /// In the render pass, before Qt's own items.
     void draw();
-    /// Lets go of the device, which Qt may be about to destroy.
+    /// Releases everything on the device, which Qt may be about to destroy.
     void release() { guest_.reset(); }
-    /// The same for good: the item has left the window.
+    /// The same, permanently: the item has left the window.
     void leave();
 
 private:
-    /// What is on the device that the window renders with, whoever made it.
+    /// The objects on the device that the window renders with, whoever created it.
     struct Guest {
         Guest(QQuickWindow& window, const Scene& scene);
         ~Guest();
@@ -48,7 +49,7 @@ private:
         std::uint64_t frame = 0;
     };
 
-    void guarded(const std::function<void()>& work);
+    void catch_to_status(const std::function<void()>& work);
 
     QQuickWindow& window_;
     Scene scene_;

@@ -15,7 +15,7 @@ public:
     Way& operator=(const Way&) = delete;
 
     [[nodiscard]] virtual QQuickView& view() = 0;
-    /// Renders a frame and returns what it looks like.
+    /// Renders a frame and returns the picture.
     virtual QImage render() = 0;
 };
 
@@ -23,10 +23,10 @@ public:
 [[nodiscard]] std::unique_ptr<Way> on_device_of_qt();
 /// We make instance and device; Qt and nearfield adopt them.
 [[nodiscard]] std::unique_ptr<Way> on_own_device();
-/// The same, and Qt renders into an image of ours instead of a window.
+/// The same, but Qt renders into our own image instead of a window.
 [[nodiscard]] std::unique_ptr<Way> into_own_image();
 
-/// Makes it, or throws where this Qt, its platform or this machine has no Vulkan.
+/// Creates the instance, or throws if this Qt, its platform or this machine has no Vulkan.
 void create(QVulkanInstance& instance);
 /// Waits until the window system shows the window, then renders as Way::render.
 QImage render_window(QQuickView& view);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-// Two shapes that the mouse drags, and their contacts: a window of its own, a swapchain, and a
-// device that nearfield is a guest on.
+// Two shapes that the mouse drags, and their contacts, in a stand-alone window with a swapchain, on
+// a device that nearfield shares.
 
 namespace {
 
@@ -42,7 +42,7 @@ void push_mouse(const Window& window, Uint32 type, const nearfield::Vector2& wor
     SDL_PushEvent(&event);
 }
 
-/// What the user does where there is none: drags in the first frames, resizes half-way.
+/// Simulated user input: drags in the first frames, resizes half-way.
 void play(const Options& options, int frame, const Window& window) {
     const nearfield::Vector2 by{options.drag[0], options.drag[1]};
     if (frame == 0) {
@@ -57,7 +57,7 @@ void play(const Options& options, int frame, const Window& window) {
     }
 }
 
-/// False where the window was closed.
+/// Returns false if the window was closed.
 bool handle_events(const Window& window, Scene& scene) {
     const View view = view_of(window);
     SDL_Event event;
@@ -100,7 +100,7 @@ void run(const Options& options) {
         }
         const VkExtent2D extent = window.extent();
         if (extent.width == 0 || extent.height == 0) {
-            SDL_WaitEvent(nullptr);  // nothing to draw to while it is minimised
+            SDL_WaitEvent(nullptr);  // nothing to draw to while minimised
             continue;
         }
         const bool is_last = frame + 1 == options.frames;
@@ -115,8 +115,9 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
     Options options;
     CLI::App application("Live contacts of two shapes in a window");
-    // Enough for the scripted mouse, for what is in flight, and for all of it again after a resize.
-    const int fewest = 2 * (drag_steps + 2 * static_cast<int>(Renderer::frames_in_flight));
+    // Enough for the scripted mouse, for the frames in flight, and for all of these again after a
+    // resize.
+    const int fewest = 2 * (drag_steps + 2 * static_cast<int>(Renderer::batches_in_flight));
     CLI::Option* frames =
         application.add_option("--frames", options.frames, "play a script and leave after so many")
             ->check(CLI::Range(fewest, 1'000'000));

@@ -33,7 +33,7 @@ Fence make_signalled_fence(VkDevice device) {
     return create<Fence>(device, vkCreateFence, info, "vkCreateFence");
 }
 
-/// The bytes of a pixel are as those of Screen::format: blue first.
+/// The pixel bytes are in the order of Screen::format: blue first.
 void write_png(const std::string& file, std::vector<std::uint8_t> pixels, VkExtent2D extent) {
     const auto width = static_cast<int>(extent.width);
     cairo_surface_t* picture = cairo_image_surface_create_for_data(
@@ -56,8 +56,8 @@ Renderer::Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR su
                    VkExtent2D extent, const Scene& scene)
     : device_(device),
       screen_(device, surface, extent),
-      painter_(device.physical_device(), device.device(), screen_.render_pass(), frames_in_flight),
-      contacts_(host_device(instance, device), frames_in_flight, scene),
+      painter_(device.physical_device(), device.device(), screen_.render_pass(), batches_in_flight),
+      contacts_(host_device(instance, device), batches_in_flight, scene),
       pool_(make_pool(device)) {
     for (Frame& frame : frames_) {
         frame.commands = make_command_buffer(device.device(), pool_.get());
@@ -75,7 +75,7 @@ bool Renderer::draw(const Scene& scene, VkExtent2D window_extent, const std::str
     if (window_extent.width != extent.width || window_extent.height != extent.height) {
         resize(window_extent);
     }
-    const auto slot = static_cast<std::uint32_t>(frame_ % frames_in_flight);
+    const auto slot = static_cast<std::uint32_t>(frame_ % batches_in_flight);
     const Frame& frame = frames_.at(slot);
     const VkFence done = frame.done.get();
     require(vkWaitForFences(device_.device(), 1, &done, VK_TRUE, UINT64_MAX), "vkWaitForFences");

@@ -11,10 +11,10 @@
 
 namespace nearfield::examples {
 
-/// An engine in small: three frames in flight, and nearfield's work at the head of each.
+/// A minimal engine: three frames in flight, with nearfield's work at the start of each.
 class Renderer {
 public:
-    static constexpr std::uint32_t frames_in_flight = 3;
+    static constexpr std::uint32_t batches_in_flight = 3;
 
     Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR surface, VkExtent2D extent,
              const Scene& scene);
@@ -22,9 +22,9 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Draws a frame and shows it. `window_extent` is the size the window has now, not zero. The
-    /// file, if one is named, gets a picture (PNG). False where the frame was left out, because the
-    /// window changed meanwhile.
+    /// Draws a frame and shows it. `window_extent` is the current window size, not zero. If a file
+    /// is given, a picture (PNG) is written to it. Returns false if the frame was skipped because
+    /// the window changed in the meantime.
     bool draw(const Scene& scene, VkExtent2D window_extent, const std::string& screenshot = {});
 
 private:
@@ -43,7 +43,7 @@ private:
     Painter painter_;
     LiveContacts contacts_;
     CommandPool pool_;
-    std::array<Frame, frames_in_flight> frames_;
+    std::array<Frame, batches_in_flight> frames_;
     std::uint64_t frame_ = 0;
 };
 

@@ -22,7 +22,7 @@ RenderPass make_render_pass(VkDevice device) {
     subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &reference;
-    // The change of layout waits for the stage at which the submission waits for the image.
+    // The layout transition waits for the stage in which the submission waits for the image.
     VkSubpassDependency available{};
     available.srcSubpass = VK_SUBPASS_EXTERNAL;
     available.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
@@ -79,7 +79,7 @@ Framebuffer make_framebuffer(VkDevice device, VkRenderPass render_pass, VkImageV
     return create<Framebuffer>(device, vkCreateFramebuffer, info, "vkCreateFramebuffer");
 }
 
-/// Whether the swapchain fits its window; what else may be wrong is thrown.
+/// Returns whether the swapchain fits its window; throws on other errors.
 bool fits(VkResult result, const char* call) {
     if (result == VK_ERROR_OUT_OF_DATE_KHR) {
         return false;

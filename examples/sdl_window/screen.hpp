@@ -9,7 +9,7 @@
 
 namespace nearfield::examples {
 
-/// A swapchain with the framebuffers of its images, made anew where the window changes its size.
+/// A swapchain with the framebuffers of its images, recreated when the window changes its size.
 class Screen {
 public:
     static constexpr VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;
@@ -19,18 +19,18 @@ public:
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
     [[nodiscard]] VkRenderPass render_pass() const { return render_pass_.get(); }
 
-    /// An image to draw to, once `available` is signalled; nothing where the swapchain does not fit
-    /// the window any more.
+    /// An image to draw to once `available` is signalled; empty if the swapchain does not fit the
+    /// window any more.
     [[nodiscard]] std::optional<std::uint32_t> acquire(VkSemaphore available);
     /// Begins and ends the render pass, which clears the image.
     void begin(VkCommandBuffer commands, std::uint32_t image, const VkClearColorValue& clear) const;
     [[nodiscard]] VkImage image(std::uint32_t index) const { return images_[index]; }
-    /// Signalled by the submission that draws the image, waited for by present().
+    /// Signalled by the submission that draws the image; present() waits for it.
     [[nodiscard]] VkSemaphore drawn(std::uint32_t index) const { return drawn_[index].get(); }
-    /// False where the swapchain does not fit the window any more.
+    /// Returns false if the swapchain does not fit the window any more.
     [[nodiscard]] bool present(std::uint32_t image);
 
-    /// For the window's new size; nothing of the old swapchain may be in use.
+    /// Recreates the swapchain for the window's new size. The old swapchain must not be in use.
     void make_anew(VkExtent2D extent);
 
 private:

@@ -28,7 +28,7 @@ private:
     SDL_Window* window_ = nullptr;
 };
 
-/// The window as Vulkan sees it.
+/// The Vulkan surface of a window.
 class Surface {
 public:
     Surface(const Window& window, VkInstance instance);

@@ -1,34 +1,35 @@
 #pragma once
 
 /// \file
-/// What Technique::automatic goes by: how long each technique takes for what is asked, as measured.
+/// The cost model of Technique::automatic: measured times of each technique for each kind of query.
 
 namespace nearfield {
 
-/// Times of one kind of query by one technique, microseconds. A query takes `query` + `edge` * its
-/// edges + `sample` * its samples.
+/// Times of one kind of query by one technique, in microseconds. A query takes `query` + `edge` *
+/// its edges + `sample` * its samples.
 struct WorkCost {
-    double query = 0.0;   ///< each query
-    double edge = 0.0;    ///< each edge of the shapes that take part
-    double sample = 0.0;  ///< each boundary point that is resolved, or each cell of a grid
+    double query = 0.0;   ///< per query
+    double edge = 0.0;    ///< per edge of the two shapes
+    double sample = 0.0;  ///< per boundary point resolved, or per cell of a grid
 };
 
-/// Times of one technique, microseconds.
+/// Times of one technique, in microseconds.
 struct TechniqueCost {
-    double submission = 0.0;     ///< once a batch that uses the technique at all
-    WorkCost points = {};        ///< penetration and contacts; a sample is a point of a boundary
-    WorkCost closest = {};       ///< closest point, separation, intersection test; without samples
-    WorkCost intersection = {};  ///< a sample is a cell
-    WorkCost field = {};         ///< distance fields but those below; a sample is a cell
-    WorkCost features = {};      ///< fields with features, analytic gradients or points; likewise
+    double submission = 0.0;     ///< once per batch that uses the technique
+    WorkCost points = {};        ///< penetration and contacts; a sample is a boundary point
+    WorkCost closest = {};       ///< closest point, separation, intersection test; no samples
+    WorkCost intersection = {};  ///< intersections; a sample is a cell
+    WorkCost field = {};         ///< distance fields except those of `features`; a sample is a cell
+    /// Distance fields with features, analytic gradients or points; a sample is a cell.
+    WorkCost features = {};
 };
 
-/// What each technique costs on one machine. Few numbers, since it only has to tell apart what
-/// differs by factors; Context::measure_costs finds them by running all techniques.
+/// Costs of every technique on one machine, as measured by Context::measure_costs. The model is
+/// coarse: it only has to separate techniques that differ by factors.
 struct CostModel {
-    TechniqueCost raster = {};   ///< of Technique::raster
-    TechniqueCost compute = {};  ///< of Technique::compute
-    TechniqueCost cpu = {};      ///< of Technique::cpu
+    TechniqueCost raster = {};   ///< Technique::raster
+    TechniqueCost compute = {};  ///< Technique::compute
+    TechniqueCost cpu = {};      ///< Technique::cpu
 };
 
 }  // namespace nearfield

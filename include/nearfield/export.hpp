@@ -1,16 +1,16 @@
 #pragma once
 
 /// \file
-/// What the shared library exports.
+/// Symbol visibility: which functions and classes the shared library exports.
 
-/// Stands before every function and class of the public interface that the library has code for.
-/// Everything else in the library is hidden; plain structures and templates need none of it. The
-/// static and the shared library are made of the same objects, so a host defines nothing for
-/// either. A host that is itself a shared library, links the static one and does not want to pass
-/// these symbols on links with `-Wl,--exclude-libs,libnearfield.a`.
+/// Marks the functions and classes of the public API that have code in the library. All other
+/// symbols are hidden; plain structures and templates need no mark. The static and the shared
+/// library consist of the same objects, so a host defines nothing for either. A host that is itself
+/// a shared library and links the static one can keep these symbols out of its own exports with
+/// `-Wl,--exclude-libs,libnearfield.a`.
 #if defined(__GNUC__)
 #define NEARFIELD_EXPORT [[gnu::visibility("default")]]
-/// Takes that back for a class inside an exported one.
+/// Hides a class nested in an exported one.
 #define NEARFIELD_HIDDEN [[gnu::visibility("hidden")]]
 #else
 #define NEARFIELD_EXPORT

@@ -3,22 +3,24 @@
 #include <cstdint>
 
 /// \file
-/// How the CPU finds where something can happen (the paper's section 2.1), and what it did.
+/// Localisation (section 2.1 of the paper): the CPU finds the regions where a query can have
+/// results. Settings and statistics.
 
 namespace nearfield {
 
-/// The bounding volumes of the hierarchies. Results are the same within their bounds; what changes
-/// is how much is left for the device. Neither is stored: both are computed where they are needed.
+/// The bounding volumes of the hierarchies. Both give the same results within their error bounds;
+/// they differ in how much work is left for the device. Neither is stored: volumes are computed
+/// when needed.
 enum class BoundingVolume : std::uint8_t {
-    axis_aligned,  ///< boxes along the axes of the world
-    oriented,      ///< these, and boxes along the principal axes of what they hold
+    axis_aligned,  ///< axis-aligned boxes in world coordinates
+    oriented,      ///< these, and boxes along the principal axes of their contents
 };
 
-/// What localisation did for one query.
+/// Work counters of the localisation of one query.
 struct LocalizationStatistics {
     std::uint64_t nodes_evaluated = 0;  ///< bounding volumes computed
-    std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found apart
-    std::uint64_t edges_kept = 0;       ///< edges left for the device to look at
+    std::uint64_t pairs_rejected = 0;   ///< pairs of bounding volumes found to be disjoint
+    std::uint64_t edges_kept = 0;       ///< edges left for the technique to examine
 };
 
 }  // namespace nearfield

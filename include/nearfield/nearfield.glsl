@@ -1,59 +1,59 @@
-// What nearfield leaves on the device, for shaders to read: include this file in GLSL 4.50 for
-// Vulkan. resident.hpp declares the same structures in C++ and says how they are handed over;
-// docs/resident_results.md has the whole story.
+// Resident outputs of nearfield, for shaders to read: include this file in GLSL 4.50 for Vulkan.
+// resident.hpp declares the same structures in C++ and states how they are obtained;
+// docs/resident_results.md describes them in full.
 //
-// Everything a host might have too begins with nearfield_ or Nearfield.
+// Every name that might clash with the host's begins with nearfield_ or Nearfield.
 #ifndef NEARFIELD_GLSL
 #define NEARFIELD_GLSL
 
-// A feature id, in a texel of the feature image and in a record: which part of a boundary is
-// nearest (Feature in result.hpp) and two flags.
+// A feature id, in a texel of the feature image and in a record: the nearest part of a boundary
+// (Feature in result.hpp) and flags.
 const uint nearfield_index_mask = 0x0fffffffu;   // index of the edge or vertex
-const uint nearfield_vertex_flag = 1u << 28;     // a vertex, else an edge
+const uint nearfield_vertex_flag = 1u << 28;     // a vertex; otherwise an edge
 const uint nearfield_unique_flag = 1u << 30;     // no other part of the boundary is as near
-const uint nearfield_inside_flag = 1u << 31;     // the place lies inside the shape
+const uint nearfield_inside_flag = 1u << 31;     // the point lies inside the shape
 
 // NearfieldRecord::flags
-const uint nearfield_on_b_flag = 1u;        // a contact of B's boundary, else a point of A's
-const uint nearfield_touching_flag = 2u;    // too near the boundary to say inside or outside
+const uint nearfield_on_b_flag = 1u;        // a contact on B's boundary; otherwise a point on A's
+const uint nearfield_touching_flag = 2u;    // too near the boundary to tell inside from outside
 
 const uint nearfield_no_record = 0xffffffffu;
 
 struct NearfieldSummary {
-    uint count;     // records
-    uint capacity;  // there is room for so many; never fewer than there are records
-    uint deepest;   // the record of the greatest depth; nearfield_no_record where there is none
-    float depth;    // its depth: distance to the boundary inside, less than 0 outside
-    vec2 low;       // the smallest box that holds all records' points, where there are some;
+    uint count;     // number of records
+    uint capacity;  // reserved number of records; never less than count
+    uint deepest;   // the record of the greatest depth; nearfield_no_record if there is none
+    float depth;    // its depth: distance to the boundary inside, negative outside
+    vec2 low;       // the smallest box that holds all records' points, if any;
     vec2 high;      // relative to the origin
 };
 
 struct NearfieldRecord {
     vec2 point;      // on the boundary of A, or of B (nearfield_on_b_flag); relative to the origin
-    vec2 nearest;    // of the other shape's boundary, nearest to it
-    vec2 normal;     // unit, where B's signed distance grows: of a point inside B the way out
+    vec2 nearest;    // nearest point of the other shape's boundary; relative to the origin
+    vec2 normal;     // unit: gradient of B's signed distance; at a point inside B, the way out
     float distance;  // from `point` to `nearest`
     uint feature;    // id of the feature that `nearest` lies on
     uint flags;
-    uint place;      // among the points looked at, in order along A's rings, then B's
+    uint place;      // index among the points examined, along A's rings, then B's
 };
 
 const uint nearfield_no_edge = 0xffffffffu;
 
-// What an intersection leaves: the summary, behind it its samples.
+// The outputs of an intersection: the summary, followed by its samples.
 struct NearfieldIntersectionSummary {
-    uint count;     // samples found
-    uint capacity;  // there is room for so many: 0 where they were left out, else never fewer
-    float area;     // of the cells found
+    uint count;     // number of samples found
+    uint capacity;  // reserved number: 0 if samples were omitted, else never less than count
+    float area;     // area of the cells found
     float cell;     // side of a cell
-    vec2 low;       // the smallest box that holds all samples, where there are some; relative to
+    vec2 low;       // the smallest box that holds all samples, if any; relative to
     vec2 high;      // the origin
 };
 
 struct NearfieldIntersectionSample {
     vec2 point;   // the centre of a cell, relative to the origin
-    uint edge;    // of A, nearby; nearfield_no_edge where A takes part by its volume
-    uint region;  // which one the cell belongs to
+    uint edge;    // of A, nearby; nearfield_no_edge if A takes part by its volume
+    uint region;  // the region that the cell belongs to
 };
 
 uint nearfield_index(uint feature) {
@@ -69,19 +69,19 @@ bool nearfield_is_inside(uint feature) {
     return (feature & nearfield_inside_flag) != 0u;
 }
 
-// Depth of a record: its distance inside the other shape, less than 0 outside.
+// Depth of a record: its distance inside the other shape, negative outside.
 float nearfield_depth(NearfieldRecord record) {
     return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
 }
 
-// Where a place lies in a field's images, in texels: its centres are at halves. `place` and
-// `origin` in one frame.
+// Position in a field's images, in texels: texel centres are at halves. `place` and `origin` in the
+// same frame.
 vec2 nearfield_texel(vec2 place, vec2 origin, float cell) {
     return (place - origin) / cell;
 }
 
-// The signed distance at a place given in texels: bilinear between the four cells around, those at
-// the rim beyond it. By fetches, since a device need not filter this format.
+// The signed distance at a position in texels: bilinear between the four cells around it; clamped
+// at the rim. Uses fetches, since a device need not support filtering of this format.
 float nearfield_signed_distance(sampler2D field, ivec2 size, vec2 texel) {
     vec2 low = floor(texel - 0.5);
     vec2 way = texel - 0.5 - low;

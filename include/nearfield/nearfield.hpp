@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The whole public interface of nearfield.
+/// Includes the whole public API of nearfield.
 
 #include <nearfield/context.hpp>
 #include <nearfield/curve.hpp>

@@ -8,142 +8,147 @@
 #include <cstdint>
 
 /// \file
-/// Results that stay on the device: what Context::resident() hands over to a host's own shaders.
-/// The GLSL header nearfield/nearfield.glsl declares the same structures.
+/// Resident outputs: results that stay on the device (Context::resident()), for the host's own
+/// shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 ///
-/// Images and buffers belong to the batch they are asked of. They hold what they are to hold once
-/// the device has done the batch's submission, and commands that the host submits to the same queue
-/// after Context::submit() see it without any barrier of its own, in the stages and by the accesses
-/// that HandedOver names. Other stages, accesses, queues or layouts are for a barrier, semaphore or
-/// transfer of ownership of the host's, which has to leave the images as it found them.
+/// Images and buffers belong to the batch of the query. Their contents are valid once the device
+/// has executed the batch. Commands that the host submits to the same queue after Context::submit()
+/// see them without a barrier, in the stages and by the accesses that HandedOver states. Other
+/// stages, accesses, layouts or queues take a barrier, semaphore or ownership transfer by the host,
+/// which must return the images to the stated state.
 ///
-/// They stay until the batch is collected: collect it when the device is done with the commands
-/// that read them. Then they serve another batch, so no handle may be used any more.
+/// They stay valid until the batch is collected, so collect it after the device has finished the
+/// commands that read them. Afterwards they are reused by another batch, and no handle may be used.
 
 namespace nearfield {
 
-/// In what state something is handed over.
+/// The synchronisation state in which the host's commands find a resident output.
 struct HandedOver {
-    VkPipelineStageFlags stages = 0;                   ///< vertex, fragment and compute shaders
+    VkPipelineStageFlags stages = 0;                   ///< vertex, fragment and compute shader
     VkAccessFlags access = 0;                          ///< VK_ACCESS_SHADER_READ_BIT
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
-    std::uint32_t queue_family = 0;                    ///< which owns it; sharing is exclusive
+    std::uint32_t queue_family = 0;                    ///< the owner; sharing is exclusive
 };
 
 /// One image of a field, with a view of all of it.
 struct ResidentImage {
     VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed
-    VkImageView view = VK_NULL_HANDLE;      ///< of all of it; borrowed
-    VkFormat format = VK_FORMAT_UNDEFINED;  ///< of both
+    VkImageView view = VK_NULL_HANDLE;      ///< of the whole image; borrowed
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< of image and view
 };
 
-/// A distance field (DistanceFieldQuery::resident). Texel (column, row) stands for the cell with
-/// the centre origin + (column + 1/2, row + 1/2) * cell; row 0 is the lowest. Images can be sampled
-/// and copied from. Whether the signed distance may be filtered linearly is up to the device
+/// A distance field (DistanceFieldQuery::resident). Texel (column, row) is the cell with the centre
+/// origin + (column + 1/2, row + 1/2) * cell; row 0 is the lowest. The images can be sampled and
+/// copied from. Linear filtering of the signed distance is optional in Vulkan
 /// (VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT of R32_SFLOAT); nearfield_signed_distance()
-/// of the GLSL header needs none of it.
+/// of the GLSL header does not need it.
 struct ResidentField {
     /// VK_FORMAT_R32_SFLOAT: signed distance in world units, negative inside B; the same numbers as
     /// DistanceFieldResult::values.
     ResidentImage signed_distance;
-    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (ResidentFeature).
+    /// VK_FORMAT_R32_UINT: id of the nearest feature of B's boundary (resident_feature).
     ResidentImage feature;
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
-    /// Of both images, at least width x height; what lies beyond is undefined. Images only grow, so
-    /// that a field whose size changes a little every frame need not have them made anew.
+    /// Size of both images, at least width x height; texels beyond the cells are undefined. Images
+    /// only grow, so a field whose size varies from frame to frame does not recreate them.
     VkExtent2D image_extent{};
     Vector2 origin;     ///< low corner of cell (0, 0), world coordinates
     double cell = 0.0;  ///< side of a cell, world units
-    /// Of every cell's signed distance, world units; at most the tolerance. It is told before the
-    /// field is there, so it counts on the farthest that a cell can be: a little more than
-    /// DistanceFieldResult::error_bound.
+    /// Error bound of the signed distance at every cell, world units; at most the tolerance. It is
+    /// known before the field is computed and so assumes the largest possible distance: slightly
+    /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    HandedOver state;  ///< when the device has done the batch
+    HandedOver state;  ///< once the device has executed the batch
 };
 
-/// A range of a buffer with a SummaryData, then `capacity` records (RecordData) of which the
-/// summary says how many there are: PenetrationQuery::resident and ContactQuery::resident. The
-/// buffer may be bound as a storage buffer, at this offset, and copied from.
+/// The records of a penetration or contact query (PenetrationQuery::resident,
+/// ContactQuery::resident): a buffer range with a SummaryData, then space for `capacity` records
+/// (RecordData); the summary has their number. The buffer may be bound as a storage buffer at this
+/// offset, and copied from.
 ///
-/// Records are in the order of the points they stand for, along A's rings and then, of contacts,
-/// B's; where the batch takes several rounds (its points in more tiles than an atlas holds) so
-/// within each. Their number is not known on the CPU before the batch is collected; there is room
-/// for every point that is looked at, so none is ever left out.
+/// Records are in the order of their points: along A's rings, then, for contacts, along B's. If the
+/// batch takes several tile batches (more tiles than one atlas holds), that order holds within
+/// each. The CPU does not know the number of records before the batch is collected. There is space
+/// for every point examined, so no record is ever dropped.
 ///
-/// A record is the device's version, in single precision, of the one that the CPU makes of the same
-/// point (PenetrationRecord, ContactRecord). Where both exist they name the same edge, but for a
-/// nearest point closer to a vertex than `error_bound`, where one may name that vertex and the
-/// other an edge next to it. A point whose distance differs from the contact distance by no more
-/// than `error_bound`, or which lies no farther from the boundary than touching decides, may have a
-/// record on one side alone. Points farther than 1024 cells from the other boundary may name
-/// another edge, one nearer by no more than `error_bound`.
+/// Each record is the single-precision version of the record that the CPU computes for the same
+/// point (PenetrationRecord, ContactRecord). Where both exist they name the same edge, with two
+/// exceptions:
+/// - If the nearest point is closer to a vertex than `error_bound`, one may name that vertex and
+///   the other an adjacent edge.
+/// - If the point is farther than 1024 cells from the other boundary, they may name different edges
+///   whose distances differ by at most `error_bound`.
+///
+/// A record may exist on one side only if the point's distance differs from the contact distance by
+/// at most `error_bound`, or if the point is so close to the boundary that it counts as touching
+/// (resident_flags::touching).
 struct ResidentRecords {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< holds more than this range; borrowed
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes
-    std::uint32_t capacity = 0;        ///< records there is room for
-    /// What positions are relative to, world coordinates: the middle of the points looked at.
+    std::uint32_t capacity = 0;        ///< maximum number of records
+    /// Origin of all positions, world coordinates: the middle of the points examined.
     Vector2 origin;
-    /// Of every coordinate of a record or the summary, and of distances and depths, world units.
-    /// A normal is off by at most twice this over the distance, or 2^-14 where that is more.
+    /// Error bound of every coordinate, distance and depth of the records and the summary, world
+    /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
+    /// is larger.
     double error_bound = 0.0;
-    HandedOver state;  ///< when the device has done the batch
+    HandedOver state;  ///< once the device has executed the batch
 };
 
-/// A range of a buffer with an IntersectionSummaryData, then `capacity` samples
-/// (IntersectionSampleData) of which the summary says how many there are:
-/// IntersectionQuery::resident. The buffer may be bound as a storage buffer, at this offset, and
-/// copied from.
+/// The samples of an intersection query (IntersectionQuery::resident): a buffer range with an
+/// IntersectionSummaryData, then space for `capacity` samples (IntersectionSampleData); the summary
+/// has their number. The buffer may be bound as a storage buffer at this offset, and copied from.
 ///
-/// Samples are those of IntersectionResult::samples, the same cells in the same order: by region,
-/// then row by row from the low corner, however many rounds the batch takes. Their number is not
-/// known on the CPU before the batch is collected; there is room for every cell of every region, so
-/// none is ever left out, nor has the device to be asked again for them. Where
-/// IntersectionQuery::resident_samples is false there is room for none, and the summary counts them
-/// all the same.
+/// The samples are those of IntersectionResult::samples, in the same order: by region, then row by
+/// row from the low corner. The CPU does not know their number before the batch is collected. There
+/// is space for every cell of every region, so no sample is ever dropped and no second submission
+/// is needed. If IntersectionQuery::resident_samples is false there is space for none, and the
+/// summary still counts them all.
 struct ResidentSamples {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< holds more than this range; borrowed
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes
-    std::uint32_t capacity = 0;        ///< samples there is room for: all cells, or 0
-    /// What positions are relative to, world coordinates: the middle of all regions.
+    std::uint32_t capacity = 0;        ///< maximum number of samples: all cells, or 0
+    /// Origin of all positions, world coordinates: the middle of all regions.
     Vector2 origin;
     double cell = 0.0;  ///< side of a cell, world units
-    /// Of every coordinate of a sample or the summary, world units. The edge that a sample names is
-    /// the nearest one of its chain of A's edges, but for edges that are as near to within twice
-    /// this, of which the CPU may name another.
+    /// Error bound of every coordinate of the samples and the summary, world units. A sample's edge
+    /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
+    /// one as near.
     double error_bound = 0.0;
-    HandedOver state;  ///< when the device has done the batch
+    HandedOver state;  ///< once the device has executed the batch
 };
 
-/// A feature id: a word that says which part of a boundary is nearest, and two flags.
+/// A feature id: a word that names the nearest part of a boundary, with two flags.
 namespace resident_feature {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
-inline constexpr std::uint32_t vertex = 1U << 28U;       ///< a vertex, else an edge
+inline constexpr std::uint32_t vertex = 1U << 28U;       ///< set: a vertex; clear: an edge
 inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetrationRecord::unique
 inline constexpr std::uint32_t inside = 1U << 31U;       ///< the place lies inside the shape
 }  // namespace resident_feature
 
-/// RecordData::flags.
+/// The bits of RecordData::flags.
 namespace resident_flags {
-/// A contact of B's boundary, whose nearest point and feature are A's.
+/// A contact of B's boundary, whose nearest point and feature are on A.
 inline constexpr std::uint32_t on_b = 1;
-/// Too near the boundary for single precision to say inside or outside: the normal is the edge's.
+/// Too close to the boundary for single precision to tell inside from outside: the normal is that
+/// of the edge.
 inline constexpr std::uint32_t touching = 2;
 }  // namespace resident_flags
 
-/// In place of the position of a record.
+/// SummaryData::deepest if there is no record.
 inline constexpr std::uint32_t no_record = UINT32_MAX;
 
-/// NearfieldSummary of the GLSL header (std430).
+/// NearfieldSummary of the GLSL header (std430). The box is relative to ResidentRecords::origin.
 struct SummaryData {
-    std::uint32_t count = 0;            ///< records
+    std::uint32_t count = 0;            ///< number of records
     std::uint32_t capacity = 0;         ///< as ResidentRecords::capacity
-    std::uint32_t deepest = no_record;  ///< the record of the greatest depth; of several the first
-    float depth = 0.0F;  ///< its depth: the distance inside the other shape, less than 0 outside
-    float low[2]{};      ///< the smallest box that holds all records' points, where there are some
-    float high[2]{};     ///< its other corner
+    std::uint32_t deepest = no_record;  ///< index of the first record of the greatest depth
+    float depth = 0.0F;  ///< its depth: distance inside the other shape, negative outside
+    float low[2]{};      ///< bounding box of all records' points, low corner; valid if count > 0
+    float high[2]{};     ///< its high corner
 };
 static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &&
               offsetof(SummaryData, low) == 16 && offsetof(SummaryData, high) == 24);
@@ -151,31 +156,32 @@ static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &
 /// NearfieldRecord of the GLSL header (std430). Positions are relative to ResidentRecords::origin.
 struct RecordData {
     float point[2]{};    ///< on the boundary of A, or of B (resident_flags::on_b)
-    float nearest[2]{};  ///< of the other shape's boundary, nearest to it
-    /// Unit, pointing out of B: where B's signed distance grows. Of a penetrating point the way
-    /// out.
+    float nearest[2]{};  ///< the nearest point of the other shape's boundary
+    /// Unit vector that points out of B, towards increasing signed distance. For a penetrating
+    /// point, the direction out of B.
     float normal[2]{};
-    float distance = 0.0F;      ///< from `point` to `nearest`, world units
-    std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on
+    float distance = 0.0F;      ///< from `point` to `nearest`, world units, >= 0
+    std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on (resident_feature)
     std::uint32_t flags = 0;    ///< resident_flags
-    std::uint32_t place = 0;    ///< among the points looked at: along A's rings, then along B's
+    std::uint32_t place = 0;    ///< index among the points examined: along A's rings, then B's
 };
 static_assert(sizeof(RecordData) == 40 && offsetof(RecordData, nearest) == 8 &&
               offsetof(RecordData, normal) == 16 && offsetof(RecordData, distance) == 24 &&
               offsetof(RecordData, feature) == 28 && offsetof(RecordData, flags) == 32 &&
               offsetof(RecordData, place) == 36);
 
-/// In place of an edge of a sample, where A takes part by its volume.
+/// IntersectionSampleData::edge if A takes part by its volume.
 inline constexpr std::uint32_t no_edge = UINT32_MAX;
 
-/// NearfieldIntersectionSummary of the GLSL header (std430).
+/// NearfieldIntersectionSummary of the GLSL header (std430). The box is relative to
+/// ResidentSamples::origin.
 struct IntersectionSummaryData {
-    std::uint32_t count = 0;     ///< samples found
+    std::uint32_t count = 0;     ///< number of samples found
     std::uint32_t capacity = 0;  ///< as ResidentSamples::capacity
-    float area = 0.0F;           ///< count times the area of a cell, to 2^-21 of itself
+    float area = 0.0F;           ///< count times the area of a cell, relative error at most 2^-21
     float cell = 0.0F;           ///< side of a cell, world units
-    float low[2]{};              ///< the smallest box that holds all samples, where there are some
-    float high[2]{};             ///< its other corner
+    float low[2]{};              ///< bounding box of all samples, low corner; valid if count > 0
+    float high[2]{};             ///< its high corner
 };
 static_assert(sizeof(IntersectionSummaryData) == 32 &&
               offsetof(IntersectionSummaryData, area) == 8 &&
@@ -186,8 +192,8 @@ static_assert(sizeof(IntersectionSummaryData) == 32 &&
 /// ResidentSamples::origin.
 struct IntersectionSampleData {
     float point[2]{};              ///< the centre of a cell
-    std::uint32_t edge = no_edge;  ///< where A takes part by its boundary: an edge of A nearby
-    std::uint32_t region = 0;      ///< which of ResultSummary::regions the cell belongs to
+    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
+    std::uint32_t region = 0;      ///< index of the cell's region in ResultSummary::regions
 };
 static_assert(sizeof(IntersectionSampleData) == 16 && offsetof(IntersectionSampleData, edge) == 8 &&
               offsetof(IntersectionSampleData, region) == 12);

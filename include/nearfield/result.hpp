@@ -12,38 +12,40 @@
 #include <vector>
 
 /// \file
-/// What comes back. Points and directions are in world coordinates, lengths in world units.
+/// The results. Points and directions are in world coordinates, lengths in world units. Signed
+/// distances are negative inside a shape.
 
 namespace nearfield {
 
-/// A rectangle that localisation found, with the grid it was sampled on. Sample (column, row) is
-/// the centre of its cell: min + (column + 1/2, row + 1/2) * cell; row 0 is the lowest.
+/// A rectangle found by localisation, with the grid on which it was sampled. Sample (column, row)
+/// is the centre of its cell: min + (column + 1/2, row + 1/2) * cell; row 0 is the lowest.
 struct Region {
-    Vector2 min;               ///< low corner, of cell (0, 0) too
+    Vector2 min;               ///< low corner, also of cell (0, 0)
     Vector2 max;               ///< high corner
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
 };
 
-/// What every result says.
+/// The members that all results have.
 struct ResultSummary {
-    Status status;             ///< of this query alone; the rest is meaningful only where it is ok
-    double tolerance = 0.0;    ///< d as asked
-    double error_bound = 0.0;  ///< what the result's own description says it bounds; at most d
-    /// The closed shapes share a point; containment and touching count. Said of the rings as given:
-    /// shapes with a deviation can do the opposite where they are no farther apart, or no deeper in
-    /// each other, than their deviations together. False for a distance field without a shape A.
+    Status status;             ///< of this query alone; if it is an error, ignore the rest
+    double tolerance = 0.0;    ///< d of the query
+    double error_bound = 0.0;  ///< at most d; the type of the result states what it bounds
+    /// The closed shapes share a point; containment and touching count. Holds for the rings as
+    /// given: for shapes with a deviation the opposite can be true if they are no farther apart, or
+    /// no deeper in each other, than the sum of their deviations. False for a distance field
+    /// without a shape A.
     bool intersects = false;
-    double cell = 0.0;  ///< side of a grid cell; samples of a boundary are no farther apart
-    std::vector<Region> regions;          ///< what was sampled; Technique says where there is none
-    LocalizationStatistics localization;  ///< what the search for regions did
-    Technique technique = Technique::raster;  ///< what answered; never automatic
+    double cell = 0.0;            ///< side of a grid cell; maximum gap between boundary samples
+    std::vector<Region> regions;  ///< the regions sampled; for exceptions see Technique::cpu
+    LocalizationStatistics localization;      ///< work of the search for regions
+    Technique technique = Technique::raster;  ///< the technique that answered; never automatic
 };
 
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
 /// rings of the shape in the order given.
 struct Feature {
-    /// Which of both it is.
+    /// The kinds of features.
     enum class Kind : std::uint8_t {
         edge,    ///< from vertex `index` to the next one of its ring
         vertex,  ///< vertex `index`
@@ -56,261 +58,267 @@ struct Feature {
 struct PenetrationRecord {
     Vector2 point;       ///< on A's boundary, inside B
     double depth = 0.0;  ///< distance from `point` to `nearest`, > 0
-    Vector2 direction;   ///< unit vector from `point` to `nearest`: the way out
+    Vector2 direction;   ///< unit vector from `point` to `nearest`: points out of B
     Vector2 nearest;     ///< the point of B's boundary nearest to `point`
     Feature feature;     ///< of B: where `nearest` lies
-    /// False where the direction is one of several: the nearest point of another edge of B is no
-    /// farther than `depth` + d/1000 and is not just a little way along the same wall, which is to
-    /// say farther from `nearest` than twice what a straight wall would explain, 2 * sqrt((depth +
-    /// d/1000)^2 - depth^2).
+    /// False if the direction is one of several: another edge of B has a point within `depth` +
+    /// d/1000 of `point` that is farther from `nearest` than 2 * sqrt((depth + d/1000)^2 -
+    /// depth^2), twice what a straight edge explains.
     bool unique = true;
 };
 
 /// Answer to a PenetrationQuery.
 ///
-/// Each record's numbers are computed in double precision from the vertices as given. Which feature
-/// is nearest is decided in single precision in grid cells: where two are equally near to within
-/// d/1000, either may be named. `error_bound` bounds how much deeper than `deepest` any point of
-/// A's boundary can be (any vertex, for PenetrationPoints::vertices). Where shapes have a deviation
-/// it bounds too how much less deep any boundary point of the shapes themselves can have to be, and
-/// a record's depth is off by at most the deviation of B at a point that is off by that of A.
+/// The numbers of a record are computed in double precision from the vertices as given. The nearest
+/// feature is decided in single precision in grid cells: if two are equally near to within d/1000,
+/// either may be named.
+///
+/// `error_bound` bounds how much deeper than `deepest` any point of A's boundary can be (any
+/// vertex, for PenetrationPoints::vertices). For shapes with a deviation it also bounds how much
+/// less deep the deepest boundary point of the shapes themselves can be; the depth of a record is
+/// then off by at most the deviation of B, at a point that is off by at most that of A.
 struct PenetrationResult : ResultSummary {
-    std::uint32_t count = 0;    ///< penetrating points found
-    PenetrationRecord deepest;  ///< meaningful where count > 0
-    /// In order along A's rings; a stretch that goes on past a ring's first vertex may stand as
-    /// one, at the ring's beginning, which differs between techniques.
+    std::uint32_t count = 0;    ///< number of penetrating points
+    PenetrationRecord deepest;  ///< meaningful if count > 0
+    /// In order along A's rings. A sequence that continues past the first vertex of a ring may
+    /// stand at the start of the ring as a whole; techniques differ in this.
     std::vector<PenetrationRecord> records;
 };
 
 /// One grid sample that lies in both shapes.
 struct IntersectionSample {
-    /// In place of an edge where A takes part by its volume.
+    /// The value of `edge` if A takes part by its volume.
     static constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
     Vector2 point;                 ///< the centre of a cell
-    std::uint32_t edge = no_edge;  ///< where A takes part by its boundary: an edge of A nearby
+    std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
 };
 
 /// Answer to an IntersectionQuery.
 ///
 /// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
-/// in both (or, by its boundary, lies on it) has a sample within it.
+/// in both shapes has a sample within it; for a shape that takes part by its boundary, every point
+/// on the boundary.
 struct IntersectionResult : ResultSummary {
-    IntersectionKind kind = IntersectionKind::volume_volume;        ///< as asked
-    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< as asked
-    std::uint64_t count = 0;                                        ///< samples found
+    IntersectionKind kind = IntersectionKind::volume_volume;        ///< of the query
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of the query
+    std::uint64_t count = 0;                                        ///< number of samples found
     double area = 0.0;  ///< count times the area of a cell
-    Rectangle box;  ///< the smallest that holds every sample's point; meaningful where count > 0
+    Rectangle box;      ///< bounding box of all samples' points; meaningful if count > 0
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 
 /// The field at one of DistanceFieldQuery::points.
 struct FieldPoint {
-    Vector2 point;  ///< as asked
+    Vector2 point;  ///< of the query
     /// Signed distance: bilinear between the four cell centres around the point.
     double distance = 0.0;
-    /// The exact signed distance differs from `distance` by no more than this. A distance changes
-    /// by no more than the way walked, so each of the four cells confines it; this is what all four
-    /// leave open, at most DistanceFieldResult::error_bound + d.
+    /// Maximum error of `distance`; at most DistanceFieldResult::error_bound + d. A distance field
+    /// is 1-Lipschitz, so each of the four cells limits the exact value; this is the remaining
+    /// interval.
     double error_bound = 0.0;
-    /// The sign, 0 outside and 1 inside, bilinear between the same four cells: more than 0.5 is
-    /// negative. Right wherever the boundary is farther than 1.0824 d + the result's error_bound.
+    /// The sign, 0 outside and 1 inside, bilinear between the same four cells; the point counts as
+    /// inside above 0.5. Correct if the boundary is farther than 1.0824 d + the result's
+    /// error_bound.
     double inside = 0.0;
-    /// By DistanceFieldQuery::gradient. Analytic: at the point itself, from `feature`. The others:
-    /// bilinear between the gradients of the four cells.
+    /// By DistanceFieldQuery::gradient. Analytic: at the point itself, from `feature`. The other
+    /// methods: bilinear between the gradients of the four cells.
     Vector2 gradient;
     Feature feature;     ///< of B's boundary, nearest to the point itself
-    bool unique = true;  ///< as PenetrationRecord::unique, of `feature` and the analytic gradient
+    bool unique = true;  ///< as PenetrationRecord::unique, for `feature` and the analytic gradient
 };
 
 /// Answer to a DistanceFieldQuery. `error_bound` bounds the difference from the exact signed
 /// distance at every cell centre that was read back.
 ///
-/// What is asked for at every cell has width * height entries, row by row from the lowest, and is
-/// empty where it was not asked for. Features are found among B's own edges. Which is nearest is
-/// decided in single precision in grid cells: where two are equally near to within d/1000, or to
-/// within 2^-18 of the distance where that is more, either may be named, and `unique` is 0.
+/// Outputs per cell have width * height entries, row by row from the lowest, and are empty if not
+/// requested. Features are those of B's own edges. The nearest is decided in single precision in
+/// grid cells: if two are equally near to within d/1000, or to within 2^-18 of the distance if that
+/// is more, either may be named, and `unique` is 0.
 struct DistanceFieldResult : ResultSummary {
     Vector2 origin;                    ///< low corner of cell (0, 0)
     std::uint32_t width = 0;           ///< cells along x
     std::uint32_t height = 0;          ///< cells along y
-    std::vector<float> values;         ///< signed distance, negative inside B
-    std::vector<Feature> features;     ///< of B's boundary, nearest to the centre
-    std::vector<float> gradients;      ///< x and y of each cell, one after the other
-    std::vector<std::uint8_t> unique;  ///< 1 or 0; with features or analytic gradients
-    std::vector<FieldPoint> points;    ///< in the order asked
-    /// Bounds, for either component of a gradient at a cell, the difference from: the unit vector
-    /// between the centre and the nearest point of the feature named (analytic; on the boundary,
-    /// its outward normal), central differences of the exact signed distance (the other methods). 0
-    /// where no gradient was asked for.
+    std::vector<float> values;         ///< signed distance per cell, negative inside B
+    std::vector<Feature> features;     ///< of B's boundary, nearest to the cell centre
+    std::vector<float> gradients;      ///< two entries per cell: x and y
+    std::vector<std::uint8_t> unique;  ///< 1 or 0 per cell; with features or analytic gradients
+    std::vector<FieldPoint> points;    ///< in the order of the query
+    /// Error bound of either component of a gradient at a cell; 0 if none was requested. Analytic:
+    /// the difference from the unit vector between the centre and the nearest point of the feature
+    /// named (on the boundary, its outward normal). The other methods: the difference from central
+    /// differences of the exact signed distance.
     double gradient_error_bound = 0.0;
-    /// The Vulkan format that a blended gradient went through ("R32G32_SFLOAT"); empty without one.
+    /// The Vulkan format in which a blended gradient was computed ("R32G32_SFLOAT"); empty for
+    /// other gradients. A string literal.
     const char* gradient_format = "";
 };
 
-/// Which of the two shapes of a query.
+/// One of the two shapes of a query.
 enum class Side : std::uint8_t {
     a,  ///< the query's `a`
     b,  ///< the query's `b`
 };
 
-/// A point of one boundary that is close to the other.
+/// A point of one boundary that is close to the other boundary.
 struct ContactRecord {
     Vector2 point;          ///< on the boundary of the shape `on`
-    Vector2 normal;         ///< unit normal of B's boundary there, pointing out of B
+    Vector2 normal;         ///< unit normal of B's boundary there, points out of B
     double distance = 0.0;  ///< from `point` to `nearest`, >= 0
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
     Feature feature;        ///< of the other shape: where `nearest` lies
-    Side on = Side::a;      ///< whose boundary `point` is on
+    Side on = Side::a;      ///< the shape whose boundary `point` is on
     bool inside = false;    ///< `point` lies inside the other shape
-    /// As PenetrationRecord::unique; with ContactNormals::gradient also false where the field has
-    /// next to no gradient, and the analytic normal stands for it.
+    /// As PenetrationRecord::unique. Also false if ContactNormals::gradient found almost no
+    /// gradient and the analytic normal was used instead.
     bool unique = true;
 };
 
-/// A stretch of the contact between A and B, in one piece and turning by less than a right angle,
-/// told by a few points.
+/// A few points that represent a cluster of contacts: a connected part of the contact between A and
+/// B along which the normal turns by less than a right angle.
 struct ContactCluster {
-    /// The first of its two ends, points of A's boundary in the order of A's vertices: the contacts
-    /// farthest along the stretch, at right angles to `normal`, where a contact's distance outside
-    /// B counts twice against it and its depth an eighth for it. The same point where there is but
-    /// one, and the deepest where the stretch runs straight into B.
+    /// The first end of the cluster, in the order of A's vertices: a point of A's boundary. The
+    /// ends are the contacts farthest along the direction at right angles to `normal`, less twice a
+    /// contact's distance outside B, plus an eighth of its depth. Both ends are the same point if
+    /// there is only one contact, and the deepest contact if the cluster runs straight into B.
     Vector2 first;
     Vector2 last;    ///< the other end
-    Vector2 normal;  ///< mean of the contacts' normals, unit, pointing out of B
-    /// The deepest contact where some are inside the other shape, else the closest; of A's contacts
-    /// and of those of B's whose nearest point lies on this stretch.
+    Vector2 normal;  ///< mean of the contacts' normals, unit, points out of B
+    /// The deepest contact if some are inside the other shape, otherwise the closest; among A's
+    /// contacts and those of B's whose nearest point lies in this cluster.
     ContactRecord extreme;
-    /// Contacts of A's boundary; of B's where A has none on this stretch, as where a tip of B comes
-    /// close to a long edge of A between two samples.
+    /// Number of contacts of A's boundary. Of B's if A has none in this cluster, for example where
+    /// a tip of B comes close to a long edge of A between two samples.
     std::uint32_t count = 0;
 };
 
 /// Answer to a ContactQuery.
 ///
-/// Each record's numbers are computed in double precision from the vertices as given, but for the
-/// normal where ContactNormals::gradient is asked for. No record is farther from the other boundary
-/// than the contact distance; every point of either boundary no farther from the other than the
-/// contact distance less `error_bound` has a record within `error_bound` of it.
+/// The numbers of a record are computed in double precision from the vertices as given, except the
+/// normal with ContactNormals::gradient. No record is farther from the other boundary than the
+/// contact distance. Every point of either boundary that is no farther from the other than the
+/// contact distance minus `error_bound` has a record within `error_bound` of it.
 struct ContactResult : ResultSummary {
-    std::uint32_t count = 0;               ///< contacts found, on both boundaries
+    std::uint32_t count = 0;               ///< number of contacts, on both boundaries
     std::vector<ContactCluster> manifold;  ///< in order along A's rings, then those of B alone
     /// A's, then B's, each in order along the rings as PenetrationResult::records are.
     std::vector<ContactRecord> records;
 };
 
 /// Answer to a ClosestPointQuery. `error_bound` bounds the error of `distance`: the rounding of
-/// double precision. Shapes that intersect have distance 0, no direction, and a common point.
+/// double precision, plus the shapes' deviations. Shapes that intersect have distance 0, no
+/// direction, and a common point.
 struct ClosestPointResult : ResultSummary {
     Vector2 point;          ///< of A: closest to B
     Vector2 nearest;        ///< of B: closest to `point`
-    double distance = 0.0;  ///< from `point` to `nearest`; 0 where the shapes intersect
+    double distance = 0.0;  ///< from `point` to `nearest`; 0 if the shapes intersect
     Vector2 direction;      ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
-    Feature feature_a;      ///< where `point` lies on A's boundary; meaningful at a distance > 0
-    Feature feature_b;      ///< where `nearest` lies on B's
-    /// False where the closest point is one of several: another point of A, farther from `point`
-    /// than d, is as close to B up to d/1000.
+    Feature feature_a;      ///< where `point` lies on A's boundary; meaningful if distance > 0
+    Feature feature_b;      ///< where `nearest` lies on B's boundary; likewise
+    /// False if the closest point is one of several: another point of A, farther from `point` than
+    /// d, is as close to B up to d/1000.
     bool unique = true;
-    /// The least distance at the points of A that were rendered: larger than `distance` by a cell
-    /// at the most. 0 where the shapes intersect; `distance` where nothing was rendered.
+    /// The minimum distance at the points of A that were rendered, at most a cell more than
+    /// `distance`. 0 if the shapes intersect; equal to `distance` if nothing was rendered.
     double sampled_distance = 0.0;
 };
 
-/// Answer to a SeparationQuery; the rest as in ClosestPointResult. Swapping A and B gives the same
-/// distance. `unique` is about both points: false where another pair, one of its points farther
-/// than d from this pair's, is as close up to d/1000.
+/// Answer to a SeparationQuery; `error_bound` and intersecting shapes as for ClosestPointResult.
+/// Swapping A and B gives the same distance. `unique` refers to both points: false if another pair
+/// is as close up to d/1000 and one of its points is farther than d from this pair's.
 struct SeparationResult : ResultSummary {
-    double distance = 0.0;  ///< from point_a to point_b, world units; 0 where they intersect
+    double distance = 0.0;  ///< from point_a to point_b, world units; 0 if they intersect
     Vector2 point_a;        ///< of A
     Vector2 point_b;        ///< of B
     Vector2 direction;      ///< unit vector from point_a to point_b; (0, 0) at distance 0
-    Feature feature_a;      ///< where point_a lies on A's boundary; meaningful at a distance > 0
-    Feature feature_b;      ///< where point_b lies on B's
-    bool unique = true;     ///< false where the pair is one of several
-    double sampled_distance = 0.0;  ///< of the points of both that were rendered
+    Feature feature_a;      ///< where point_a lies on A's boundary; meaningful if distance > 0
+    Feature feature_b;      ///< where point_b lies on B's boundary; likewise
+    bool unique = true;     ///< false if the pair is one of several
+    /// As ClosestPointResult::sampled_distance, for points of both shapes.
+    double sampled_distance = 0.0;
 };
 
-/// Answer to an IntersectionTestQuery: `intersects`. Shapes whose distance is at most
-/// `error_bound`, the rounding of their placed vertices and their deviations, may be said to
-/// intersect or not; exact but for that. Tolerance and cell are 0.
+/// Answer to an IntersectionTestQuery: `intersects`. Exact, except that shapes whose distance is at
+/// most `error_bound` (the rounding of transformed vertices plus the shapes' deviations) may be
+/// reported either way. `tolerance` and `cell` are 0.
 struct IntersectionTestResult : ResultSummary {};
 
-/// What a TimeOfImpactQuery found.
+/// The outcome of a TimeOfImpactQuery.
 enum class ImpactState : std::uint8_t {
-    separated,              ///< the shapes stay apart from time 0 to time 1
-    hit,                    ///< they are apart at first and touch later
+    separated,              ///< the shapes do not touch from time 0 to time 1
+    hit,                    ///< they are separated at time 0 and touch later
     intersecting_at_start,  ///< they touch at time 0
-    /// They are apart before `time`, and most_steps did not suffice to say what comes after it.
+    /// They do not touch before `time`; max_steps did not suffice to decide what follows.
     bound_not_reached,
 };
 
-/// The name of a state as it stands in the enumeration ("bound_not_reached").
+/// The name of a state as in the enumeration, e.g. "bound_not_reached".
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(ImpactState state) noexcept;
 
-/// Answer to a TimeOfImpactQuery. Shapes touch where they share a point or, with a contact
-/// distance, are no farther apart than that. Never late: whatever the state, the shapes do not
-/// touch before `time`. Said of the rings as given, as `intersects` is.
+/// Answer to a TimeOfImpactQuery. Shapes touch if they share a point or, with a contact distance,
+/// are no farther apart than that. `time` is never late: in every state, the shapes do not touch
+/// before it. Holds for the rings as given, as `intersects` does.
 ///
-/// `error_bound`: shapes no farther apart than this, or than this more than the contact distance,
-/// may be said to touch; the rounding of placed vertices and the shapes' deviations. `intersects`:
-/// the shapes were seen to touch, at time + time_error_bound or before. Of a hit it is false where
-/// they were only seen so close that rounding cannot tell.
+/// `error_bound`: shapes that are separated by at most this much, or by at most this much more than
+/// the contact distance, may be reported as touching (the rounding of transformed vertices plus the
+/// shapes' deviations). `intersects`: the shapes were found to touch at time + time_error_bound or
+/// before. It is false for a hit at which they only came so close that rounding cannot tell.
 struct TimeOfImpactResult : ResultSummary {
-    ImpactState state = ImpactState::separated;  ///< what there is to say of the motion
-    /// The shapes do not touch from 0 up to it: 0 where they do at the start, 1 where they never
-    /// do.
+    ImpactState state = ImpactState::separated;  ///< the outcome
+    /// The shapes do not touch before this time: 0 if they touch at the start, 1 if they never
+    /// touch.
     double time = 0.0;
-    /// Hit: they touch no later than `time` and this, which keeps to the tolerance and the time
-    /// bound asked for. Bound not reached: if they touch no later than `time` and this, it was not
-    /// found where; they touch at its end where `intersects` is true, else it is the rest of the
-    /// motion. 0 otherwise.
+    /// Hit: they touch no later than `time` plus this, which respects the tolerance and the time
+    /// bound of the query. Bound not reached: the rest of the motion, in which a contact may be
+    /// missed; they touch at its end if `intersects` is true. 0 otherwise.
     double time_error_bound = 0.0;
-    Pose pose_a;            ///< at `time`
-    Pose pose_b;            ///< at `time`
+    Pose pose_a;            ///< A's pose at `time`
+    Pose pose_b;            ///< B's pose at `time`
     double distance = 0.0;  ///< between the shapes at `time`
-    /// The shapes were certified to be no closer than this from 0 to `time`; at least an eighth of
-    /// the least distance there was; with a contact distance, that and an eighth of what the least
-    /// distance was more.
-    double least_distance = 0.0;
+    /// A certified lower bound of the distance from 0 to `time`. At least an eighth of the minimum
+    /// distance; with a contact distance c, at least c plus an eighth of the amount by which the
+    /// minimum distance exceeds c.
+    double min_distance = 0.0;
     Vector2 point_a;          ///< of A at `time`, closest to B; a common point at distance 0
-    Vector2 point_b;          ///< of B at `time`, closest to A
+    Vector2 point_b;          ///< of B at `time`, closest to A; likewise
     Vector2 direction;        ///< unit vector from point_a to point_b; (0, 0) at distance 0
-    Feature feature_a;        ///< where point_a lies on A's boundary; meaningful at a distance > 0
-    Feature feature_b;        ///< where point_b lies on B's
-    std::uint32_t steps = 0;  ///< how often the shapes were looked at
+    Feature feature_a;        ///< where point_a lies on A's boundary; meaningful if distance > 0
+    Feature feature_b;        ///< where point_b lies on B's boundary; likewise
+    std::uint32_t steps = 0;  ///< number of evaluations of the shapes
 };
 
-/// Answer to a SeparationVectorQuery. The vector is verified: by the intersection test, A moved by
-/// it shares no point with B. Where `intersects` is false it is zero, and so are the lengths.
+/// Answer to a SeparationVectorQuery. The vector is verified by the intersection test: A moved by
+/// it shares no point with B. If `intersects` is false, vector and lengths are zero.
 ///
-/// `error_bound`: the rounding of placed vertices and the shapes' deviations. The rings as given
-/// are separated; shapes with a deviation may still be as deep in each other as these together.
+/// `error_bound`: the rounding of transformed vertices plus the shapes' deviations. The rings as
+/// given are separated; shapes with a deviation may still be as deep in each other as the sum of
+/// their deviations.
 struct SeparationVectorResult : ResultSummary {
-    Vector2 vector;       ///< to be added to the translation of A's pose
+    Vector2 vector;       ///< add it to the translation of A's pose
     double length = 0.0;  ///< of the vector
     /// No translation of A shorter than this takes the shapes farther apart than `error_bound`.
     double lower_bound = 0.0;
-    std::uint64_t work = 0;  ///< what was looked at, as SeparationVectorQuery::most_work counts it
+    std::uint64_t work = 0;  ///< work done, in the unit of SeparationVectorQuery::max_work
 };
 
-/// Time one pass took on the device.
+/// The time of one pass on the device.
 struct PassTime {
-    std::string name;           ///< as the render graph and debuggers have it
+    std::string name;           ///< as in the render graph and in debuggers
     double milliseconds = 0.0;  ///< from its first command to the end of its last
 };
 
-/// Where the time of a batch went, in milliseconds. The device works beside the CPU, so the parts
-/// may add up to more than the total.
+/// The times of a batch, in milliseconds. Device and CPU work in parallel, so the parts may add up
+/// to more than the total.
 struct Timings {
     double localize = 0.0;  ///< hierarchies on the CPU
-    double plan = 0.0;      ///< choice of techniques, simplification, meshes, atlas, upload
-    double record = 0.0;    ///< commands
+    double plan = 0.0;      ///< technique selection, simplification, meshes, atlas, upload
+    double record = 0.0;    ///< recording of commands
     /// From submission until its fence was seen signalled, by is_ready() or at the end of the wait
-    /// in collect(): with other frames in between it holds what the caller did meanwhile. 0 for
-    /// what was recorded, since the host submits it; `passes` are measured all the same.
+    /// in collect(); may include the caller's own work in between. 0 for recorded batches, which
+    /// the host submits; their `passes` are measured all the same.
     double device = 0.0;
-    double decode = 0.0;  ///< reading results and making them exact; what the CPU answers alone
+    double decode = 0.0;  ///< reading results and refining them; queries answered by the CPU
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
-    std::vector<PassTime> passes;  ///< by timestamps; empty where the queue has none
+    std::vector<PassTime> passes;  ///< from timestamps; empty if the queue has none
 };
 
 /// One result of any kind, in the order of AnyQuery.
@@ -318,7 +326,7 @@ using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFi
                                ContactResult, ClosestPointResult, SeparationResult,
                                IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
 
-/// The kind of result that a kind of query has: ResultOf<Query>::type.
+/// The type of the result of a kind of query: ResultOf<Query>::type.
 template <class Query>
 struct ResultOf;
 
@@ -364,13 +372,13 @@ struct ResultOf<SeparationVectorQuery> {
 };
 /// \endcond
 
-/// The results of one batch, in the order of its queries. Reusing one object for every frame keeps
-/// its memory.
+/// The results of one batch, in the order of its queries. Reusing the object from frame to frame
+/// keeps its memory.
 struct Results {
-    std::vector<AnyResult> results;  ///< one a query, in order
+    std::vector<AnyResult> results;  ///< one per query, in order
     Timings timings;                 ///< of the batch as a whole
 
-    /// The result of a query. Precondition: the handle comes from the batch that was run.
+    /// The result of a query. Precondition: the handle is from the batch that was answered.
     template <class Query>
     [[nodiscard]] const typename ResultOf<Query>::type& operator[](
         QueryHandle<Query> handle) const {

@@ -4,8 +4,12 @@
 #include <vector>
 
 /// \file
-/// Shapes and where they are. Units are the caller's own, the same for every shape, pose and
-/// tolerance; the frame is right-handed (x to the right, y up).
+/// Shapes and poses. Units are the caller's own, the same for every shape, pose and tolerance. The
+/// frame is right-handed: x to the right, y up.
+///
+/// A shape is a list of rings, filled by the odd-even rule: outer boundaries, holes and separate
+/// parts are all rings, in any order. Rings may touch and cross. Context::add_shape states which
+/// shapes are invalid.
 
 namespace nearfield {
 
@@ -14,37 +18,32 @@ struct Vector2 {
     double x = 0.0;  ///< to the right
     double y = 0.0;  ///< up
 
-    /// Both coordinates are equal.
+    /// True if both coordinates are equal.
     friend bool operator==(const Vector2&, const Vector2&) = default;
 };
 
-/// One closed line of straight edges. Edge i goes from vertex i to vertex i + 1, the last one back
-/// to vertex 0. A last vertex equal to the first closes the ring twice and is dropped; other
-/// repeated vertices are kept, so that indices stay the caller's. Orientation does not matter.
+/// A closed polygonal line. Edge i goes from vertex i to vertex i + 1, and the last edge returns to
+/// vertex 0. A last vertex equal to the first is redundant and dropped. Other repeated vertices are
+/// kept, so indices stay the caller's. Orientation does not matter.
 using Ring = std::vector<Vector2>;
 
-/// A shape is a list of rings filled by the odd-even rule: outer boundaries, holes and separate
-/// parts are all just rings, in any order. Rings may touch and cross.
-///
-/// A shape is refused (StatusCode::invalid_shape) when it has no ring, a ring has fewer than three
-/// different vertices or lies on one line, a coordinate is not finite or its magnitude exceeds
-/// `largest_coordinate`, all rings together are smaller than `smallest_extent`, or have more than
-/// `most_vertices` vertices.
+/// Maximum magnitude of a coordinate of a shape, pose, rectangle or point, and of a tolerance or
+/// distance.
 inline constexpr double largest_coordinate = 1e12;
-/// The least that the longer side of a shape's bounding box may be. Nothing underflows then: what
-/// is given in single precision (values of fields, what stays on the device) is a normal number
-/// down to a millionth of the smallest tolerance that double precision resolves in such a shape,
-/// and so are products of lengths in double precision.
+/// Minimum length of the longer side of a shape's bounding box. It rules out underflow: results in
+/// single precision (values of fields, resident outputs) are normal numbers down to a millionth of
+/// the smallest tolerance that double precision resolves in such a shape, and so are products of
+/// lengths in double precision.
 inline constexpr double smallest_extent = 1e-20;
-/// The most vertices that all rings of a shape together may have.
-inline constexpr std::uint32_t most_vertices = 1U << 28U;
+/// Maximum number of vertices of all rings of a shape together.
+inline constexpr std::uint32_t max_vertices = 1U << 28U;
 
 /// Names a shape of one context. The default value names none.
 struct ShapeHandle {
-    std::uint32_t index = UINT32_MAX;  ///< the context's own; UINT32_MAX: no shape
-    std::uint32_t generation = 0;      ///< tells apart the shapes that had this index in turn
+    std::uint32_t index = UINT32_MAX;  ///< assigned by the context; UINT32_MAX: no shape
+    std::uint32_t generation = 0;      ///< distinguishes successive shapes with the same index
 
-    /// Both name the same shape, in one context.
+    /// True if both name the same shape of one context.
     friend bool operator==(const ShapeHandle&, const ShapeHandle&) = default;
 };
 
@@ -55,18 +54,18 @@ struct Pose {
     double angle = 0.0;        ///< radians, counter-clockwise
 };
 
-/// A shape at a place.
+/// A shape with a pose.
 struct Instance {
-    ShapeHandle shape = {};  ///< of the context that answers
-    Pose pose = {};          ///< from the shape's coordinates to the world
+    ShapeHandle shape = {};  ///< of the context that answers the query
+    Pose pose = {};          ///< from shape coordinates to world coordinates
 };
 
-/// Two of a list of instances, by their positions in it.
+/// Two instances of a list, by position.
 struct InstancePair {
     std::uint32_t first = 0;   ///< position in the list
-    std::uint32_t second = 0;  ///< > first
+    std::uint32_t second = 0;  ///< position in the list, > first
 
-    /// The same two, in the same order.
+    /// True if both positions are equal.
     friend bool operator==(const InstancePair&, const InstancePair&) = default;
 };
 

@@ -9,62 +9,62 @@
 #include <vector>
 
 /// \file
-/// Errors as values. No exception crosses the interface of nearfield: whatever can fail returns a
-/// Status, or an Expected that holds either a value or the Status that says why there is none.
+/// Errors as values. No exception crosses the public API: a call that can fail returns a Status, or
+/// an Expected that holds either a value or the Status of the failure.
 
 namespace nearfield {
 
-/// What kind of thing went wrong.
+/// Kinds of errors.
 enum class StatusCode {
-    ok,                ///< nothing
-    invalid_shape,     ///< the rings of a shape cannot be used (not finite, too few vertices, ...)
-    invalid_query,     ///< a query's own numbers cannot be used (tolerance, pose, rectangle, ...)
-    unknown_shape,     ///< a handle that was never given out, or whose shape was removed
-    invalid_settings,  ///< a setting of a context cannot be used (frames in flight, ...)
-    invalid_submission,  ///< what came with a batch cannot be used (semaphore, frame, ...)
-    unknown_ticket,      ///< a ticket that was never given out, or was collected already
-    ring_full,           ///< as many batches are in flight as may be; one has to be collected first
-    not_ready,       ///< the frame of a recorded batch is not complete, or batches are in flight
-    not_executed,    ///< the commands recorded for a batch were never executed
-    not_recordable,  ///< a query takes more than one submission, and so cannot be recorded
-    too_large,       ///< the answer would need more memory than the stated limit
-    no_device,       ///< no Vulkan driver, or no device in it, that could be used
-    unsupported_device,  ///< the device lacks something the base needs; the reasons name all of it
-    unsupported_strategy,   ///< the device lacks what a query's strategy needs; the reasons name it
-    unsupported_technique,  ///< the context has no device, or was made without a query's technique
+    ok,                  ///< no error
+    invalid_shape,       ///< invalid rings or paths (not finite, too few vertices, ...)
+    invalid_query,       ///< invalid values in a query (tolerance, pose, rectangle, ...)
+    unknown_shape,       ///< a handle that was never issued, or whose shape was removed
+    invalid_settings,    ///< invalid settings of a context, or an invalid structure of a host
+    invalid_submission,  ///< an invalid semaphore, command buffer or frame of a batch
+    unknown_ticket,      ///< a ticket that was never issued, or was already collected
+    ring_full,           ///< the limit of batches in flight is reached; collect one first
+    not_ready,           ///< a recorded batch's frame is not complete, or batches are in flight
+    not_executed,        ///< the commands recorded for a batch were never executed
+    not_recordable,      ///< a query takes more than one submission and cannot be recorded
+    too_large,           ///< more memory, or a larger output, than a stated limit allows
+    no_device,           ///< no Vulkan loader, driver or device, or a context without one
+    unsupported_device,  ///< the device does not meet the base; the reasons list everything missing
+    unsupported_strategy,   ///< the device lacks what a query's strategy needs; see the reasons
+    unsupported_technique,  ///< the context does not have the technique that a query needs
     out_of_memory,          ///< host or device memory ran out
     device_lost,            ///< the device was lost; the context can only be destroyed
-    device_error,           ///< any other Vulkan call failed; the message names the call and result
-    unavailable,     ///< this build of the library does not have it; the message says what would
-    invalid_shader,  ///< the source of a shader cannot be compiled; the reasons are the compiler's
+    device_error,    ///< another Vulkan call failed; the message names the call and its result
+    unavailable,     ///< not in this build; the message says what provides it
+    invalid_shader,  ///< a shader does not compile; the reasons are the compiler's messages
 };
 
-/// The name of a code as it stands in the enumeration ("invalid_shape").
+/// The name of a code as in the enumeration, e.g. "invalid_shape".
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(StatusCode code) noexcept;
 
-/// Success, or an error with one message for people and every single reason behind it.
+/// Success, or an error with a message and the list of its causes.
 class [[nodiscard]] NEARFIELD_EXPORT Status {
 public:
     /// Success.
     Status() = default;
 
-    /// An error without words, for where there is no memory for any.
+    /// An error without a message, for when there is no memory for one.
     explicit Status(StatusCode code) noexcept : code_(code) {}
 
-    /// An error. `message` says what failed, where and why; `reasons` lists each cause where
-    /// there can be several (all the features a device lacks, say).
+    /// An error. `message` states what failed, where and why; `reasons` lists each cause if there
+    /// can be several (for example all features that a device lacks).
     Status(StatusCode code, std::string message, std::vector<std::string> reasons = {});
 
-    /// True of success.
+    /// True on success.
     [[nodiscard]] bool ok() const noexcept { return code_ == StatusCode::ok; }
-    /// StatusCode::ok of success.
+    /// The kind of error; StatusCode::ok on success.
     [[nodiscard]] StatusCode code() const noexcept { return code_; }
-    /// What failed, where and why; empty of success. Borrowed, as the reasons are, from the status.
+    /// What failed, where and why; empty on success. Borrowed from the status.
     [[nodiscard]] const std::string& message() const noexcept;
-    /// Every single cause, where there can be several.
+    /// The causes, if there can be several; otherwise empty. Borrowed from the status.
     [[nodiscard]] const std::vector<std::string>& reasons() const noexcept;
 
-    /// Code, message and reasons in one text, a reason a line.
+    /// Code, message and reasons as one text, one reason per line.
     [[nodiscard]] std::string text() const;
 
 private:
@@ -72,33 +72,33 @@ private:
     [[nodiscard]] const Words& words() const noexcept;
 
     StatusCode code_ = StatusCode::ok;
-    // Kept elsewhere: success, which is checked for every query, is to cost nothing.
+    // Allocated separately: success, which is checked for every query, costs nothing.
     std::shared_ptr<const Words> words_;
 };
 
-/// A value, or the error that stands in its place.
+/// A value, or the error that prevented it.
 ///
 /// Precondition of value(), `*` and `->`: ok() is true.
 template <class Value>
 class [[nodiscard]] Expected {
 public:
-    /// A value; not explicit, so that a function can return it as it is.
+    /// A value. Not explicit, so that a function can return it directly.
     Expected(Value value) : value_(std::move(value)) {}
-    /// An error. Precondition: it is not success.
+    /// An error. Precondition: `error` is not success.
     Expected(Status error) : status_(std::move(error)) {}
 
-    /// True where there is a value.
+    /// True if there is a value.
     [[nodiscard]] bool ok() const noexcept { return value_.has_value(); }
-    /// Why there is no value; success where there is one.
+    /// The error; success if there is a value.
     [[nodiscard]] const Status& status() const noexcept { return status_; }
 
-    /// The value, which stays where it is; moved from where the Expected is a temporary.
+    /// The value, by reference; an rvalue if the Expected is a temporary.
     [[nodiscard]] Value& value() & noexcept { return *value_; }
     /// Likewise.
     [[nodiscard]] const Value& value() const& noexcept { return *value_; }
     /// Likewise.
     [[nodiscard]] Value&& value() && noexcept { return std::move(*value_); }
-    /// The value, as value() gives it.
+    /// As value().
     [[nodiscard]] Value& operator*() & noexcept { return *value_; }
     /// Likewise.
     [[nodiscard]] const Value& operator*() const& noexcept { return *value_; }

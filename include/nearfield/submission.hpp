@@ -6,43 +6,44 @@
 #include <span>
 
 /// \file
-/// What a host hands over with each batch: semaphores around a submission, or the command buffer
-/// to record into. For `structure_size` see host.hpp.
+/// What a host gives with each batch: semaphores for a submission, or the command buffer to record
+/// into. For `structure_size` see host.hpp.
 
 namespace nearfield {
 
 /// A semaphore that the device waits for before it works on a batch.
 struct SemaphoreWait {
     VkSemaphore semaphore = VK_NULL_HANDLE;  ///< binary or timeline; borrowed
-    /// Stages that wait. The batch works in compute shaders, transfer, and all stages of drawing.
+    /// The stages that wait, not 0. A batch uses compute shaders, transfers and all graphics
+    /// stages.
     VkPipelineStageFlags stages = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-    /// Of a timeline semaphore (HostDevice::timeline_semaphore): waits until it is at least this.
-    /// 0 for a binary one.
+    /// For a timeline semaphore (HostDevice::timeline_semaphore): waits until its value is at least
+    /// this. 0 for a binary one.
     std::uint64_t value = 0;
 };
 
-/// A semaphore that the device signals when all of a batch is done.
+/// A semaphore that the device signals when it has finished a batch.
 struct SemaphoreSignal {
     VkSemaphore semaphore = VK_NULL_HANDLE;  ///< binary or timeline; borrowed
-    /// Of a timeline semaphore: what it becomes, more than it is. 0 for a binary one.
+    /// For a timeline semaphore: its new value, greater than the current one. 0 for a binary one.
     std::uint64_t value = 0;
 };
 
-/// What goes with the submission of a batch. Everything is borrowed until Context::submit()
-/// returns; the semaphores themselves must live until the batch is done.
+/// Semaphores for the submission of a batch. The lists are borrowed until Context::submit()
+/// returns; the semaphores must live until the batch is complete.
 struct Submission {
-    std::uint32_t structure_size = sizeof(Submission);  ///< leave it as it is
-    std::span<const SemaphoreWait> waits = {};          ///< before the work begins
-    std::span<const SemaphoreSignal> signals = {};      ///< when all of it is done
+    std::uint32_t structure_size = sizeof(Submission);  ///< leave unchanged
+    std::span<const SemaphoreWait> waits = {};          ///< before the device starts the batch
+    std::span<const SemaphoreSignal> signals = {};      ///< after the device has finished the batch
 };
 
-/// Where Context::record() puts the commands of a batch.
+/// The command buffer that Context::record() records a batch into.
 struct Recording {
-    std::uint32_t structure_size = sizeof(Recording);  ///< leave it as it is
+    std::uint32_t structure_size = sizeof(Recording);  ///< leave unchanged
     /// A primary command buffer of HostDevice::queue_family in the recording state, outside a
-    /// render pass, without an active query of occlusion and without conditional rendering.
+    /// render pass, without an active occlusion query and without conditional rendering.
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    /// The host's number of the frame that the command buffer belongs to. Frames are numbered in
+    /// The host's number for the frame that the command buffer belongs to. Frames are numbered in
     /// the order of their submission.
     std::uint64_t frame = 0;
 };

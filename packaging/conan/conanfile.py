@@ -54,7 +54,7 @@ class NearfieldConan(ConanFile):
         cmake_layout(self)
 
     def generate(self):
-        # Highway's own CMake package, which nearfield looks for, goes by another name.
+        # Highway's own CMake package, which nearfield searches for, has another name.
         dependencies = CMakeDeps(self)
         dependencies.set_property("highway", "cmake_file_name", "hwy")
         dependencies.set_property("highway", "cmake_target_name", "hwy::hwy")
@@ -75,7 +75,7 @@ class NearfieldConan(ConanFile):
     def package(self):
         CMake(self).install()
         copy(self, "LICENSE", src=self.source_folder, dst=os.path.join(self.package_folder, "licenses"))
-        # A package has one kind of library; the install has both.
+        # A package contains one kind of library, but the install step installs both.
         library, files = (("libnearfield.a", "nearfield-static*") if self.options.shared
                           else ("libnearfield.so*", "nearfield-shared*"))
         rm(self, library, os.path.join(self.package_folder, "lib"))

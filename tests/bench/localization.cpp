@@ -1,6 +1,6 @@
-// The effect of the hierarchies' height and of their boxes on a whole penetration query, as a table
-// in Markdown: two outlines whose boxes overlap by a part of their width, standing still or
-// deformed by a wave of their vertices in every frame.
+// Measures the effect of the hierarchies' height and bounding volumes on a whole penetration query
+// and prints a table in Markdown: two outlines whose boxes overlap by part of their width, at rest
+// or deformed by a wave of their vertices in every frame.
 
 #include <nearfield/nearfield.hpp>
 
@@ -68,7 +68,7 @@ struct Scene {
     std::string name;
     std::vector<Ring> a;
     std::vector<Ring> b;
-    double overlap = 0.0;  // of the boxes' widths
+    double overlap = 0.0;  // fraction of the boxes' widths
     bool deforming = false;
 };
 
@@ -78,8 +78,7 @@ struct Times {
     nearfield::LocalizationStatistics statistics;
 };
 
-/// The time that a quarter of the frames stay below: on a machine shared with others the faster
-/// frames are those that tell.
+/// The lower quartile: on a shared machine the faster frames are the meaningful ones.
 double lower_quartile(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + frames / 4, values.end());
     return values[frames / 4];
@@ -152,7 +151,7 @@ void run() {
             create_context(BoundingVolume::axis_aligned, height),
             create_context(BoundingVolume::oriented, height)};
         for (const Scene& scene : scenes) {
-            // One after the other, so that both meet the same load of the machine.
+            // Alternating, so that both are measured under the same load.
             for (const BoundingVolume volume :
                  {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
                 const bool oriented = volume == BoundingVolume::oriented;

@@ -1,9 +1,9 @@
-// What planning a batch and building its rounds take on the processor, without a device, as a table
-// in Markdown: many pairs, a tolerance that gives thousands of tiles, a large field, a large shape
-// in many queries.
+// Measures the CPU time for planning a batch and building its tile batches, without a device, and
+// prints a table in Markdown: many pairs, a tolerance that gives thousands of tiles, a large field,
+// a large shape in many queries.
 
 #include <engine/plan/planner.hpp>
-#include <engine/plan/round.hpp>
+#include <engine/plan/tile_batch.hpp>
 
 #include <tests/support/outlines.hpp>
 
@@ -23,7 +23,7 @@ namespace {
 using namespace nearfield;
 using test::Random;
 
-/// Of this thread, since other load must not count.
+/// The time of this thread only, because other load must not count.
 double processor_milliseconds() {
     timespec now{};
     if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
@@ -113,9 +113,9 @@ void measure(const Scene& scene, int frames) {
     plan::PlanLimits limits;
     limits.memory = std::uint64_t{8} << 30U;
     plan::Planner planner(limits);
-    plan::RoundBuilder builder(limits.subpixel);
+    plan::TileBatchBuilder builder(limits.subpixel);
     plan::Plan plan;
-    plan::Round round;
+    plan::TileBatch round;
     std::vector<plan::QueryShapes> shapes;
     std::vector<AnyResult> results;
     double planned = HUGE_VAL;
@@ -133,7 +133,7 @@ void measure(const Scene& scene, int frames) {
         const double middle = processor_milliseconds();
         builder.begin_batch();
         vertices = 0;
-        for (std::uint32_t number = 0; number < plan.rounds; ++number) {
+        for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
             builder.build(plan, number, round);
             vertices += round.mesh.size();
         }
@@ -141,7 +141,7 @@ void measure(const Scene& scene, int frames) {
         built = std::min(built, processor_milliseconds() - middle);
     }
     std::printf("| %s | %zu | %u | %zu | %.1f | %.1f |\n", scene.name.c_str(), plan.tiles.size(),
-                plan.rounds, vertices, planned, built);
+                plan.tile_batches, vertices, planned, built);
     std::fflush(stdout);
 }
 

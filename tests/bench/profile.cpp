@@ -1,5 +1,5 @@
-// Where a frame goes, as tables in Markdown: times by stage and by pass, and what was asked of the
-// device, counted on the way to it; beside it what an empty submission takes.
+// Shows where the time of a frame goes, as tables in Markdown: times by stage and by pass, and the
+// counted calls to the device; for comparison the time of an empty submission.
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
@@ -31,16 +31,16 @@ using nearfield::Technique;
 constexpr int warm_up = 3;
 constexpr int frames = 15;
 
-// What a frame asked of the device. Entry points carry no user data, so this is global.
+// The calls to the device in a frame. Entry points carry no user data, so this is global.
 struct Counts {
     std::uint64_t submissions = 0, render_passes = 0, draws = 0, triangles = 0, dispatches = 0;
     std::uint64_t groups = 0, state_changes = 0, barriers = 0;
-    /// By buffer and where it is bound: a part that several passes share counts once.
+    /// By buffer and bound range: a range shared by several passes counts once.
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> bytes_by_part;
 };
 Counts counts;
 
-/// The driver's own entry point of this name.
+/// The driver's own entry point with this name.
 template <class Function>
 Function below(const char* name) {
     return reinterpret_cast<Function>(nearfield::test_support::true_device_function(name));
@@ -162,7 +162,7 @@ double median(std::vector<double> values) {
     return values[frames / 2];
 }
 
-/// A scene is a batch to be answered by one technique or another.
+/// A batch and the technique that answers it.
 struct Scene {
     std::string name;
     Batch (*batch)(Context& context, Technique technique);

@@ -1,7 +1,7 @@
-// How the time of a frame grows with the number of edges, by the technique cpu, as a table in
-// Markdown: shapes that are easy and such as make many a data structure look at everything. Both
-// shapes are handed over anew each frame. The last column: the exponent from the second size to the
-// third; 1 is time that grows like the edges.
+// Measures how the time of a frame grows with the number of edges for the technique cpu, as a table
+// in Markdown: simple shapes, and shapes for which many data structures degenerate to brute force.
+// Both shapes are submitted anew each frame. The last column is the exponent from the second size
+// to the third; 1 means linear growth.
 
 #include <nearfield/nearfield.hpp>
 
@@ -43,7 +43,8 @@ void require(const Status& status) {
     }
 }
 
-/// Teeth 5 long, the thinner the more; every edge `step` after the one before.
+/// Teeth of length 5, which become thinner as their number grows; consecutive edges are `step`
+/// apart.
 Rings comb(int edges) {
     const int teeth = edges / 4;
     const double step = 20.0 / teeth;
@@ -71,7 +72,7 @@ Ring square(double x, double y, double side) {
     return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
-/// Squares anywhere, which cover a quarter of the place.
+/// Squares at random positions, which cover a quarter of the area.
 Rings islands(int edges) {
     Random random(3);
     const double side = 10.0 / std::sqrt(edges / 4);
@@ -116,7 +117,7 @@ Rings coast(int edges) {
 struct Family {
     const char* name;
     Rings (*make)(int edges);
-    Pose pose;  // of the second one: so that the two overlap
+    Pose pose;  // of the second shape, so that the two overlap
 };
 
 struct Question {
@@ -159,7 +160,7 @@ std::vector<Question> questions() {
              }}};
 }
 
-/// The least of a few frames.
+/// The minimum over a few frames.
 double measure(Context& context, const Rings& rings, const Pose& pose, const Question& question) {
     using Clock = std::chrono::steady_clock;
     const ShapeHandle a = take(context.add_shape(rings));

@@ -1,5 +1,6 @@
-// What separation vectors take and how close their bounds are, as a table in Markdown: random pairs
-// that intersect, of several families, and the outlines of a folder, each against the next.
+// Measures the times of separation vectors and the tightness of their bounds, as a table in
+// Markdown: random intersecting pairs of several families, and the outlines of a folder, each
+// against the next.
 
 #include <nearfield/nearfield.hpp>
 
@@ -34,14 +35,14 @@ Value take(Expected<Value> value) {
 
 struct Measured {
     double milliseconds = 0.0;
-    double ratio = 1.0;  // lower bound to length
+    double ratio = 1.0;  // lower bound divided by length
 };
 
 double processor_milliseconds() {
     return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The least of a few; times of a shape that does not intersect are left out.
+/// The minimum of a few runs; shapes that do not intersect are skipped.
 void measure(Context& context, const Rings& a, const Rings& b, const Pose& pose, double tolerance,
              std::vector<Measured>& all) {
     const ShapeHandle shape_a = take(context.add_shape(a));
@@ -125,7 +126,7 @@ void measure_families(Context& context) {
     }
 }
 
-/// Moved so that the middles of the boxes meet.
+/// Moved so that the centres of the boxes coincide.
 void measure_outlines(Context& context, const std::string& folder) {
     const std::vector<test::NamedRings> outlines = test::read_outlines(folder);
     const auto box_of = [](const Rings& rings) {

@@ -6,7 +6,7 @@
 namespace nearfield::test {
 namespace {
 
-/// A scene whose first shape is a file beside it.
+/// A scene whose first shape is in a separate file.
 constexpr auto good_scene = R"({
 "shapes": {"disk": {"file": "a square.geojson"},
            "house": {"rings": [[[0, 0], [1, 0], [1, 1], [0.5, 1.5], [0, 1]]]}},
@@ -23,7 +23,7 @@ constexpr auto good_scene = R"({
 
 class Bench : public CliTest {
 protected:
-    /// The good scene with one piece of its text replaced.
+    /// The good scene with part of its text replaced.
     std::string scene_with(const std::string& piece, const std::string& other) const {
         std::string text = good_scene;
         const std::size_t place = text.find(piece);
@@ -109,7 +109,7 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
                      {"query 3", "the smallest tolerance that fits"});
 }
 
-/// One row, small: two bars of 100 vertices.
+/// A small row: two bars of 100 vertices.
 constexpr auto small_row = "wavy x1, vertices";
 
 TEST_F(Bench, WithoutASceneItMeasuresRowsOfTheStandardTableByEachTechnique) {

@@ -28,7 +28,7 @@ TEST_F(Calibrate, WritesCostsThatOtherCommandsGoBy) {
     const Arguments query = squares("penetration", "automatic") +
                             Arguments{"-d", "0.1", "--pose-b", "0.6,0,5", "--costs"};
     EXPECT_TRUE(answer(query + Arguments{file}).is_object());
-    // Whatever was measured: where one technique is free and the others are not, that one answers.
+    // Whatever the measurements: a technique that is free while the others are not is selected.
     for (auto& [favourite, cost] : costs.at("microseconds").items()) {
         Json changed = costs;
         for (auto& [technique, other] : changed.at("microseconds").items()) {

@@ -16,22 +16,23 @@ using Arguments = std::vector<std::string>;
 
 [[nodiscard]] Arguments operator+(Arguments first, const Arguments& second);
 
-/// A folder with the unit square in both formats. Its vertices, and so its edges, count from the
-/// origin counter-clockwise: edge 0 is the lowest, 1 the right one, 2 the highest, 3 the left one.
+/// A folder with the unit square in both formats. Its vertices and edges are numbered
+/// counter-clockwise from the origin: edge 0 is the lowest, 1 the right one, 2 the highest, 3 the
+/// left one.
 class CliTest : public testing::Test {
 protected:
     CliTest();
 
-    /// "query TYPE A B --technique TECHNIQUE", the unit square twice.
+    /// "query TYPE A B --technique TECHNIQUE" with the unit square twice.
     [[nodiscard]] Arguments squares(const std::string& type,
                                     const std::string& technique = "raster") const;
 
-    /// The JSON of a query. Anything but exit status 0 and one JSON value, alone on the standard
-    /// output, fails the test and gives null.
+    /// The JSON of a query. Unless the exit status is 0 and the standard output is a single JSON
+    /// value, the test fails and the result is null.
     [[nodiscard]] static Json answer(const Arguments& query);
 
-    /// Expects exit status 2, nothing on the standard output, a message that holds all of `parts`,
-    /// and every file as it was.
+    /// Expects exit status 2, an empty standard output, a message that contains all of `parts`, and
+    /// unchanged files.
     void expect_refused(const Arguments& arguments, const std::vector<std::string>& parts) const;
 
     test_support::Folder folder_;

@@ -30,7 +30,7 @@ void expect_times(const Json& times) {
     }
 }
 
-/// The side of a region's cells, along x and y the same.
+/// The side of a region's cells, which must be equal in x and y.
 double side_of_cells(const Json& region) {
     const Point min = to_point(region.at("min"));
     const Point max = to_point(region.at("max"));

@@ -8,7 +8,7 @@
 namespace nearfield::test {
 namespace {
 
-/// The header of an array in NumPy's format, as text.
+/// The header of an array in NumPy's format as text.
 std::string npy_header(const std::string& bytes) {
     return bytes.substr(10, bytes.find('\n') - 10);
 }
@@ -76,7 +76,8 @@ TEST_F(FieldOptions, GradientsOfAllMethodsPointTheSameWay) {
             std::memcpy(&number, &word, sizeof number);
             return static_cast<double>(number);
         };
-        // The middle of the right edge of the grid looks away from the right edge of the square.
+        // At the middle of the grid's right edge, the gradient points away from the square's right
+        // edge.
         EXPECT_NEAR(gradient(width - 1, height / 2, 0), 1.0, 1e-5);
         EXPECT_NEAR(gradient(width - 1, height / 2, 1), 0.0, 1e-5);
         EXPECT_NEAR(gradient(0, height / 2, 0), -1.0, 1e-5);

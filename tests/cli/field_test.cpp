@@ -16,7 +16,7 @@ using SignedDistance = std::function<double(Point)>;
 
 class Field : public CliTest {
 protected:
-    /// Asks for a field at tolerance 0.05 and compares all its cells with the truth.
+    /// Requests a field at tolerance 0.05 and compares all its cells with the true distances.
     Json ask(const Arguments& query, const SignedDistance& truth) {
         const Json json =
             answer(query + Arguments{"-d", "0.05", "--field", folder_.path("field of b.npy")});
@@ -65,7 +65,7 @@ private:
     FloatArray array_;
 };
 
-/// The fewest cells that cover a length.
+/// Expects the minimum number of cells that cover a length.
 void expect_covers(const Json& count, double length, double cell) {
     EXPECT_GE(count.get<double>() * cell, length - 1e-9);
     EXPECT_LT((count.get<double>() - 1.0) * cell, length + 1e-9);
@@ -84,7 +84,7 @@ TEST_F(Field, CoversTheCommonBoxGrownByTheTolerance) {
     expect_covers(json.at("height"), 0.7 + 2.0 * d, cell);
 }
 
-/// The boxes of A and B may be apart: the rectangle alone says what is covered.
+/// The boxes of A and B may be disjoint: only the rectangle determines the covered area.
 TEST_F(Field, CoversTheRectangleAsked) {
     const Rectangle b = unit_square_at({-5.0, 2.0});
     const Json json = ask(squares("distance-field") +
@@ -116,7 +116,7 @@ TEST_F(Field, IsPositiveInHolesAndNegativeInParts) {
     EXPECT_EQ(json.at("intersects"), true);
 }
 
-/// Wider than an image of any device: the grid is worked off in slabs, and no seam shows.
+/// Wider than any device's images: the field is computed in slabs without a visible seam.
 TEST_F(Field, IsWorkedOffInSlabs) {
     const Rectangle b = unit_square_at({2799.0, 0.0});
     const Json json = ask(

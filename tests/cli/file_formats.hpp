@@ -14,16 +14,16 @@ struct FloatArray {
     std::vector<float> values;
 };
 
-/// Reads NPY format 1.0 strictly; throws where the bytes are anything but a FloatArray.
+/// Parses NPY format 1.0 strictly; throws unless the bytes are a FloatArray.
 [[nodiscard]] FloatArray parse_npy(const std::string& bytes);
 
-/// What the header of a PNG says.
+/// The size in the header of a PNG file.
 struct PngSize {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
 };
 
-/// Throws where signature, header or end of a PNG are not in place.
+/// Throws if the signature, header or end of a PNG file is missing.
 [[nodiscard]] PngSize parse_png(const std::string& bytes);
 
 }  // namespace nearfield::test

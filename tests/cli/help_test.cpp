@@ -15,7 +15,7 @@ Names both(Names names, const Names& more) {
     return names;
 }
 
-/// The options of each kind, without those of every kind.
+/// The options of each kind, without the options common to all kinds.
 const std::map<std::string, Names>& own_options() {
     static const Names sampled{"--boxes", "--height", "--costs", "--tiles"};
     static const std::map<std::string, Names> options{
@@ -45,7 +45,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return lines;
 }
 
-/// A text with every stretch of white space as one blank, so that phrases are found across lines.
+/// The text with white space collapsed, so that phrases are found across lines.
 std::string unwrapped(const std::string& text) {
     std::istringstream stream(text);
     std::string line;
@@ -55,7 +55,7 @@ std::string unwrapped(const std::string& text) {
     return line;
 }
 
-/// The options that a help text lists: the first words of lines that begin with a dash.
+/// The options in a help text: the first words of lines that begin with a dash.
 Names listed_options(const std::string& help) {
     Names names;
     for (const std::string& line : lines_of(help)) {
@@ -95,7 +95,8 @@ protected:
         }
     }
 
-    /// The words of the example in a help text, with files that exist and files of this test.
+    /// The words of the example in a help text, with existing files and files of this test
+    /// substituted.
     [[nodiscard]] Arguments example(const std::string& text) const {
         const std::string lead = "Example:\n  nearfield ";
         const std::size_t start = text.find(lead);
@@ -152,7 +153,7 @@ TEST_F(Help, OfAKindListsItsOptionsAndNoOthers) {
         EXPECT_TRUE(text.find("\nInput:\n") < text.find("\nTechnique:\n") &&
                     text.find("\nTechnique:\n") < text.find("\nOutput:\n"))
             << text;
-        // What it answers is what the list of kinds says.
+        // The description in the list of kinds is repeated here.
         EXPECT_NE(help({"query"}).find(lines_of(text).front()), std::string::npos) << text;
     }
 }

@@ -16,13 +16,13 @@ bool any_within(const std::vector<Point>& points, Point p, double reach) {
                        [&](Point q) { return distance(p, q) <= reach + rounding; });
 }
 
-/// Unit squares, B moved by (0.6, 0.3): they have a rectangle of 0.4 by 0.7 in common, and their
+/// Unit squares, B moved by (0.6, 0.3): their intersection is a rectangle of 0.4 by 0.7, and their
 /// boundaries cross at (1, 0.3) and (0.6, 1).
 class Intersection : public CliTest {
 protected:
     static constexpr double d = 0.02;
 
-    /// The samples, and what holds for all kinds.
+    /// Returns the samples after checking the properties of all kinds.
     std::vector<Point> ask(const std::string& kind) {
         json_ = answer(squares("intersection") +
                        Arguments{"-d", "0.02", "--pose-b", "0.6,0.3,0", "--kind", kind});

@@ -13,7 +13,7 @@ protected:
 };
 
 TEST_F(TimeOfImpactCommand, SaysWhenTheShapesFirstTouch) {
-    // The unit square's right side, at x = -2 at first, is at x = 0 after 2 of 4 units.
+    // The unit square's right side, initially at x = -2, is at x = 0 after 2 of 4 units.
     const Json json = answer(moving("1,0.5,0"));
     ASSERT_TRUE(json.is_object());
     EXPECT_EQ(json.at("query"), "time-of-impact");
@@ -78,7 +78,7 @@ TEST_F(TimeOfImpactCommand, MovesTheInstancesOfAScene) {
 }
 
 TEST_F(TimeOfImpactCommand, AsksAllPairsOfASceneThatMayMeetOnTheWay) {
-    // A goes past B to the right; C goes up, D turns beside it; E is far from all ways.
+    // A moves past B to the right; C moves up, D turns beside it; E is far from all paths.
     const std::string scene = folder_.write("scene.json", R"({
         "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1], [0, 1]]]},
                    "bar": {"rings": [[[0, 0], [3, 0], [3, 0.5], [0, 0.5]]]}},
@@ -101,7 +101,7 @@ TEST_F(TimeOfImpactCommand, AsksAllPairsOfASceneThatMayMeetOnTheWay) {
     EXPECT_NEAR(results.at(0).at("time").get<double>(), 0.25, 1e-6);
     ASSERT_TRUE(is_of(1, "C", "D"));
     EXPECT_EQ(results.at(1).at("state"), "hit");
-    // From here on it is the second query: B and E are 7.5 apart.
+    // The second query starts here: B and E are 7.5 apart.
     ASSERT_TRUE(is_of(2, "A", "B"));
     EXPECT_NEAR(results.at(2).at("distance").get<double>(), 2.0, 1e-9);
     bool far = false;

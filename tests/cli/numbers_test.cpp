@@ -5,18 +5,18 @@
 namespace nearfield::test {
 namespace {
 
-/// An option whose value is a whole number: the command line before it, and its range.
+/// An integer option: the command line before it, and its range.
 struct CountOption {
     Arguments line;
     std::string option;
     std::string min;
     std::string max;
-    std::string too_many;  ///< one more than the most
+    std::string too_many;  ///< one more than the maximum
 };
 
 class Numbers : public CliTest {
 protected:
-    /// Every option of every command that counts something.
+    /// Every count option of every command.
     [[nodiscard]] std::vector<CountOption> count_options() const {
         const std::string scene = folder_.write("scene.json", R"({
             "shapes": {"square": {"rings": [[[0, 0], [1, 0], [1, 1]]]}},
@@ -75,7 +75,7 @@ TEST_F(Numbers, CountsOutOfRangeAreRefusedWithTheRange) {
 TEST_F(Numbers, CountsAreDecimal) {
     const Arguments query = squares("separation-vector", "cpu") +
                             Arguments{"-d", "0.01", "--pose-b", "0.75,0.1,0", "--most-work"};
-    // The work that is done shows which number was read.
+    // The work that was done shows which number was parsed.
     const Json hundred = answer(query + Arguments{"100"});
     ASSERT_TRUE(hundred.is_object());
     for (const char* text : {"0100", "1e2", "100.0"}) {

@@ -17,7 +17,7 @@ std::vector<std::string> names(const std::map<std::string, std::string>& content
 
 class Output : public CliTest {
 protected:
-    /// A query that takes every kind of output.
+    /// A query with every kind of output.
     [[nodiscard]] Arguments field_query() const {
         return squares("distance-field") + Arguments{"-d", "0.1", "--pose-b", "0.6,0.3,0"};
     }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-/// A number as the command line takes it, without loss.
+/// Formats a number for the command line without loss.
 std::string text(double number) {
     std::ostringstream stream;
     stream.precision(17);
@@ -26,7 +26,7 @@ std::string pose(Point translation, double degrees = 0.0) {
     return text(translation.x) + "," + text(translation.y) + "," + text(degrees);
 }
 
-/// How deep the boundary of one unit square gets inside another one that is moved by (u, v).
+/// The maximum depth of one unit square's boundary inside another one moved by (u, v).
 double deepest_of_squares(double u, double v) {
     u = std::abs(u);
     v = std::abs(v);
@@ -36,7 +36,7 @@ double deepest_of_squares(double u, double v) {
     return std::max(edge(u, v), edge(v, u));
 }
 
-/// One record against everything that is known of squares; returns its point.
+/// Checks one record against the closed form for squares; returns its point.
 Point expect_exact_record(const Json& record, const Rectangle& a, const Rectangle& b,
                           double tolerance) {
     const Point point = to_point(record.at("point"));
@@ -77,7 +77,7 @@ void expect_no_wide_gap(const std::vector<Point>& points, const Rectangle& a, co
             for (const Point& point : points) {
                 gap = std::min(gap, distance(p, point));
             }
-            // Away from where A enters B there is a sample on either side.
+            // Away from A's entry into B there is a sample on either side.
             const double widest = depth > 2.0 * tolerance ? tolerance : 2.0 * tolerance;
             EXPECT_LE(gap, widest + rounding) << "near " << p.x << ", " << p.y;
         }
@@ -195,7 +195,7 @@ TEST_F(Penetration, AllVerticesOfAContainedShapePenetrate) {
     }
 }
 
-/// Turned by 90 degrees counter-clockwise about its origin the square lies left of it.
+/// Rotated by 90 degrees counter-clockwise about its origin, the square is to the left of it.
 TEST_F(Penetration, PosesTurnCounterClockwiseInDegreesBeforeTheyMove) {
     const Json json =
         answer(squares("penetration") +
@@ -219,7 +219,7 @@ TEST_F(Penetration, MovingBothShapesTogetherMovesTheAnswer) {
                Arguments{"-d", "0.05", "--pose-a", "1e6,-1e6,30", "--pose-b", pose(b, 30)});
     ASSERT_TRUE(still.is_object() && moved.is_object());
     ASSERT_EQ(still.at("count"), moved.at("count"));
-    const double far_rounding = 1e-8;  // coordinates of 1e6 are themselves only known to 1e-10
+    const double far_rounding = 1e-8;  // coordinates of 1e6 have a precision of only 1e-10
     for (std::size_t index = 0; index < still.at("records").size(); ++index) {
         const Json& before = still.at("records").at(index);
         const Json& after = moved.at("records").at(index);

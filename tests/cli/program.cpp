@@ -35,7 +35,7 @@ std::string read_back(std::FILE* file) {
     return text;
 }
 
-/// In the child: becomes the program. The alarm outlives the change of program.
+/// In the child: executes the program. The alarm survives exec.
 [[noreturn]] void become_program(std::vector<char*>& words, const Surroundings& surroundings,
                                  int out, int err) {
     constexpr int failed = 127;

@@ -77,7 +77,7 @@ TEST_F(Device, WithTheTechniqueCpuNoDriverIsAsked) {
 }
 
 TEST_F(Device, WithTheTechniqueCpuNoVulkanLoaderIsOpened) {
-    const Surroundings telling{{{"LD_DEBUG", "files"}}, {}};  // of the dynamic linker
+    const Surroundings telling{{{"LD_DEBUG", "files"}}, {}};  // for the dynamic linker
     const auto loads_vulkan = [&](const char* technique) {
         const Outcome outcome = run_program(
             {"query", "penetration", a_, b_, "-d", "0.1", "--technique", technique}, telling);
@@ -107,7 +107,7 @@ TEST_F(Device, TheTechniquesOfThisVersionAgree) {
             }
         }
     }
-    // A strategy is a way of drawing: naming one asks for the raster.
+    // A strategy is a way of drawing, so naming one selects the raster.
     Arguments unnamed = squares("intersection", "raster") + more + Arguments{"--strategy", "depth"};
     const auto technique = std::find(unnamed.begin(), unnamed.end(), "--technique");
     ASSERT_NE(technique, unnamed.end());

@@ -5,10 +5,10 @@
 namespace nearfield::test {
 namespace {
 
-/// How a command line of `query` may be put, and how one that is wrong is refused.
+/// Accepted forms of a `query` command line, and the messages for wrong ones.
 class QueryLine : public CliTest {
 protected:
-    /// The answer to words after "query --json -", without what differs from run to run.
+    /// The answer to words after "query --json -", without the members that differ between runs.
     static Json lasting(const Arguments& after) {
         const Arguments words = Arguments{"query", "--json", "-"} + after;
         const Outcome outcome = run_program(words);
@@ -48,7 +48,7 @@ TEST_F(QueryLine, OptionsStandBeforeTheKindAfterItAndBetweenTheFiles) {
 
 TEST_F(QueryLine, ValuesAreNoKinds) {
     const Arguments rest{"-d", "0.1", "--pose-b", pose_};
-    // The values of --points and --kind are no words of the line, nor is a file named as a kind.
+    // The values of --points and --kind do not count as kinds, nor does a file named like a kind.
     EXPECT_EQ(lasting(Arguments{"--points", "vertices", "penetration", a_, b_} + rest),
               lasting(Arguments{"penetration", a_, b_, "--points", "vertices"} + rest));
     const Outcome outcome = run_program(
@@ -71,7 +71,7 @@ TEST_F(QueryLine, PlacesOfAFieldAreGivenOneByOneOrInARow) {
 }
 
 TEST_F(QueryLine, EveryKindTakesWhatWasTakenOfEveryKind) {
-    // Of no effect on some kinds, whose help leaves them out.
+    // Without effect on some kinds, whose help does not list them.
     const Arguments all{"-d",       "0.1",      "--strategy", "depth",  "--boxes",
                         "oriented", "--height", "2",          "--tiles"};
     for (const char* kind :

@@ -13,15 +13,15 @@ struct Point {
     double y = 0.0;
 };
 
-/// How a test's message shows a point.
+/// Prints a point in a test's message.
 void PrintTo(const Point& point, std::ostream* stream);
 
 [[nodiscard]] double distance(Point p, Point q);
 
-/// A JSON array of two numbers; throws where it is none.
+/// A JSON array of two numbers; throws for anything else.
 [[nodiscard]] Point to_point(const nlohmann::json& json);
 
-/// An axis-aligned rectangle: everything about it is known without approximation.
+/// An axis-aligned rectangle, whose exact answers are known.
 struct Rectangle {
     Point min;
     Point max;
@@ -30,9 +30,9 @@ struct Rectangle {
     [[nodiscard]] double signed_distance(Point p) const;
     /// Distance to the closed interior: 0 inside.
     [[nodiscard]] double outside_by(Point p) const;
-    /// How far a point lies within the lowest, right, highest and left edge's line.
+    /// The depth of a point below the line of the lowest, right, highest and left edge.
     [[nodiscard]] std::array<double, 4> depth_below_edges(Point p) const;
-    /// The point at a share (0 to 1) of the way along edge 0, 1, 2 or 3.
+    /// The point at a fraction (0 to 1) of edge 0, 1, 2 or 3.
     [[nodiscard]] Point on_edge(std::size_t edge, double share) const;
 };
 

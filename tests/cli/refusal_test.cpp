@@ -9,13 +9,13 @@ namespace {
 
 class Refused : public CliTest {
 protected:
-    /// A query that would be answered, with outputs that must not appear when it is refused.
+    /// A valid query with outputs that must not appear when it is rejected.
     Arguments ask(const std::string& type, const Arguments& options) const {
         return squares(type) + options +
                Arguments{"--json", folder_.path("answer.json"), "--image", folder_.path("i.png")};
     }
 
-    /// An outline with something wrong, as A and as B.
+    /// Expects that an invalid outline is rejected, as A and as B.
     void expect_bad_outline(const std::string& name, const std::string& text,
                             const std::vector<std::string>& parts) const {
         const std::string file = folder_.write(name, text);
@@ -139,7 +139,7 @@ TEST_F(Refused, AFieldOfNothingInCommon) {
                    {"nothing in common", "rectangle"});
 }
 
-/// The smallest tolerance a refusal names; 0 where it names none.
+/// The smallest tolerance that a message names; 0 if it names none.
 double smallest_named(const std::string& message) {
     const std::string lead = "the smallest tolerance that fits is about ";
     const std::size_t place = message.find(lead);
@@ -154,7 +154,8 @@ TEST_F(Refused, TolerancesThatNeedTooMuchMemoryWithTheSmallestPossible) {
         EXPECT_GT(named, 1e-10) << query;
         EXPECT_LT(named, 1e-3) << query;
         expect_refused(ask(query, far_too_fine), {"1e-10"});
-        // Not much finer than the one named is still refused: it is no idle guess.
+        // A slightly finer tolerance than the named one is still rejected, so the named one is
+        // tight.
         const std::string finer = std::to_string(named * 1e9 / 1.5) + "e-9";
         const double again = smallest_named(run_program(ask(query, {"-d", finer})).err);
         EXPECT_NEAR(again, named, 0.1 * named) << query << ", tolerance " << finer;

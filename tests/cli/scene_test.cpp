@@ -7,7 +7,7 @@ namespace {
 
 class SceneCommand : public CliTest {
 protected:
-    /// The unit square, and again where `pose` says, with queries between the two.
+    /// The unit square, a second instance at `pose`, and queries between the two.
     std::string scene(const std::string& queries) const {
         return folder_.write("scene.json", R"({"shapes": {"square": {"file": "a square.geojson"}},
             "instances": {"A": {"shape": "square"}, "B": {"shape": "square", "pose": [0.6, 0.3, 0]},
@@ -90,7 +90,7 @@ TEST_F(SceneCommand, AllPairsAreThoseWhoseBoxesMeet) {
                         result.at("a").get<std::string>() + " " +
                         result.at("b").get<std::string>());
     }
-    // A and `far` are 5 apart, and their boxes no more than 4 along either axis.
+    // A and `far` are 5 apart, and their boxes at most 4 along either axis.
     EXPECT_EQ(pairs, (std::vector<std::string>{"penetration A B", "penetration B A",
                                                "separation A B", "separation B far"}));
 }

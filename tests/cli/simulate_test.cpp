@@ -109,7 +109,7 @@ TEST_F(Simulate, MakesAVideoOfAllFrames) {
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto files = folder_.contents();
     ASSERT_TRUE(files.contains("wavy.mp4"));
-    // How such a file begins, and where it says how many frames there are: the start, and 3 more.
+    // The start of such a file, and the number of frames in it: the initial state and 3 more.
     const std::string& video = files.at("wavy.mp4");
     EXPECT_EQ(video.substr(4, 4), "ftyp");
     const std::size_t sizes = video.find("stsz");

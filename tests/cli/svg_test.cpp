@@ -7,7 +7,7 @@ namespace {
 
 class Svg : public CliTest {
 protected:
-    // As a picture shows it: B to the right of A and, since SVG's y points down, lower.
+    // As displayed: B is to the right of A and lower, because SVG's y axis points down.
     Svg()
         : circle_a_(folder_.write("a.svg", "<svg><circle r='2'/></svg>")),
           circle_b_(folder_.write(
@@ -24,7 +24,7 @@ TEST_F(Svg, PenetrationOfCirclesIsThatOfTheCurves) {
         const Json json =
             answer(Arguments{"query", "penetration", circle_b_, circle_a_, "-d", "0.08"} + more);
         ASSERT_FALSE(json.is_null());
-        // B has the radius 1 and the centre (2, -1.5), 2.5 from that of A: 0.5 deep.
+        // B has radius 1 and centre (2, -1.5), 2.5 from A's centre: the depth is 0.5.
         const double bound = json.at("error_bound").get<double>();
         const double deviation = more.empty() ? 0.08 / 16.0 : 0.002;
         EXPECT_NEAR(bound, 0.08 * (std::sqrt(0.5) + 1.0 / 1024.0) + 2.0 * deviation, 1e-9);

@@ -19,7 +19,7 @@ Enumeration beyond(Enumeration last) {
     return static_cast<Enumeration>(static_cast<int>(last) + 1);
 }
 
-/// What a host may hand over by mistake: refused by name, before the driver is asked for anything.
+/// Invalid structures from a host are rejected by name before any driver call.
 class BadStructures : public ::testing::Test {
 protected:
     ~BadStructures() override {
@@ -67,7 +67,8 @@ TEST_F(BadStructures, VersionsThatAreNoneOfVulkan1) {
         EXPECT_TRUE(Context::create(host).ok());
         EXPECT_TRUE(requirements(device)->met());
     }
-    // A version there is, but not enough: what an instance lacks is said as what a device lacks.
+    // A version that exists but is too low: the message lists what the instance lacks as for a
+    // device.
     HostDevice host = driver_.host();
     host.api_version = device.api_version = VK_API_VERSION_1_0;
     const Status old = Context::create(host).status();
@@ -120,7 +121,7 @@ TEST_F(BadStructures, CostsThatAreNoTimes) {
         }
     }
     Settings settings;
-    settings.costs = CostModel{};  // free of charge, which is a choice
+    settings.costs = CostModel{};  // all free, which is valid
     EXPECT_TRUE(Context::create(driver_.host(), settings).ok());
 }
 
@@ -129,11 +130,11 @@ TEST_F(BadStructures, SettingsThatAreNoEnumerators) {
     settings.bounding_volume = beyond(BoundingVolume::oriented);
     expect_refused(settings, "Settings::bounding_volume is no enumerator: 2");
     settings = {};
-    settings.frames_in_flight = most_frames_in_flight + 1;
+    settings.batches_in_flight = max_batches_in_flight + 1;
     expect_refused(settings, "frames_in_flight is 9");
 }
 
-/// A structure never ended within a member.
+/// No version of a structure ended within a member.
 TEST_F(BadStructures, SizesThatCutAMemberInTwo) {
     const auto expect = [&](const Status& status, const std::string& name) {
         expect_refused(status, StatusCode::invalid_settings, name + "::structure_size is ");
@@ -172,7 +173,7 @@ TEST_F(BadStructures, QueriesWithNumbersThatAreNoEnumerators) {
     ASSERT_TRUE(shape.ok());
     const Instance here{*shape, {}};
     driver_.forget_calls();
-    // `bend` spoils a query that is good but for it.
+    // `bend` makes one change that invalidates an otherwise valid query.
     const auto try_query = [&](auto query, const auto& bend, const std::string& words) {
         query.a = query.b = here;
         query.tolerance = 0.1;

@@ -9,12 +9,12 @@
 namespace nearfield::test {
 namespace {
 
-/// Batches of different kinds of results that stay on the device, each larger than the one before,
-/// so that buffers and images are replaced while descriptor sets go from one kind to another.
+/// Batches with different kinds of resident outputs, each larger than the one before, so that
+/// buffers and images are replaced while descriptor sets change from one kind to another.
 TEST(DescriptorSets, NameNothingThatIsGone) {
     const test_support::MockDriver driver;
     Settings settings;
-    settings.frames_in_flight = 1;
+    settings.batches_in_flight = 1;
     Expected<Context> context = Context::create(driver.host(), settings);
     ASSERT_TRUE(context.ok()) << context.status().text();
     const std::vector<Ring> square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}};

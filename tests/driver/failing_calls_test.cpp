@@ -17,23 +17,23 @@ using test_support::name_of;
 constexpr Technique techniques[] = {Technique::raster, Technique::compute};
 
 /// One way in which a driver can fail.
-struct Failure {
+struct StatusException {
     World::Step step{};
     std::string_view call;
-    std::size_t successes = 0;  ///< of that call in the step, before it fails
+    std::size_t successes = 0;  ///< of that call in the step before the failure
     VkResult error = VK_SUCCESS;
 
-    friend std::ostream& operator<<(std::ostream& out, const Failure& failure) {
+    friend std::ostream& operator<<(std::ostream& out, const StatusException& failure) {
         return out << "call " << failure.successes << " of " << failure.call << " says "
                    << name_of(failure.error) << " in: " << to_string(failure.step);
     }
 };
 
-/// Every failure that a life without any shows to be possible, of the steps that ask the driver:
-/// each call that is made with the first of its errors, and with every error where it is made for
-/// the first time in a step, makes the context, or asks for memory.
-std::vector<Failure> all_failures(Technique technique) {
-    std::vector<Failure> failures;
+/// All failures to try, derived from a run without failures, for the steps that call the driver:
+/// each call is made to fail with the first of its errors, and with every one of its errors if it
+/// is the first such call in a step, creates the context, or allocates memory.
+std::vector<StatusException> all_failures(Technique technique) {
+    std::vector<StatusException> failures;
     World world(technique);
     for (const World::Step step : World::steps) {
         world.driver().forget_calls();
@@ -53,7 +53,8 @@ std::vector<Failure> all_failures(Technique technique) {
     return failures;
 }
 
-/// After device loss: every call says so, the driver is asked for nothing more, and all goes.
+/// After device loss: every call reports it, makes no more driver calls, and everything is
+/// released.
 void expect_lost(World& world, Ticket in_flight) {
     Context& context = world.context();
     Results results;
@@ -76,8 +77,9 @@ void expect_lost(World& world, Ticket in_flight) {
     EXPECT_EQ(world.driver().work_after_loss(), std::vector<std::string>{});
 }
 
-/// Lets one failure happen and looks at what becomes of the context.
-void try_failure(Technique technique, const Failure& failure, const std::vector<double>& expected) {
+/// Injects one failure and checks the state of the context afterwards.
+void try_failure(Technique technique, const StatusException& failure,
+                 const std::vector<double>& expected) {
     World world(technique);
     MockDriver& driver = world.driver();
     world.take_all_before(failure.step);
@@ -88,7 +90,7 @@ void try_failure(Technique technique, const Failure& failure, const std::vector<
         EXPECT_TRUE(world.is_before_first()) << "semaphores are on their way, and no batch is";
     }
     ASSERT_TRUE(driver.has_failed()) << "the life with failures differs from the one without";
-    // What asks whether a batch is done, and waits for it in the end, has nobody to tell.
+    // Calls that ask whether a batch is done, or wait for it at the end, have nobody to report to.
     const bool silent =
         failure.step == World::Step::destroy ||
         (failure.call == "vkGetFenceStatus" && failure.error != VK_ERROR_DEVICE_LOST);
@@ -121,10 +123,10 @@ void try_failure(Technique technique, const Failure& failure, const std::vector<
 TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
     for (const Technique technique : techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
-        const std::vector<Failure> failures = all_failures(technique);
-        for (const Failure& failure : failures) {
+        const std::vector<StatusException> failures = all_failures(technique);
+        for (const StatusException& failure : failures) {
             if (technique == Technique::compute && failure.step == World::Step::create) {
-                continue;  // the same whatever is asked later
+                continue;  // the same whatever the later request
             }
             SCOPED_TRACE(::testing::Message() << to_string(technique) << ": " << failure);
             try_failure(technique, failure, expected);
@@ -139,7 +141,7 @@ TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
 TEST(FailingCalls, CoverEveryEntryPointThatCanFail) {
     std::set<std::string_view> covered;
     for (const Technique technique : techniques) {
-        for (const Failure& failure : all_failures(technique)) {
+        for (const StatusException& failure : all_failures(technique)) {
             covered.insert(failure.call);
         }
     }
@@ -158,7 +160,7 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
     for (const Technique technique : techniques) {
         World world(technique);
         world.take_all_before(World::Step::record_last);
-        // Large enough for occlusion queries to be worth their while.
+        // Large enough for occlusion queries to pay off.
         EXPECT_TRUE(world.context().submit(world.batch(600)).ok());
         EXPECT_TRUE(world.take(World::Step::destroy).ok());
         used.insert(world.driver().calls().begin(), world.driver().calls().end());
@@ -168,12 +170,12 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
     }
 }
 
-/// A device's own memory is limited, and the part of it that the host sees is small on many cards.
+/// Device-local memory is limited, and its host-visible part is small on many cards.
 TEST(FailingCalls, MemoryThatIsRefusedOnceIsTakenElsewhere) {
     for (const Technique technique : techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
         int taken_elsewhere = 0;
-        for (const Failure& failure : all_failures(technique)) {
+        for (const StatusException& failure : all_failures(technique)) {
             if (failure.call != "vkAllocateMemory" ||
                 failure.error != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
                 continue;

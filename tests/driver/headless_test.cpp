@@ -15,7 +15,7 @@ using test_support::errors_of;
 using test_support::MockDriver;
 using test_support::name_of;
 
-/// A Vulkan loader of our own, which the library finds by the usual name since it is there already;
+/// Our own Vulkan loader with the usual name, which the library finds because it is already loaded;
 /// below it is the mock driver.
 class Headless : public ::testing::Test {
 protected:
@@ -36,7 +36,7 @@ protected:
         EXPECT_EQ(driver_.alive(), std::vector<std::string>{});
         EXPECT_EQ(driver_.breaches(), std::vector<std::string>{});
     }
-    /// The calls of a life without failures.
+    /// The calls of a run without failures.
     template <class Act>
     std::vector<std::string_view> calls_of(const Act& act) {
         driver_.forget_calls();
@@ -44,8 +44,8 @@ protected:
         EXPECT_TRUE(status.ok()) << status.text();
         return driver_.calls();
     }
-    /// Lets each call of a life fail with each of its errors; calls of a kind that are made often,
-    /// at first and in the end. `expected`: what the library says of it.
+    /// Makes each call of a run fail with each of its errors; of frequent calls only the first and
+    /// last ones. `expected`: the library's status for it.
     template <class Act, class Expect>
     void try_all(const Act& act, const Expect& expected) {
         std::map<std::string_view, std::size_t> total, count;
@@ -84,7 +84,7 @@ Status create_and_destroy() {
     return Context::create_headless().status();
 }
 
-/// The code for a failing call, where it is not that of the error itself.
+/// The status code for a failing call, if it differs from that of the error itself.
 StatusCode code_of_call(std::string_view call, std::size_t before, VkResult error) {
     if (call == "vkCreateInstance") {
         return StatusCode::no_device;
@@ -92,7 +92,7 @@ StatusCode code_of_call(std::string_view call, std::size_t before, VkResult erro
     if (call == "vkCreateDevice") {
         return StatusCode::unsupported_device;
     }
-    // How some loaders say that no driver has a device.
+    // This is how some loaders report that no driver has a device.
     const bool counting = call == "vkEnumeratePhysicalDevices" && before == 0;
     return counting && error == VK_ERROR_INITIALIZATION_FAILED ? StatusCode::no_device
                                                                : code_of(error);
@@ -140,7 +140,7 @@ TEST_F(Headless, DevicesThatCannotBeListedAreNamed) {
             });
 }
 
-/// Of the entry points of loader and instance; those of the device are asked for as of a host's.
+/// Entry points of loader and instance; those of the device are fetched as on a host's device.
 TEST_F(Headless, CallsThatTheLoaderDoesNotKnowAreNamed) {
     for (const std::string call :
          {"vkEnumerateInstanceExtensionProperties", "vkCreateInstance",

@@ -9,12 +9,12 @@ namespace {
 
 using test_support::FailingAllocations;
 
-/// How many of a step's allocations are let fail: all of them where it makes few, else these many,
-/// spread over all; fewer where every access to memory is watched.
+/// How many of a step's allocations are made to fail: all if there are few, otherwise this many,
+/// spread over all; fewer when every memory access is checked.
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t most_tries = 40;
+constexpr std::uint64_t max_tries = 40;
 #else
-constexpr std::uint64_t most_tries = 120;
+constexpr std::uint64_t max_tries = 120;
 #endif
 
 bool is_submission(World::Step step) {
@@ -30,8 +30,8 @@ std::uint64_t allocations_of(Technique technique, World::Step step) {
     return test_support::allocation_count_of_this_thread() - before;
 }
 
-/// Lets host memory run out after so many allocations of a step, for good; then there is some
-/// again.
+/// Makes host memory run out permanently after a number of allocations of a step; then memory is
+/// available again.
 void try_without_memory(Technique technique, World::Step step, std::uint64_t successes,
                         const std::vector<double>& expected) {
     SCOPED_TRACE(::testing::Message() << to_string(technique) << ", " << to_string(step)
@@ -46,10 +46,10 @@ void try_without_memory(Technique technique, World::Step step, std::uint64_t suc
     if (step == World::Step::submit_first && !status.ok()) {
         EXPECT_TRUE(world.is_before_first()) << "semaphores are on their way, and no batch is";
     }
-    // Sorting makes do without the memory that it would like to have.
+    // Sorting falls back to a method without the memory that it requests.
     const bool has_failed = FailingAllocations::has_failed();
     if (has_failed && status.ok() && is_submission(step)) {
-        status = world.take(World::Step::collect_first);  // which says what came after submission
+        status = world.take(World::Step::collect_first);  // which reports errors after submission
     }
     EXPECT_EQ(status.code(), has_failed ? StatusCode::out_of_memory : StatusCode::ok)
         << status.text();
@@ -75,7 +75,7 @@ TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
         const std::vector<double> expected = World::undisturbed(technique);
         for (const World::Step step : World::steps) {
             const std::uint64_t count = allocations_of(technique, step);
-            const std::uint64_t stride = std::max<std::uint64_t>(1, count / most_tries);
+            const std::uint64_t stride = std::max<std::uint64_t>(1, count / max_tries);
             for (std::uint64_t successes = 0; successes < count; successes += stride) {
                 try_without_memory(technique, step, successes, expected);
                 if (HasFailure()) {
@@ -86,7 +86,7 @@ TEST(HostMemory, ThatRunsOutIsSaidAndLeavesAContextThatAnswers) {
     }
 }
 
-/// A context whose host memory is gone can still say so, and that its device is lost.
+/// Without host memory, a context can still report that and the loss of its device.
 TEST(HostMemory, IsNotNeededToSayWhatIsWrong) {
     World world(Technique::raster);
     world.take_all_before(World::Step::submit_first);

@@ -11,8 +11,8 @@ using test_support::errors_of;
 using test_support::MockDriver;
 using test_support::name_of;
 
-/// The calls that measuring costs makes for as long as submissions succeed; some dozens do, which
-/// takes it through several kinds of queries.
+/// The calls that measuring costs makes as long as submissions succeed; several dozen submissions
+/// cover several kinds of queries.
 std::set<std::string_view> calls_of_measuring() {
     World world(Technique::raster);
     world.take_all_before(World::Step::submit_first);

@@ -63,8 +63,8 @@ TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
     EXPECT_EQ(driver.breaches().size(), static_cast<std::size_t>(calls));
 }
 
-/// What stays on the device comes back by a copy within it. Of the mock driver's memory that which
-/// is not mapped says another edge of every point than that which is.
+/// Resident outputs are read back by a copy on the device. In the mock driver, device-local memory
+/// names another edge for every point than mapped memory does.
 TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
     for (const Technique technique : techniques) {
         SCOPED_TRACE(to_string(technique));
@@ -85,14 +85,14 @@ TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
             }
             return found;
         };
-        // Of the edge, or of the vertices at its ends.
+        // The edge, or the vertices at its ends.
         EXPECT_EQ(edges(true), (std::set<std::uint32_t>{1}));
         EXPECT_EQ(edges(false), (std::set<std::uint32_t>{2, 3}));
         EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
     }
 }
 
-/// Images are shared by the batches of a context, and both are made anew for larger batches.
+/// The batches of a context share images, which are recreated for larger batches.
 TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
     for (const Technique technique : techniques) {
         World world(technique);

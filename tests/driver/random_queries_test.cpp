@@ -41,9 +41,8 @@ Batch every_query(const Instance& a, const Instance& b, double tolerance) {
     return batch;
 }
 
-/// Planning, handing over and decoding of whole queries on random shapes, with nothing that is real
-/// below: for tools that watch memory, which drivers would disturb. What the queries say is tested
-/// where there is a device.
+/// Planning, submission and decoding of whole queries on random shapes on the mock driver, for
+/// memory checkers, which real drivers would disturb. Tests with a device check the results.
 TEST(RandomQueries, TouchNoMemoryThatIsNotTheirs) {
     const test_support::MockDriver driver;
     {

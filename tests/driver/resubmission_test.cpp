@@ -13,11 +13,11 @@ using test_support::errors_of;
 using test_support::MockDriver;
 using test_support::name_of;
 
-/// More samples than there is room for at first, among all cells that there are.
+/// More samples than the initial capacity, in a grid of this many cells.
 constexpr std::uint32_t samples = 12000;
 constexpr double cells_to_a_unit = 100.0;
 
-/// A context with a batch in flight whose samples find no room.
+/// A context with a batch in flight whose samples exceed the capacity.
 class Crowded {
 public:
     explicit Crowded(Technique technique) : world_(technique) {
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::size_t found() const {
         return std::get<IntersectionResult>(results_.results.at(0)).samples.size();
     }
-    /// Another batch like it is answered; then all goes, and nothing is left.
+    /// Another such batch is answered; then everything is destroyed and nothing remains.
     void expect_to_answer() {
         const Status status = world_.context().run(world_.overlap(cells_to_a_unit), results_);
         EXPECT_TRUE(status.ok()) << status.text();

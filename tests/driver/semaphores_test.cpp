@@ -48,7 +48,7 @@ protected:
     }
 
     [[nodiscard]] MockDriver& driver() { return world_.driver(); }
-    /// The parameter: whether there is work for the device, or semaphores alone.
+    /// The parameter: whether there is work for the device, or only semaphores.
     [[nodiscard]] Batch batch() const { return GetParam() ? world_.overlap(8) : Batch(); }
     Status run(const Submission& submission) {
         const Expected<Ticket> ticket = world_.context().submit(batch(), submission);
@@ -75,7 +75,7 @@ TEST_P(Semaphores, ReachTheQueueWithTheirValuesAndStages) {
     order.expect_passed(driver(), true);
 }
 
-/// The same ones serve the next batch.
+/// The same semaphores serve the next batch.
 TEST_P(Semaphores, AreAsTheyWereWhereTheSubmissionFails) {
     for (const VkResult error : errors_of("vkQueueSubmit")) {
         SCOPED_TRACE(name_of(error));
@@ -100,7 +100,8 @@ TEST_P(Semaphores, WithValuesAreRefusedWhereTheHostDidNotEnableThem) {
     const Order order(driver());
     EXPECT_EQ(run(order.submission()).code(), StatusCode::invalid_submission);
     order.expect_passed(driver(), false);
-    // Those without go to the queue without any structure of values, which is checked there.
+    // Without timeline semaphores, the queue gets no structure of values; the mock driver checks
+    // that.
     const Submission binary{.waits = {&order.waits[1], 1}, .signals = {&order.signals[0], 1}};
     EXPECT_TRUE(run(binary).ok());
     EXPECT_EQ(driver().submissions().size(), 1U);

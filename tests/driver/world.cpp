@@ -19,14 +19,14 @@ constexpr QueryHandle<ContactQuery> resident_contacts{1};
 constexpr QueryHandle<DistanceFieldQuery> resident_field{2};
 constexpr QueryHandle<IntersectionQuery> resident_samples{3};
 
-/// What the host does on its own account.
+/// Work of the host itself.
 template <class Make>
 Batch unwatched(const Make& make) {
     const test_support::UnwatchedAllocations here;
     return make();
 }
 
-/// Of any query of a batch.
+/// The first error among the queries of a batch.
 Status first_error(const Results& results) {
     for (const AnyResult& any : results.results) {
         Status status = std::visit([](const auto& result) { return result.status; }, any);
@@ -171,7 +171,7 @@ Status World::collect_recorded(bool executed) {
 
 Status World::answer(std::vector<double>& numbers) {
     Results results;
-    // Room for one more: whatever is in flight, and answered or not, goes.
+    // Frees a slot for another batch, answered or not.
     context_->frame_completed(frame_);
     static_cast<void>(context_->collect(ticket_, results));
     if (Status status = context_->run(batch(larger_cells, technique_), results); !status.ok()) {

@@ -11,25 +11,26 @@
 
 namespace nearfield::test {
 
-/// A context on a mock driver, taken through its life in steps.
+/// A context on a mock driver, taken through its lifetime in steps.
 class World {
 public:
-    /// What a context goes through, in order; each step needs those before it.
+    /// The steps in a context's lifetime, in order; each needs those before it.
     enum class Step {
         create,
         add_shapes,
-        submit_first,  ///< between semaphores
+        submit_first,  ///< with semaphores
         collect_first,
-        submit_larger,  ///< buffers and images have to grow; some results stay on the device
+        submit_larger,  ///< buffers and images must grow; some results stay on the device
         collect_larger,
         record,
         collect_recorded,  ///< after the host has executed it
         record_in_vain,
-        collect_unexecuted,   ///< after the host has thrown it away, which is what it has to say
-        submit_without_work,  ///< of the device, so that only semaphores are handed over
+        collect_unexecuted,   ///< after the host has discarded it, which it must report
+        submit_without_work,  ///< for the device, so that only semaphores are submitted
         collect_without_work,
-        submit_last,  ///< as the larger one before: nothing is made
-        record_last,  ///< while that one is in flight, so that all is made for the second frame
+        submit_last,  ///< like the larger one before: nothing is created
+        record_last,  ///< while that one is in flight, so that the second frame's resources are
+                      ///< created
         destroy,      ///< with these two in flight
     };
     static constexpr Step steps[] = {Step::create,
@@ -48,7 +49,7 @@ public:
                                      Step::record_last,
                                      Step::destroy};
 
-    /// Queries by this technique: raster or compute.
+    /// Uses this technique for queries: raster or compute.
     explicit World(Technique technique)
         : technique_(technique),
           before_(driver_.make_semaphore(true)),
@@ -60,22 +61,21 @@ public:
 
     /// Takes one step.
     Status take(Step step);
-    /// Takes all steps before `step`; each has to succeed.
+    /// Takes all steps before `step`; each must succeed.
     void take_all_before(Step step);
-    /// Answers the larger batch, after add_shapes, and the first one without the driver; what that
-    /// says, as numbers. An error of any query counts.
+    /// Answers the larger batch (after add_shapes) and the first one without the driver, and
+    /// returns the results as numbers. An error of any query counts.
     Status answer(std::vector<double>& numbers);
-    /// What answer() says where nothing comes in the way.
+    /// The result of answer() without failures.
     [[nodiscard]] static std::vector<double> undisturbed(Technique technique);
 
     [[nodiscard]] Batch batch(double cells) const { return batch(cells, technique_); }
-    /// Without those that take a second submission.
+    /// Without the queries that need a second submission.
     [[nodiscard]] Batch recordable(double cells) const;
     /// One intersection of volumes, with samples.
     [[nodiscard]] Batch overlap(double cells) const;
 
-    /// The first batch turns the states of two semaphores around, the one without work turns them
-    /// back.
+    /// The first batch inverts the states of two semaphores, the one without work restores them.
     [[nodiscard]] bool is_before_first() const {
         return driver_.is_signalled(before_) && !driver_.is_signalled(after_);
     }
@@ -90,11 +90,11 @@ private:
     Status submit_for_device(double cells, const Submission& submission);
     Status record();
     Status collect();
-    /// The host is done with its frame.
+    /// The host has completed its frame.
     Status collect_recorded(bool executed);
-    /// Asks for all that stays on the device of the batch in flight.
+    /// Requests all resident outputs of the batch in flight.
     Status look_at_residents();
-    /// One of each kind of query that a technique answers, with so many cells to a unit.
+    /// One query of each kind that a technique answers, with this many cells per unit.
     [[nodiscard]] Batch batch(double cells, Technique technique) const;
     void add_recordable(Batch& batch, double cells, Technique technique) const;
     [[nodiscard]] Instance here() const { return {a_, {}}; }
@@ -108,13 +108,13 @@ private:
     ShapeHandle a_;
     ShapeHandle b_;
     Ticket ticket_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // of the host's frame
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;  // for the host's frame
     std::uint64_t frame_ = 0;
 };
 
 [[nodiscard]] const char* to_string(World::Step step);
 
-/// What the library says of an error of the driver.
+/// The library's status code for an error of the driver.
 [[nodiscard]] StatusCode code_of(VkResult error);
 
 }  // namespace nearfield::test

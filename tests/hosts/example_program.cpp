@@ -12,7 +12,7 @@ namespace nearfield::test {
 namespace {
 
 std::string quoted(const std::string& word) {
-    return "'" + word + "'";  // none of ours has a quote in it
+    return "'" + word + "'";  // none of our words contains a quote
 }
 
 std::string read_all(const std::filesystem::path& file) {

@@ -7,12 +7,12 @@
 
 namespace nearfield::test {
 
-/// What a run of an example came to.
+/// The result of a run of an example.
 struct ExampleOutcome {
-    int status = -1;         ///< exit status; 124 where it was ended after a minute
+    int status = -1;         ///< exit status; 124 if it was stopped after a minute
     std::string messages;    ///< standard output and error
-    std::string validation;  ///< what the validation layers said
-    bool validated = false;  ///< they were there
+    std::string validation;  ///< messages of the validation layers
+    bool validated = false;  ///< whether the layers were active
 };
 
 /// Runs an example under validation and synchronisation validation. `environment` (NAME=VALUE) is

@@ -17,9 +17,9 @@ struct Example {
     std::vector<std::string> arguments;
     int width = 640;
     int height = 480;
-    Vector2 label;  ///< as compare() takes it
+    Vector2 label;  ///< as compare() expects it
 
-    /// For the messages of a failure.
+    /// Prints an example in failure messages.
     friend std::ostream& operator<<(std::ostream& out, const Example& example) {
         return out << example.name;
     }
@@ -39,7 +39,7 @@ std::vector<Example> every_example() {
 
 class Examples : public testing::TestWithParam<Example> {
 protected:
-    /// The picture after the star was dragged; nothing was said on the way.
+    /// Takes the picture after the star was dragged; expects no messages.
     [[nodiscard]] Pixels take_picture(const std::string& drag) const {
         const Example& example = GetParam();
         std::vector<std::string> arguments = example.arguments;
@@ -91,7 +91,7 @@ TEST_P(Examples, ShowTheContactsOfTheCpuWhereItReachesIntoTheHook) {
 INSTANTIATE_TEST_SUITE_P(Hosts, Examples, testing::ValuesIn(every_example()),
                          [](const auto& test) { return test.param.name; });
 
-/// A run that cannot work says why and leaves with a status, not by a signal.
+/// A run that cannot work prints a reason and exits with a status, not through a signal.
 void expect_refused(const std::string& program, const std::vector<std::string>& arguments,
                     const std::vector<std::string>& environment, int status,
                     const std::string& reason) {

@@ -12,7 +12,7 @@ namespace {
 using examples::Color;
 using examples::View;
 
-/// Pixels by which the picture may differ from the CPU: rounding.
+/// The allowed deviation of the picture from the CPU in pixels: rounding.
 constexpr double slack = 0.05;
 
 std::string to_text(const Color& color) {
@@ -20,7 +20,7 @@ std::string to_text(const Color& color) {
            std::to_string(color[2]) + ")";
 }
 
-/// What the markers make of a pixel: nothing, a colour, or undecided to within rounding.
+/// The effect of the markers on a pixel: none, a colour, or undecided due to rounding.
 struct MarkerPixel {
     std::optional<Color> color;
     bool undecided = false;
@@ -41,7 +41,7 @@ MarkerPixel marker_at(const Vector2& pixel, const std::vector<ContactRecord>& co
     return found;
 }
 
-/// Whether the picture has the inside of a shape or the background here, whichever it should be.
+/// True if the picture shows the interior of a shape or the background at this place, as it should.
 bool is_fill(const Color& color, const examples::Scene& scene, const Vector2& world,
              Comparison& comparison) {
     for (std::size_t i = scene.bodies().size(); i-- > 0;) {

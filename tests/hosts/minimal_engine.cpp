@@ -32,8 +32,8 @@ VkAttachmentDescription attachment(VkFormat format, VkAttachmentLoadOp load, VkI
     return attachment;
 }
 
-/// Of the two passes, the first clears what the frame before has copied, the second goes on where
-/// the first left off and leaves both images to be copied.
+/// Of the two passes, the first clears the images that the previous frame has copied; the second
+/// continues with their contents and leaves both images ready for copying.
 RenderPass make_pass(VkDevice device, bool is_first) {
     const VkAttachmentLoadOp load =
         is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
@@ -88,7 +88,7 @@ Framebuffer make_framebuffer(VkDevice device, VkRenderPass pass, const DeviceIma
     return create<Framebuffer>(device, vkCreateFramebuffer, info, "vkCreateFramebuffer");
 }
 
-/// A triangle somewhere else in each frame.
+/// A triangle at a different position in each frame.
 std::array<Vertex, 3> triangle(std::uint64_t frame, float top, const Color& color) {
     const auto left = static_cast<float>(5 * (frame % 16));
     return {{{left, top, color}, {left + 40.0F, top + 10.0F, color}, {left, top + 50.0F, color}}};
@@ -100,15 +100,15 @@ MinimalEngine::MinimalEngine(const HostDevice& host, VkExtent2D extent)
     : host_(host),
       first_pass_(make_pass(host.device, true)),
       second_pass_(make_pass(host.device, false)),
-      first_painter_(host.physical_device, host.device, first_pass_.get(), frames_in_flight),
-      second_painter_(host.physical_device, host.device, second_pass_.get(), frames_in_flight),
-      frames_(host, frames_in_flight) {
+      first_painter_(host.physical_device, host.device, first_pass_.get(), batches_in_flight),
+      second_painter_(host.physical_device, host.device, second_pass_.get(), batches_in_flight),
+      frames_(host, batches_in_flight) {
     resize(extent);
 }
 
 void MinimalEngine::resize(VkExtent2D extent) {
     for (std::uint64_t frame = next_frame_;
-         frame-- > 0 && frame + frames_in_flight >= next_frame_;) {
+         frame-- > 0 && frame + batches_in_flight >= next_frame_;) {
         frames_.wait(frame);
     }
     extent_ = extent;
@@ -134,7 +134,7 @@ void MinimalEngine::resize(VkExtent2D extent) {
 
 void MinimalEngine::draw(std::uint64_t frame, const Guest& guest) {
     VkCommandBuffer commands = frames_.begin(frame);
-    const auto slot = static_cast<std::uint32_t>(frame % frames_in_flight);
+    const auto slot = static_cast<std::uint32_t>(frame % batches_in_flight);
     first_painter_.upload(slot, triangle(frame, 10.0F, {200, 40, 60, 255}));
     second_painter_.upload(slot, triangle(frame, 40.0F, {60, 200, 40, 255}));
 
@@ -179,7 +179,7 @@ void MinimalEngine::begin(VkCommandBuffer commands, VkRenderPass pass) {
     vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
 }
 
-/// Sets the depth of a square of 4 x 4 pixels.
+/// Clears the depth of a square of 4 x 4 pixels.
 void MinimalEngine::clear_square(VkCommandBuffer commands, std::uint32_t at) {
     VkClearAttachment clear{};
     clear.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT;

@@ -25,7 +25,7 @@ constexpr VkExtent2D small{160, 120};
 constexpr VkExtent2D large{200, 150};
 constexpr int batches = 2;
 
-/// A context with the shapes of the test in it.
+/// A context with the shapes of the test.
 class Guest {
 public:
     explicit Guest(Expected<Context> context) {
@@ -61,14 +61,14 @@ private:
     ShapeHandle b_;
 };
 
-/// What the frames of an engine came to: how they look and what the guest answered in each.
+/// The results of an engine's frames: the images and the guest's answers in each.
 struct FramesDrawn {
     std::vector<EngineFrame> looks;
     std::vector<std::vector<double>> answers;
     std::vector<double> submitted_in_between;  ///< with the batch of `shared_queue_frame`
 };
 
-/// Draws all frames, with a guest or without; each is looked at when its turn comes again.
+/// Draws all frames, with or without a guest; each is read back before its slot is used again.
 FramesDrawn draw_frames(MinimalEngine& engine, Guest* guest) {
     FramesDrawn drawn;
     std::vector<Ticket> tickets;
@@ -94,8 +94,8 @@ FramesDrawn draw_frames(MinimalEngine& engine, Guest* guest) {
         }
     };
     for (std::uint64_t frame = 0; frame < all_frames; ++frame) {
-        if (frame >= MinimalEngine::frames_in_flight) {
-            finish_until(frame - MinimalEngine::frames_in_flight + 1);
+        if (frame >= MinimalEngine::batches_in_flight) {
+            finish_until(frame - MinimalEngine::batches_in_flight + 1);
         }
         if (frame == resized_frame) {
             finish_until(frame);
@@ -107,7 +107,7 @@ FramesDrawn draw_frames(MinimalEngine& engine, Guest* guest) {
     return drawn;
 }
 
-/// The same frames with nobody in between.
+/// The same frames without a guest.
 std::vector<EngineFrame> frames_without_guest() {
     test_support::VulkanHost host;
     std::optional<MinimalEngine> engine(std::in_place, host.device(), small);
@@ -127,15 +127,16 @@ TEST(MinimalEngine, LooksAsItShouldWithoutAGuest) {
         ASSERT_EQ(look.color.size(), pixels);
         ASSERT_EQ(look.depth.size(), pixels);
         EXPECT_TRUE(frame == 0 || look.color != looks[frame - 1].color);
-        // Of both passes: a square of depth each, a triangle each over the cleared colour.
+        // From both passes: a square of depth each, a triangle each over the clear colour.
         EXPECT_EQ(std::count(look.depth.begin(), look.depth.end(), 0xBFFF), 2 * 16);
         const std::set<std::uint32_t> colors(look.color.begin(), look.color.end());
         EXPECT_EQ(colors, (std::set<std::uint32_t>{0xFFBF8040, 0xFF3C28C8, 0xFF28C83C}));
     }
 }
 
-// Under validation and synchronisation validation: the engine looks the same with the guest and
-// without, and the guest answers as it does at home, on one device and then on another.
+// Under validation and synchronisation validation: the engine's images are the same with and
+// without the guest, and the guest's answers are the same as in its own submissions, on one device
+// and then on another.
 TEST(MinimalEngine, AndItsGuestLeaveEachOtherAloneOnADeviceAndOnTheNext) {
     const std::vector<EngineFrame> alone = frames_without_guest();
     for (int device = 0; device < 2; ++device) {
@@ -143,7 +144,7 @@ TEST(MinimalEngine, AndItsGuestLeaveEachOtherAloneOnADeviceAndOnTheNext) {
         test_support::VulkanHost host;
         std::optional<MinimalEngine> engine(std::in_place, host.device(), small);
         Settings settings;
-        settings.frames_in_flight = MinimalEngine::frames_in_flight;
+        settings.batches_in_flight = MinimalEngine::batches_in_flight;
         std::optional<Guest> guest(std::in_place, Context::create(host.device(), settings));
         const FramesDrawn drawn = draw_frames(*engine, &*guest);
         EXPECT_TRUE(drawn.looks == alone);

@@ -19,7 +19,7 @@ struct Pixels {
     }
 };
 
-/// Throws std::runtime_error where there is no such picture.
+/// Throws std::runtime_error if there is no such picture.
 [[nodiscard]] Pixels read_picture(const std::filesystem::path& file);
 
 }  // namespace nearfield::test

@@ -26,7 +26,7 @@ Piece make_piece(const Edge& edge, const ShapeOracle& b) {
     return piece;
 }
 
-/// Where the open segments cross, as a parameter along `a`; negative: they do not.
+/// The crossing of the open segments as a parameter along `a`; negative if there is none.
 double crossing_parameter(const Edge& a, const Edge& b) {
     const long double from = orientation(b.from, b.to, a.from);
     const long double to = orientation(b.from, b.to, a.to);

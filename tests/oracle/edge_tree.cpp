@@ -8,7 +8,7 @@
 namespace nearfield::oracle {
 namespace {
 
-constexpr std::uint32_t most_in_leaf = 4;
+constexpr std::uint32_t max_in_leaf = 4;
 
 bool boxes_meet(const Rectangle& a, const Rectangle& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
@@ -39,7 +39,7 @@ void EdgeTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t last
         }
     }
     nodes_[node].box = box;
-    if (last - first <= most_in_leaf) {
+    if (last - first <= max_in_leaf) {
         nodes_[node].first = first;
         nodes_[node].count = last - first;
         return;

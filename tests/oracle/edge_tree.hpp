@@ -15,21 +15,21 @@ struct Edge {
     Vector2 to;
 };
 
-/// Boxes around edges, so that dense checks against long boundaries stay affordable. It only ever
-/// leaves out edges that cannot matter; what is done with the others is up to the caller.
+/// A bounding box tree over edges, so that dense checks against long boundaries stay affordable. It
+/// only excludes edges that cannot matter; the caller handles the others.
 class EdgeTree {
 public:
     explicit EdgeTree(std::vector<Edge> edges);
 
     [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
-    /// The box around all edges.
+    /// The bounding box of all edges.
     [[nodiscard]] const Rectangle& box() const { return nodes_.front().box; }
 
-    /// Calls `visit(edge)` for every edge whose box meets `box`, boundaries included.
+    /// Calls `visit(edge)` for every edge whose box overlaps `box`, boundaries included.
     void visit_box(const Rectangle& box, const std::function<void(std::uint32_t)>& visit) const;
 
     /// Calls `visit(edge)`, nearer boxes first, for every edge whose box is no farther from `point`
-    /// than the least distance that `visit` has returned so far (at first: `reach`).
+    /// than the minimum distance that `visit` has returned so far (initially `reach`).
     void visit_nearest(const Vector2& point, double reach,
                        const std::function<double(std::uint32_t)>& visit) const;
 

@@ -12,7 +12,7 @@
 namespace nearfield::oracle {
 namespace {
 
-/// One GEOS handle for the life of a question; its errors become exceptions.
+/// One GEOS handle for the duration of a query; its errors become exceptions.
 class Geos {
 public:
     Geos() : handle_(GEOS_init_r()) {
@@ -48,7 +48,7 @@ private:
 };
 using Geometry = Geos::Geometry;
 
-/// A closed line of the vertices first, ..., last - 1.
+/// A closed line through the vertices first, ..., last - 1.
 GEOSCoordSequence* closed_line(const Geos& geos, const ShapeOracle& shape, std::uint32_t first,
                                std::uint32_t last, const Vector2& origin) {
     GEOSCoordSequence* line = GEOSCoordSeq_create_r(geos.handle(), last - first + 1, 2);
@@ -80,7 +80,7 @@ Geometry lines_of(const Geos& geos, const ShapeOracle& shape, const Vector2& ori
                                                 static_cast<unsigned>(lines.size())));
 }
 
-/// The polygons of a geometry; lines and points that repair leaves behind are dropped.
+/// The polygons of a geometry; drops lines and points left by the repair.
 Geometry polygons_of(const Geos& geos, const GEOSGeometry& geometry) {
     std::vector<GEOSGeometry*> polygons;
     const auto collect = [&](const auto& self, const GEOSGeometry* part) -> void {
@@ -98,8 +98,8 @@ Geometry polygons_of(const Geos& geos, const GEOSGeometry& geometry) {
                                                 static_cast<unsigned>(polygons.size())));
 }
 
-/// The valid multipolygon that odd-even filling of all rings makes: each ring is repaired by its
-/// own line work, and rings are joined by symmetric difference.
+/// The valid multipolygon of all rings under the odd-even rule: each ring is repaired by its own
+/// line work, and rings are combined by symmetric difference.
 Geometry filled(const Geos& geos, const ShapeOracle& shape, const Vector2& origin) {
     Geometry sum{nullptr, Geos::Deleter{geos.handle()}};
     for_each_ring(shape, [&](std::uint32_t first, std::uint32_t last) {

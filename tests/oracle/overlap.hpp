@@ -5,33 +5,32 @@
 #include <optional>
 #include <span>
 
-/// \file
-/// Areas and predicates of whole shapes, by GEOS.
+/// \file Areas and predicates of whole shapes, computed by GEOS.
 
 namespace nearfield::oracle {
 
-/// What two shapes have in common.
+/// The intersection of two shapes.
 struct Overlap {
     double area = 0.0;
-    Rectangle box;  ///< around it; meaningful where the area is positive
+    Rectangle box;  ///< its bounding box; meaningful if the area is positive
 };
 
 /// Area of a shape by the odd-even rule, exact to rounding.
 [[nodiscard]] double area(const ShapeOracle& shape);
 
-/// The overlap of the interiors, exact to rounding.
+/// The intersection of the interiors, exact to rounding.
 [[nodiscard]] Overlap overlap(const ShapeOracle& a, const ShapeOracle& b);
 
-/// True where the closed shapes share a point: boundaries meet (all edges count, lines of no width
-/// too), or one shape holds a ring of the other.
+/// True if the closed shapes share a point: boundaries intersect (all edges count, zero-width lines
+/// too), or one shape contains a ring of the other.
 [[nodiscard]] bool intersects(const ShapeOracle& a, const ShapeOracle& b);
 
-/// The least distance between the two boundaries.
+/// The minimum distance between the two boundaries.
 [[nodiscard]] double boundary_distance(const ShapeOracle& a, const ShapeOracle& b);
 
-/// A pose of B, turned by `angle` and moved along `direction` (not zero) from where the two shapes
-/// have their middles in one place, at which the overlap is `share` (between 0 and 1) of the
-/// smaller area, to 1e-6 of it. None where they overlap by less with their middles in one place.
+/// A pose of B, turned by `angle` and moved along `direction` (not zero) from coinciding centres,
+/// at which the overlap is `share` (between 0 and 1) of the smaller area, to 1e-6 of it. Empty if
+/// the overlap is smaller even with coinciding centres.
 [[nodiscard]] std::optional<Pose> pose_for_overlap(const ShapeOracle& a, std::span<const Ring> b,
                                                    double angle, const Vector2& direction,
                                                    double share);

@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-/// \file
-/// The few operations on points that the oracle needs; its own, so that it shares no arithmetic
-/// with what it judges.
+/// \file The few point operations that the oracle needs. They are its own, so that it shares no
+/// arithmetic with the code it checks.
 
 namespace nearfield::oracle {
 

@@ -86,7 +86,7 @@ ShapeOracle::ShapeOracle(std::span<const Ring> rings, const Pose& pose)
         }
         begin += size;
     }
-    // A few dozen roundings of coordinates of this magnitude.
+    // A few dozen rounding errors for coordinates of this magnitude.
     rounding_ = 32 * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
@@ -99,7 +99,8 @@ bool ShapeOracle::contains(const Vector2& point) const {
         if ((from.y > p.y) == (to.y > p.y)) {
             return;
         }
-        // Right of the point, looking along the ray: left of an upward edge, right of a downward.
+        // To the right of the point as seen along the ray: left of an upward edge, right of a
+        // downward one.
         const bool upward = to.y > from.y;
         if ((orientation(from, to, p) > 0) == upward) {
             inside = !inside;
@@ -177,7 +178,7 @@ std::vector<Nearest> ShapeOracle::local_minima_within(const Vector2& point, doub
     std::vector<Nearest> result;
     for (const Nearest& candidate : edges_within(point, radius)) {
         if (candidate.feature.kind == Feature::Kind::vertex) {
-            // Edges of no length between repeated vertices are skipped on either side.
+            // Zero-length edges between repeated vertices are skipped on both sides.
             std::uint32_t after = candidate.feature.index;
             std::uint32_t before = previous_[after];
             while (!has_length(after) && next_[after] != candidate.feature.index) {

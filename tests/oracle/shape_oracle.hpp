@@ -18,16 +18,17 @@ struct Nearest {
     Feature feature;
 };
 
-/// A shape at a pose, answering questions about single points by trying every edge that can
+/// A shape at a pose that answers queries about single points by testing every edge that can
 /// matter. All points are in world coordinates.
 ///
-/// Vertices are placed in extended precision and kept relative to the middle of the shape, so the
-/// answers are good to about 1e-16 of the shape's own size wherever in the world it is.
+/// Vertices are transformed in extended precision and stored relative to the centre of the shape,
+/// so the answers are accurate to about 1e-16 of the shape's own size anywhere in the world.
 class ShapeOracle {
 public:
     explicit ShapeOracle(std::span<const Ring> rings, const Pose& pose = {});
 
-    /// Odd-even rule. Exact up to the placing of the vertices; on the boundary either answer.
+    /// Odd-even rule. Exact up to the transformation of the vertices; on the boundary either
+    /// answer.
     [[nodiscard]] bool contains(const Vector2& point) const;
 
     /// The nearest point of the boundary.
@@ -35,7 +36,7 @@ public:
 
     /// Distance to the boundary, negative inside.
     [[nodiscard]] double signed_distance(const Vector2& point) const;
-    /// How deep the point lies inside, negative outside.
+    /// The depth of a point inside, negative outside.
     [[nodiscard]] double depth(const Vector2& point) const { return -signed_distance(point); }
 
     /// The point of edge `edge` nearest to `point`.
@@ -44,8 +45,8 @@ public:
     /// For each edge that comes within `radius` of `point`, the edge's nearest point.
     [[nodiscard]] std::vector<Nearest> edges_within(const Vector2& point, double radius) const;
 
-    /// The points of the boundary, no farther than `radius`, from which the distance to `point`
-    /// grows in both directions along the boundary.
+    /// The boundary points within `radius` from which the distance to `point` grows in both
+    /// directions along the boundary.
     [[nodiscard]] std::vector<Nearest> local_minima_within(const Vector2& point,
                                                            double radius) const;
 
@@ -63,10 +64,11 @@ public:
     [[nodiscard]] Rectangle box() const;
     /// Length of the boundary.
     [[nodiscard]] double perimeter() const;
-    /// How far a double-precision computation may put a point of this shape from its exact place.
+    /// The maximum deviation of a double-precision computation of a point of this shape from its
+    /// exact position.
     [[nodiscard]] double rounding() const { return rounding_; }
 
-    /// Where local coordinates have their origin; world = local + origin.
+    /// The origin of local coordinates; world = local + origin.
     [[nodiscard]] const Vector2& origin() const { return origin_; }
     [[nodiscard]] std::span<const Vector2> local_vertices() const { return vertices_; }
     [[nodiscard]] const EdgeTree& local_edges() const { return tree_; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Hosts find the installed package by CMake, static and shared, and run.
+# Hosts find the installed package through CMake, static and shared, and run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 work="$place/by cmake"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Hosts find the installed package by pkg-config, static and shared, and run.
+# Hosts find the installed package through pkg-config, static and shared, and run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 work="$place/by pkg-config"
@@ -9,12 +9,12 @@ cd "$work"
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name nearfield.pc)")
 export PKG_CONFIG_PATH
 
-# pkg-config escapes what a shell would split, so its answers are for a shell to read.
+# pkg-config escapes its output for a shell, so a shell must parse it.
 declare -a compile static shared
 eval "compile=($(pkg-config --cflags nearfield))"
 eval "shared=($(pkg-config --libs nearfield))"
 eval "static=($(pkg-config --libs --static nearfield))"
-# Both libraries have one name; this one asks for the archive.
+# Both libraries have the same name; this selects the archive.
 static=("${static[@]/#-lnearfield/-l:libnearfield.a}")
 
 "$CXX" -std=c++20 -fno-exceptions -fno-rtti "${compile[@]}" main.cpp -o static_host "${static[@]}"

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What the tests of this folder share; sourced, never run. ctest says by SOURCE, BUILD and CXX where
-# the sources are, where they were built and by which compiler, and by PLACE which file names the
-# folder that the package was installed below.
+# Shared by the tests of this folder; sourced, never run. ctest sets SOURCE, BUILD and CXX to the
+# sources, the build folder and the compiler, and PLACE to the file that names the folder that the
+# package was installed below.
 set -euo pipefail
 
 fail() {
@@ -9,8 +9,8 @@ fail() {
     exit 1
 }
 
-# names_nothing_of_the_project FOLDER: no file below it holds the path of the sources or of the
-# build, so nothing made from it can reach either.
+# names_nothing_of_the_project FOLDER: no file below it contains the path of the sources or of the
+# build, so nothing built from it can refer to either.
 names_nothing_of_the_project() {
     local files
     files=$(grep --recursive --files-with-matches --fixed-strings -e "$SOURCE" -e "$BUILD" "$1" || true)

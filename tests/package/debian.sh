@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The Debian packages: what is in them, and what they say they need.
+# The contents and the dependencies of the Debian packages.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 work=$(mktemp --directory)

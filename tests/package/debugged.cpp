@@ -1,4 +1,4 @@
-// What debugger.sh looks at.
+// The program that debugger.sh inspects.
 #include <nearfield/context.hpp>
 
 namespace {

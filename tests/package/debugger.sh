@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# gdb's pretty printers, in a program that is stopped where there is one of each.
+# gdb's pretty printers, in a program stopped where every type has a value.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 work=$(mktemp --directory)
 trap 'rm -r -- "$work"' EXIT
 "$CXX" -std=c++20 -g -O0 "-I$SOURCE/include" "$SOURCE/tests/package/debugged.cpp" \
-    "$SOURCE/engine/status/status.cpp" -o "$work/debugged"
+    "$SOURCE/engine/base/status.cpp" -o "$work/debugged"
 
 commands=(-ex 'set debuginfod enabled off' -ex "source $SOURCE/tools/debug/nearfield_gdb.py"
     -ex 'set print pretty off' -ex 'break look' -ex run)

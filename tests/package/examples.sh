@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# The examples that are projects of their own, built with the installed package alone, static and
+# The examples that are independent projects, built with only the installed package, static and
 # shared, and run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# build_and_run EXAMPLE PATTERN: with either library; the output has to match.
+# build_and_run EXAMPLE PATTERN: with both libraries; the output must match.
 build_and_run() {
     local work shared output
     for shared in ON OFF; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Each installed header compiles alone, and all of them without Vulkan's prototypes, by GCC and by
-# Clang, with more warnings than a host is likely to have.
+# Each installed header compiles alone, and all of them without Vulkan's prototypes, with GCC and
+# Clang and more warnings than a host is likely to enable.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 compile() {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs all there is, moves it, and looks at it.
+# Installs everything, moves it, and inspects it.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 place=$(mktemp --directory "${TMPDIR:-/tmp}/nearfield package.XXXXXX")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The recipes of vcpkg and Conan, as far as they can be looked at without either: they parse, they are
-# of the version that the headers are, and every path and option in them is there.
+# Checks the vcpkg and Conan recipes as far as possible without either tool: they parse, their
+# version is that of the headers, and every path and option in them exists.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 python3 - "$SOURCE" <<'CHECK'

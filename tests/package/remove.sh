@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Takes away what install.sh made.
+# Removes what install.sh installed.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 rm -r -- "$place" "$PLACE"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A host takes the sources into its own build by FetchContent and gets the library, nothing else. Only
-# the host's own file is compiled here; what else would be is seen in the commands that ninja has for it.
+# A host includes the sources in its own build through FetchContent and gets only the library. Only
+# the host's own file is compiled here; ninja's commands show what else would be.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 work="$place/subproject"

@@ -11,8 +11,8 @@
 namespace nearfield::test {
 namespace {
 
-/// Samples are decided in integers, so nothing may differ where the grids are the same. Else there
-/// are other cells, and each driver's own are held against the oracle elsewhere.
+/// Coverage is decided in integers, so results on equal grids must be identical. On different grids
+/// the cells differ, and other tests compare each driver's results with the oracle.
 void check_agreement(Report& report, const Asked& asked, const IntersectionResult& one,
                      const IntersectionResult& other) {
     report.require(one.kind == other.kind, "kinds differ");
@@ -36,13 +36,13 @@ void check_agreement(Report& report, const Asked& asked, const IntersectionResul
     }
 }
 
-/// A place that two results name.
+/// A feature position that both results report.
 struct Place {
     Vector2 one;
     Vector2 other;
 };
 
-/// The search is finished exactly, whatever was rendered.
+/// The search ends with an exact computation, whatever was rendered.
 template <class Result>
 void check_closest(Report& report, const Result& one, const Result& other,
                    const std::array<Place, 2>& places) {
@@ -70,7 +70,7 @@ void check_agreement(Report& report, const Asked&, const SeparationResult& one,
                   {{{one.point_a, other.point_a}, {one.point_b, other.point_b}}});
 }
 
-/// What the CPU answers alone has to be the same, bit for bit.
+/// Answers from the CPU alone must be identical, bit for bit.
 template <class Result>
 void check_agreement(Report& report, const Asked&, const Result& one, const Result& other) {
     const auto numbers = [](const Result& result) {
@@ -95,7 +95,7 @@ bool same_regions(const ResultSummary& one, const ResultSummary& other) {
     return true;
 }
 
-/// What every result says.
+/// Members common to all results.
 void check_summaries(Report& report, SubPixelGrids grids, const ResultSummary& one,
                      const ResultSummary& other) {
     report.require(one.status.ok() && other.status.ok(), one.status.text(), " and ",
@@ -105,7 +105,7 @@ void check_summaries(Report& report, SubPixelGrids grids, const ResultSummary& o
     report.require(one.intersects == other.intersects, "intersects is ", one.intersects, " and ",
                    other.intersects);
     if (grids == SubPixelGrids::same) {
-        // A field's has a share of the largest value, which may differ by the bounds.
+        // For a field it includes a fraction of the largest value, which may differ by the bounds.
         const double share = std::ldexp(one.error_bound + other.error_bound, -21);
         report.require(std::abs(one.error_bound - other.error_bound) <= share, "bounds are ",
                        one.error_bound, " and ", other.error_bound);

@@ -6,58 +6,59 @@
 #include <tests/query/pair.hpp>
 #include <tests/query/report.hpp>
 
-/// \file
-/// How far the answers of two drivers to one query may be apart: what the public headers promise of
-/// each, taken together.
+/// \file The maximum difference between the answers of two drivers to one query, from the
+/// guarantees in the public headers.
 
 namespace nearfield::test {
 
-/// The grids to whose lines two drivers snap vertices (subPixelPrecisionBits).
+/// The sub-pixel grids to which two drivers snap vertices (subPixelPrecisionBits).
 enum class SubPixelGrids {
-    same,   ///< both drivers were given the same plan: cells, tiles and snapped vertices
-    apart,  ///< their own: cells of intersections and simplification differ
+    same,   ///< both drivers have the same plan: cells, tiles and snapped vertices
+    apart,  ///< different plans: cells of intersections and simplification differ
 };
 
 [[nodiscard]] bool same_feature(const Feature& one, const Feature& other);
 
-/// A feature that was named as the nearest one to a point.
+/// A feature reported as the nearest one to a point.
 struct NamedFeature {
     Feature feature;
-    Vector2 nearest;  ///< the place on it
+    Vector2 nearest;  ///< the nearest point on it
     double distance = 0.0;
     bool unique = true;
 };
 
-/// What may be named of a shape, where distances that differ by less than a margin count as equal.
+/// The features of a shape that may be reported as nearest, if distances that differ by less than a
+/// margin count as equal.
 struct Naming {
     const oracle::ShapeOracle& shape;
     double margin = 0.0;
     double rounding = 0.0;
 
-    /// Whether both may be named of the point: one feature, with all that follows from it; or one
-    /// of several, and both say so; or places that close on the same wall. Only one may say that
-    /// its feature is the only one where the margin, taken a tenth wider, holds another.
+    /// True if both may be reported for the point: the same feature, with everything that follows
+    /// from it; or one of several, with both flagged as not unique; or nearby points on the same
+    /// wall. Only one may claim to be unique, if another feature is within the margin enlarged by a
+    /// tenth.
     [[nodiscard]] bool allows(const Vector2& point, const NamedFeature& one,
                               const NamedFeature& other) const;
 
 private:
     [[nodiscard]] bool has_rival(const Vector2& point, const NamedFeature& named) const;
-    /// How far apart two places on a straight wall can be that are as near.
+    /// The maximum distance of two points on a straight wall that are about equally near.
     [[nodiscard]] double along_wall(double distance) const;
 };
 
-/// What both drivers were asked.
+/// The query for both drivers.
 struct Asked {
-    const PlacedPair& pair;  ///< whose shapes the query is about
+    const PlacedPair& pair;  ///< the pair of shapes in the query
     const AnyQuery& query;
     SubPixelGrids grids = SubPixelGrids::same;
 };
 
-/// Results of the query, which has to be answered. Each difference beyond what is promised is a
-/// test failure.
+/// Compares results of the query, which must be answered. Each difference beyond the guarantees is
+/// a test failure.
 void check_agreement(const Asked& asked, const AnyResult& one, const AnyResult& other);
 
-// Its parts, a kind of result each.
+// One function per kind of result.
 
 void check_agreement(Report& report, const Asked& asked, const PenetrationResult& one,
                      const PenetrationResult& other);

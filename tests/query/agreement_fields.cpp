@@ -13,7 +13,7 @@ Vector2 centre_of_cell(const DistanceFieldResult& result, std::size_t index) {
             result.origin.y + (static_cast<double>(index / result.width) + 0.5) * result.cell};
 }
 
-/// The place is computed anew: fields do not say it.
+/// Recomputes the nearest point, because fields do not contain it.
 NamedFeature named(const oracle::ShapeOracle& b, const Feature& feature, const Vector2& point,
                    bool unique) {
     const Vector2 place = feature.kind == Feature::Kind::vertex
@@ -60,8 +60,7 @@ void check_features(Report& report, const PlacedPair& pair, const DistanceFieldR
                    one.features.size(), " cells do not say the same");
 }
 
-/// Of analytic gradients those are compared whose features are the same: the others follow other
-/// features.
+/// Compares analytic gradients only if the features are equal, because each follows its feature.
 void check_gradients(Report& report, const DistanceFieldResult& one,
                      const DistanceFieldResult& other) {
     report.require(std::string(one.gradient_format) == other.gradient_format, "blended in ",

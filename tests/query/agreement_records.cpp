@@ -18,7 +18,7 @@ NamedFeature named(const ContactRecord& record) {
     return {record.feature, record.nearest, record.distance, record.unique};
 }
 
-/// Holds what both named against what may be named. Most has to be the same.
+/// Checks the features of both results against those allowed. Most must be equal.
 class NamedPairs {
 public:
     NamedPairs(Report& report, const Naming& naming) : report_(&report), naming_(naming) {}
@@ -53,7 +53,7 @@ std::vector<ContactRecord> of_side(const ContactResult& result, Side side) {
     return records;
 }
 
-/// Where all contacts are the same, so is what is made of them.
+/// If all contacts are equal, the manifolds must be equal.
 void check_manifolds(Report& report, ContactResult one, ContactResult other) {
     const auto numbers = [](const ContactResult& result) {
         Results results;
@@ -93,8 +93,8 @@ void check_agreement(Report& report, const Asked& asked, const PenetrationResult
                    deepest(one), " and ", deepest(other));
 }
 
-/// Normals that are gradients follow fields that may differ by their bounds, and a contact without
-/// a gradient is not unique: of such contacts neither is compared.
+/// Gradient normals follow fields that may differ by their bounds, and a contact without a gradient
+/// is not unique. For such contacts neither is compared.
 void check_agreement(Report& report, const Asked& asked, const ContactResult& one,
                      const ContactResult& other) {
     const auto& query = std::get<ContactQuery>(asked.query);

@@ -7,7 +7,7 @@
 namespace nearfield::test {
 namespace {
 
-/// Takes the numbers of one thing after the other.
+/// Collects the numbers of results in order.
 class NumberList {
 public:
     std::vector<double> numbers;
@@ -70,9 +70,8 @@ public:
     }
 
     void add_rest(const TimeOfImpactResult& r) {
-        add_all(r.state, r.time, r.time_error_bound, r.pose_a, r.pose_b, r.distance,
-                r.least_distance, r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b,
-                r.steps);
+        add_all(r.state, r.time, r.time_error_bound, r.pose_a, r.pose_b, r.distance, r.min_distance,
+                r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b, r.steps);
     }
     void add_rest(const SeparationVectorResult& r) {
         add_all(r.vector, r.length, r.lower_bound, r.work);

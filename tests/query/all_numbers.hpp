@@ -6,8 +6,8 @@
 
 namespace nearfield::test {
 
-/// Every number of every result of a batch, one after the other, times left out: two batches are
-/// answered the same, bit for bit, where these are equal.
+/// All numbers of all results of a batch in order, except times. Two batches have bitwise identical
+/// answers if these are equal.
 [[nodiscard]] std::vector<double> all_numbers(const Results& results);
 
 }  // namespace nearfield::test

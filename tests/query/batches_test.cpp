@@ -13,7 +13,7 @@ constexpr std::uint64_t seed = 300;
 
 class Batches : public QueryTest {
 protected:
-    /// All kinds of queries on every family's pair.
+    /// All kinds of queries on a pair from every family.
     struct Everything {
         std::deque<PlacedPair> pairs;
         Batch batch;
@@ -42,8 +42,8 @@ void expect_same(const PenetrationRecord& a, const PenetrationRecord& b) {
     EXPECT_EQ(a.direction, b.direction);
     EXPECT_EQ(a.nearest, b.nearest);
     EXPECT_EQ(a.feature.kind, b.feature.kind);
-    // Not the index: of edges that coincide any may be named, and a tile's place in the atlas may
-    // decide which. `nearest` lies on either.
+    // Not the index: any of several coincident edges may be reported, and the choice may depend on
+    // a tile's place in the atlas. `nearest` is on each of them.
     EXPECT_EQ(a.unique, b.unique);
 }
 
@@ -78,7 +78,7 @@ void expect_same(const DistanceFieldResult& a, const DistanceFieldResult& b) {
     EXPECT_EQ(a.values, b.values);
 }
 
-/// Bit for bit the same.
+/// Expects bitwise identical results.
 void expect_same(const AnyResult& a, const AnyResult& b) {
     ASSERT_EQ(a.index(), b.index());
     std::visit(
@@ -94,8 +94,8 @@ void expect_same(const AnyResult& a, const AnyResult& b) {
         a);
 }
 
-/// The same up to what the bounds of both allow: how far a shape is simplified depends on what else
-/// the batch asks of it.
+/// Expects equal results up to both bounds: how far a shape is simplified depends on the other
+/// queries of the batch.
 void expect_alike(const DistanceFieldResult& a, const DistanceFieldResult& b) {
     ASSERT_TRUE(a.status.ok() && b.status.ok());
     EXPECT_EQ(a.origin, b.origin);
@@ -138,7 +138,7 @@ TEST_F(Batches, RunTwiceGiveTheSame) {
     Results second;
     ASSERT_TRUE(context().run(all.batch, first).ok());
     ASSERT_TRUE(context().run(all.batch, second).ok());
-    // The same object a second time: nothing of the first answer is left in it.
+    // Reuses the result object: nothing of the first answer may remain.
     ASSERT_TRUE(context().run(all.batch, first).ok());
     ASSERT_EQ(first.results.size(), second.results.size());
     for (std::size_t i = 0; i < first.results.size() && !HasFailure(); ++i) {
@@ -188,7 +188,7 @@ TEST_F(Batches, OfManySmallPairsHold) {
 }
 
 TEST_F(Batches, OneShapeManyTimes) {
-    // A shape against itself at several places and tolerances in one batch.
+    // A shape against itself at several poses and tolerances in one batch.
     Random random(seed);
     const PlacedPair pair(
         context(), {{"A", with_holes(random, 4)}, {"B", star(random, 30, 0.6)}, {}, {}, 0.05});

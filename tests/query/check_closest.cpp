@@ -11,9 +11,8 @@ namespace {
 using oracle::Nearest;
 using oracle::ShapeOracle;
 
-/// True where a pair of boundary points within `limit` of each other has a point farther than
-/// `apart` from that of the closest pair; looked for at the vertices of both, where there is one if
-/// there is any.
+/// True if a pair of boundary points within `limit` of each other has a point farther than `apart`
+/// from that of the closest pair. Searches the vertices of both, which suffices.
 bool has_rival(const PlacedPair& pair, const SeparationResult& result, double limit, double apart) {
     const auto elsewhere = [&](const Vector2& on_a, const Vector2& on_b) {
         return oracle::distance(on_a, result.point_a) > apart ||
@@ -102,7 +101,7 @@ void check_separation(const PlacedPair& pair, const SeparationResult& result) {
     if (!result.status.ok()) {
         return;
     }
-    // Rounding of double precision, twice: the library's and the oracle's.
+    // Rounding errors in double precision of both the library and the oracle.
     const double allowed = 4.0 * pair.rounding() + 1e-15 * result.distance;
     report.require(result.error_bound <= pair.tolerance(), "the bound is ", result.error_bound);
     if (result.intersects) {
@@ -119,7 +118,7 @@ void check_same(const SeparationResult& separation, const ClosestPointResult& cl
                    "status or `intersects` differs from the separation's");
     report.require(closest.distance == separation.distance, "the closest point is ",
                    closest.distance, " away, the separation ", separation.distance);
-    // Where the pair is the only one, so is A's point of it; of several either may name any.
+    // If the pair is unique, so is A's point of it; otherwise either may be reported.
     report.require(!separation.unique || (closest.unique && closest.point == separation.point_a &&
                                           closest.nearest == separation.point_b),
                    "closest point and separation differ");

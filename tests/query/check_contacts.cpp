@@ -16,13 +16,13 @@ double signed_distance(const ContactRecord& contact) {
     return contact.inside ? -contact.distance : contact.distance;
 }
 
-/// The point of B's boundary whose normal a contact gives.
+/// The point of B's boundary whose normal a contact reports.
 Vector2 place_on_b(const ContactRecord& contact) {
     return contact.on == Side::a ? contact.nearest : contact.point;
 }
 
-/// Signed distance to B grows along the normal. Not where another part of B's boundary, or a corner
-/// seen from its side, is so near that the steps do not stay clear of it.
+/// The signed distance to B must grow along the normal. Skipped if another part of B's boundary, or
+/// a corner beside the normal, is within reach of the steps.
 void check_normal(Report& report, const PlacedPair& pair, const ContactRecord& contact) {
     report.require(std::abs(oracle::length(contact.normal) - 1.0) < 1e-9, "a normal's length is ",
                    oracle::length(contact.normal));
@@ -56,10 +56,11 @@ void check_record(Report& report, const PlacedPair& pair, double contact_distanc
     check_normal(report, pair, contact);
 }
 
-/// Every boundary point clearly within the contact distance has a record of its side nearby.
+/// Every boundary point clearly within the contact distance must have a record of its own boundary
+/// nearby.
 void check_complete(Report& report, const PlacedPair& pair, double contact_distance,
                     const ContactResult& result) {
-    constexpr std::size_t most_samples = 2000;
+    constexpr std::size_t max_samples = 2000;
     for (const Side side : {Side::a, Side::b}) {
         const ShapeOracle& own = side == Side::a ? pair.a() : pair.b();
         const ShapeOracle& other = side == Side::a ? pair.b() : pair.a();
@@ -69,7 +70,7 @@ void check_complete(Report& report, const PlacedPair& pair, double contact_dista
                 records.add(contact.point);
             }
         }
-        for (const Vector2& p : oracle::sample_boundary(own, pair.tolerance() / 2, most_samples)) {
+        for (const Vector2& p : oracle::sample_boundary(own, pair.tolerance() / 2, max_samples)) {
             const double distance = other.nearest(p).distance;
             report.require(distance > contact_distance - result.error_bound || records.has_near(p),
                            "no contact within the bound of ", p.x, ", ", p.y, ", which is ",
@@ -86,10 +87,10 @@ void check_manifold(Report& report, const PlacedPair& pair, double contact_dista
         of_a += contact.on == Side::a ? 1U : 0U;
     }
     std::size_t in_clusters = 0;
-    double most_extreme = contact_distance;
+    double max_extreme = contact_distance;
     for (const ContactCluster& cluster : result.manifold) {
         in_clusters += cluster.count;
-        most_extreme = std::min(most_extreme, signed_distance(cluster.extreme));
+        max_extreme = std::min(max_extreme, signed_distance(cluster.extreme));
         for (const Vector2& end : {cluster.first, cluster.last}) {
             report.require(pair.a().nearest(end).distance <= allowed, "an end is off A");
             report.require(pair.b().nearest(end).distance <= contact_distance + allowed,
@@ -110,8 +111,8 @@ void check_manifold(Report& report, const PlacedPair& pair, double contact_dista
     for (const ContactRecord& contact : result.records) {
         truth = std::min(truth, signed_distance(contact));
     }
-    report.require(most_extreme == truth, "the most extreme contact is ", truth,
-                   ", that of the manifold ", most_extreme);
+    report.require(max_extreme == truth, "the most extreme contact is ", truth,
+                   ", that of the manifold ", max_extreme);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace nearfield::test {
 
 void check_field(const oracle::ShapeOracle& b, double tolerance, const DistanceFieldResult& result,
-                 std::size_t most_cells) {
+                 std::size_t max_cells) {
     Report report("distance field");
     check_summary(report, result, tolerance);
     if (!result.status.ok()) {
@@ -21,7 +21,7 @@ void check_field(const oracle::ShapeOracle& b, double tolerance, const DistanceF
         return;
     }
     Random random(cells);
-    const std::size_t checked = std::min(cells, most_cells);
+    const std::size_t checked = std::min(cells, max_cells);
     const double most = result.error_bound * (1 + 1e-6) + b.rounding();
     for (std::size_t i = 0; i < checked; ++i) {
         const std::size_t index =

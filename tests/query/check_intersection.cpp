@@ -22,7 +22,7 @@ bool by_boundary_b(IntersectionKind kind) {
     return kind == IntersectionKind::boundary_boundary;
 }
 
-/// Distance from what takes part of a shape: its boundary, or its interior.
+/// The distance to the part of a shape in question: its boundary or its interior.
 double distance_from(const ShapeOracle& shape, bool by_boundary, const Vector2& p) {
     return by_boundary ? shape.nearest(p).distance : std::max(0.0, shape.signed_distance(p));
 }
@@ -49,7 +49,7 @@ void check_samples(Report& report, const PlacedPair& pair, IntersectionKind kind
     }
 }
 
-/// Samples are centres of cells of the regions, by region, then row, then column.
+/// Samples must be cell centres of the regions, ordered by region, row, column.
 void check_grid(Report& report, const PlacedPair& pair, const IntersectionResult& result) {
     const double allowed = 1e-6 * result.cell + pair.rounding();
     std::tuple<std::size_t, long, long> last{0, -1, -1};
@@ -76,7 +76,7 @@ void check_grid(Report& report, const PlacedPair& pair, const IntersectionResult
     }
 }
 
-/// Points that have to have a sample within the bound.
+/// Points that must have a sample within the bound.
 std::vector<Vector2> points_to_find(const PlacedPair& pair, IntersectionKind kind, double bound) {
     constexpr std::size_t most = 4000;
     std::vector<Vector2> points;
@@ -119,10 +119,10 @@ void check_complete(Report& report, const PlacedPair& pair, IntersectionKind kin
     }
 }
 
-/// Length of the part of A's boundary that is in B or within `reach` of it.
+/// The length of the part of A's boundary that is in B or within `reach` of it.
 double length_near(const ShapeOracle& a, const ShapeOracle& b, double reach) {
-    constexpr double most_pieces = 4000;
-    const double spacing = std::max(reach, a.perimeter() / most_pieces);
+    constexpr double max_pieces = 4000;
+    const double spacing = std::max(reach, a.perimeter() / max_pieces);
     double sum = 0.0;
     for (const oracle::Edge& edge : a.local_edges().edges()) {
         const Vector2 along = oracle::minus(edge.to, edge.from);
@@ -138,8 +138,8 @@ double length_near(const ShapeOracle& a, const ShapeOracle& b, double reach) {
     return sum;
 }
 
-/// Cells can be wrong only near a boundary that is near the other shape: within the bound and the
-/// cell's own half diagonal of it, on either side.
+/// A cell can be wrong only near a boundary that is near the other shape: on either side, within
+/// the bound plus the cell's half diagonal.
 void check_area(Report& report, const PlacedPair& pair, const IntersectionResult& result) {
     const double reach = result.error_bound + pair.tolerance();
     const double length =

@@ -34,9 +34,9 @@ std::string text_of(const NearestClaim& claim) {
     return text.str();
 }
 
-/// The flag has to be down where another local minimum of the distance is clearly within d/1000 and
-/// farther from `nearest` than twice what points of one straight wall within d/1000 could be; and
-/// up where no edge has a point within d/1000 in any other direction.
+/// The flag must be cleared if another local minimum of the distance is clearly within d/1000 and
+/// farther from `nearest` than twice the extent of one straight wall's points within d/1000; it
+/// must be set if no edge has a point within d/1000 in any other direction.
 void check_unique(Report& report, const NearestTruth& truth, const NearestClaim& claim) {
     const double slack = truth.tolerance / 1000;
     if (claim.unique) {

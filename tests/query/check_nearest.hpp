@@ -5,7 +5,7 @@
 
 namespace nearfield::test {
 
-/// What a record says about a point of one boundary and the nearest point of the other.
+/// The part of a record that relates a point of one boundary to the nearest point of the other.
 struct NearestClaim {
     Vector2 point;
     double distance = 0.0;
@@ -14,20 +14,20 @@ struct NearestClaim {
     bool unique = true;
 };
 
-/// The two boundaries, and what claims about them may be off by.
+/// The two boundaries and the allowed error of claims about them.
 struct NearestTruth {
     const oracle::ShapeOracle& own;    ///< the point's boundary
     const oracle::ShapeOracle& other;  ///< the boundary of its nearest point
     double tolerance = 0.0;
-    double allowed = 0.0;  ///< rounding, no more
+    double allowed = 0.0;  ///< rounding only
 };
 
-/// What points and directions may differ by from exact ones: rounding, no more. Only the choice
-/// between features that are equally near within d/1000 is left to the library.
+/// The allowed error of points and directions: rounding only. The library is free only to choose
+/// between features that are equally near within d/1000.
 [[nodiscard]] double allowed_rounding(const PlacedPair& pair);
 
-/// The point is on its boundary, `nearest` on the other one and on its feature, the distance is
-/// right, and the flag is where it must be.
+/// The point must be on its boundary, `nearest` on the other one and on its feature, the distance
+/// correct, and the flag set where required.
 void check_nearest(Report& report, const NearestTruth& truth, const NearestClaim& claim);
 
 }  // namespace nearfield::test

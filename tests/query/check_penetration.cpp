@@ -33,7 +33,7 @@ void check_record(Report& report, const PlacedPair& pair, const PenetrationRecor
     report.require(record.depth > 0.0, "depth ", record.depth);
 }
 
-/// The lowest place along A's rings, not before `from`, where the point lies; infinity: none.
+/// The lowest position of the point along A's rings, not before `from`; infinity if there is none.
 double place_along(const ShapeOracle& a, const Vector2& point, double from, double allowed) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const Nearest& on_edge : a.edges_within(point, allowed)) {
@@ -46,7 +46,8 @@ double place_along(const ShapeOracle& a, const Vector2& point, double from, doub
     return lowest;
 }
 
-/// Records follow A's rings: edge numbers do not fall, but for one wrap a ring at most.
+/// Records must follow A's rings: edge numbers never decrease, except for at most one wrap per
+/// ring.
 void check_order(Report& report, const PlacedPair& pair, const PenetrationResult& result) {
     const double allowed = allowed_rounding(pair);
     std::size_t falls = 0;
@@ -83,7 +84,8 @@ void check_deepest(Report& report, const PlacedPair& pair, PenetrationPoints poi
     report.require(deepest >= truth.depth - result.error_bound - allowed, "deepest is ", deepest,
                    " with a bound of ", result.error_bound, "; A's boundary at ", truth.point.x,
                    ", ", truth.point.y, " is at depth ", truth.depth);
-    // Of edges that are equally near to within d/1000 any may be named, the farther one too.
+    // Any of several edges that are equally near within d/1000 may be reported, including the
+    // farther one.
     const double choice = 1e-3 * pair.tolerance();
     report.require(result.count == 0 || deepest <= std::max(truth.upper, 0.0) + choice + allowed,
                    "deepest is ", deepest, ", but no point of A's boundary is deeper than ",
@@ -92,13 +94,13 @@ void check_deepest(Report& report, const PlacedPair& pair, PenetrationPoints poi
 
 void check_boundary_complete(Report& report, const PlacedPair& pair,
                              const PenetrationResult& result) {
-    constexpr std::size_t most_samples = 4000;
+    constexpr std::size_t max_samples = 4000;
     const double d = pair.tolerance();
     PointIndex records(2 * d * (1 + 1e-9));
     for (const PenetrationRecord& record : result.records) {
         records.add(record.point);
     }
-    for (const Vector2& p : oracle::sample_boundary(pair.a(), d / 2, most_samples)) {
+    for (const Vector2& p : oracle::sample_boundary(pair.a(), d / 2, max_samples)) {
         report.require(records.has_near(p) || pair.b().depth(p) <= d, "no record within 2 d of ",
                        p.x, ", ", p.y, " on A's boundary, which is deep inside B");
     }

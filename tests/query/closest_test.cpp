@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t seed = 2718;
 
-/// Pairs that are more often apart than any_pair's.
+/// Pairs that are disjoint more often than any_pair's.
 Pair any_apart_pair(Random& random) {
     Pair pair = any_pair(random);
     const double far = random.scale(0.1, 1000.0) * pair.tolerance * 10.0;
@@ -92,10 +92,10 @@ TEST_F(Closest, ContainmentIsDistanceZero) {
     const Rings inner = rectangle({-1, -1}, {1, 1});
     EXPECT_TRUE(check(outer, inner, 0.1).intersects);
     EXPECT_TRUE(check(inner, outer, 0.1).intersects);
-    // In a hole there is a distance.
+    // Inside a hole there is a positive distance.
     const Rings frame{outer[0], rectangle({-3, -3}, {3, 3})[0]};
     EXPECT_EQ(check(frame, inner, 0.1).distance, 2.0);
-    // One part of several inside.
+    // One of several parts is inside.
     const Rings parts{rectangle({10, 0}, {11, 1})[0], inner[0]};
     EXPECT_EQ(check(parts, outer, 0.1).distance, 0.0);
 }

@@ -24,7 +24,7 @@ std::vector<Vector2> points_in(Random& random, const Rectangle& box, int count) 
     return points;
 }
 
-/// Distance fields by the compute technique, held to the oracle and to the raster's signs.
+/// Distance fields by the compute technique, compared with the oracle and with the raster's signs.
 class ComputeFields : public FieldLaws {
 protected:
     static void check(Context& context, const oracle::ShapeOracle& b, DistanceFieldQuery query) {
@@ -96,20 +96,21 @@ TEST_F(ComputeFields, HoldForEveryFamilyAndARealOutline) {
     check(iceland, 2.0, oracle::ShapeOracle(iceland, {}).box(), false);
 }
 
-/// Vertices on samples and on rows of samples, slivers, folds: signs have to be the raster's.
+/// Vertices on samples and on rows of samples, slivers, folds: signs must equal the raster's.
 TEST_F(ComputeFields, HoldForNastyPolygons) {
     constexpr std::uint32_t cells = 40;
     int checked = 0;
-    for (const support::NastyPolygon& nasty : support::nasty_polygons(cells, cells, seed)) {
-        SCOPED_TRACE(nasty.name);
+    for (const support::NastyPolygon& degenerate :
+         support::degenerate_polygons(cells, cells, seed)) {
+        SCOPED_TRACE(degenerate.name);
         std::vector<Ring> rings;
-        for (const auto& ring : nasty.rings) {
+        for (const auto& ring : degenerate.rings) {
             Ring& plain = rings.emplace_back();
             for (const auto& vertex : ring) {
                 plain.push_back({vertex.x(), vertex.y()});
             }
         }
-        // Some are no shapes at all.
+        // Some are invalid as shapes.
         if (const auto shape = context().add_shape(rings); shape.ok()) {
             EXPECT_TRUE(context().remove_shape(*shape).ok());
             check(rings, 1.0 / std::numbers::sqrt2, {{0, 0}, {cells, cells}}, false);
@@ -120,7 +121,7 @@ TEST_F(ComputeFields, HoldForNastyPolygons) {
 }
 
 TEST_F(ComputeFields, HoldWhereABlockHasHundredsOfEdges) {
-    // A comb of 30 teeth a cell, over all of a block's height.
+    // A comb with 30 teeth per cell over the full height of a block.
     const double d = 0.5;
     const double cell = d * std::numbers::sqrt2;
     Ring comb;
@@ -141,7 +142,7 @@ TEST_F(ComputeFields, HoldForCoastLinesOfEverySize) {
             check(coast(random, vertices, roughness), 0.013, {{-1.5, -1.4}, {1.4, 1.5}}, false);
         }
     }
-    // So dense that no edge but those on the outside is nearest anywhere.
+    // So dense that only the outer edges are ever nearest.
     check(star(random, 5000, 0.2), 0.02, {{-1.1, -1.2}, {1.2, 1.1}}, false);
     for (const char* name :
          {"/sweden_50m.geojson", "/cuba_50m.geojson", "/sri_lanka_10m.geojson"}) {
@@ -179,7 +180,7 @@ TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
 }
 
 TEST_F(ComputeFields, HoldOverManyRounds) {
-    // So little memory that a round has 256 x 256 cells.
+    // So little memory that a tile batch has 256 x 256 cells.
     Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 24U << 20U}));
     ASSERT_TRUE(small.ok()) << small.status().text();
     Random random(seed);
@@ -234,7 +235,7 @@ TEST_F(ComputeFields, StandBesideAllOtherQueriesInOneBatch) {
         EXPECT_EQ(results[contacts[i]].count, results[contacts[0]].count);
         EXPECT_GT(results[contacts[i]].count, 0U);
     }
-    // The graph of the last round, which is the compute technique's.
+    // The graph of the last tile batch, which is the compute technique's.
     const std::string graph = context().describe_graph(GraphFormat::text);
     EXPECT_NE(graph.find("mark edges"), std::string::npos) << graph;
 }
@@ -255,7 +256,7 @@ TEST_F(ComputeFields, BlendedGradientsAreRefusedByName) {
 }
 
 TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
-    // More kinds of batches than recipes are kept for: images of the first ones are destroyed.
+    // More kinds of batches than cached compiled graphs: images of the first ones are destroyed.
     Expected<Context> made = Context::create(host_device(), drawing());
     ASSERT_TRUE(made.ok()) << made.status().text();
     Random random(seed);
@@ -286,7 +287,7 @@ TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
         ASSERT_TRUE(made->run(batch, results).ok());
         PenetrationQuery computed = pair.penetration();
         computed.technique = Technique::compute;
-        // Two in flight, so that sets are looked at while images are being destroyed.
+        // Two in flight, so that descriptor sets are inspected while images are destroyed.
         Batch points;
         points.add(computed);
         const Expected<Ticket> first = made->submit(points);

@@ -59,7 +59,7 @@ TEST_F(Contacts, ABoxOnAFloorHasTwoEndsAndOneNormal) {
     expect_near(cluster.normal, {0, 1});
     EXPECT_NEAR(cluster.extreme.distance, 0.05, 1e-12);
     EXPECT_FALSE(cluster.extreme.inside);
-    // Sunk in a little: the corners are the deepest there is.
+    // Slightly penetrating: the corners are the deepest points.
     const ContactResult sunk = check(rectangle({-1, -0.05}, {1, 2}), floor, 0.1, 0.2);
     ASSERT_GE(sunk.manifold.size(), 1U);
     EXPECT_TRUE(sunk.manifold.front().extreme.inside);
@@ -71,7 +71,7 @@ TEST_F(Contacts, AStretchStraightThroughAWallIsItsDeepestPoint) {
         check(rectangle({0, 0}, {10, 10}), rectangle({9, -5}, {20, 15}), 0.05, 0.4);
     ASSERT_EQ(result.manifold.size(), 2U);
     for (const ContactCluster& cluster : result.manifold) {
-        // Along the wall it has no extent.
+        // No extent along the wall.
         EXPECT_EQ(cluster.first, cluster.last);
     }
 }
@@ -98,7 +98,7 @@ TEST_F(Contacts, ACornerInACornerHasTwoStretches) {
 }
 
 TEST_F(Contacts, ATipBetweenTwoSamplesIsFound) {
-    // Closer than a quarter of a cell to a long edge of A, half way between two samples of it.
+    // Closer than a quarter of a cell to a long edge of A, midway between two samples of it.
     const Rings edge = rectangle({0, -1}, {10, 0});
     const ContactResult result = check(edge, {{{5.05, 0.01}, {6, 2}, {4, 2}}}, 0.2, 0.03);
     ASSERT_EQ(result.manifold.size(), 1U);
@@ -119,7 +119,7 @@ TEST_F(Contacts, SharedEdgesTouchAtDistanceZero) {
 }
 
 TEST_F(Contacts, NormalsByTheGradientAreThoseOfTheFieldNearWalls) {
-    // Away from corners central differences of a straight wall's distance are its normal.
+    // Away from corners, central differences of a straight wall's distance equal its normal.
     const PlacedPair placed(context(), {{"A", rectangle({-1, 0.05}, {1, 2})},
                                         {"B", rectangle({-10, -1}, {10, 0})},
                                         {{0, 0}, 0.3},
@@ -160,7 +160,7 @@ TEST_F(Contacts, NormalsByTheGradientPointOutOfRandomShapes) {
             close += oracle::dot(normal, analytic.records[i].normal) > 0.9 ? 1U : 0U;
         }
     });
-    // Thin features and corners are what central differences get wrong.
+    // Central differences are wrong at thin features and corners.
     EXPECT_GT(compared, 500U);
     EXPECT_GT(close, compared / 2);
 }

@@ -7,18 +7,18 @@
 
 namespace nearfield::test {
 
-/// A pair that some query once answered wrongly, and what a contact query asked with.
+/// A pair for which a query once gave a wrong answer, with the contact query's distance.
 struct CorpusCase {
     std::string name;
     Pair pair;
     double contact_distance = 0.0;
 };
 
-/// Every case of a folder of JSON files. Throws std::runtime_error where one cannot be read.
+/// Reads every case in a folder of JSON files. Throws std::runtime_error if one cannot be read.
 [[nodiscard]] std::vector<CorpusCase> read_corpus(const std::filesystem::path& folder);
 
-/// While it lives, watches whether an expectation fails; if so, the pair is written into the folder
-/// that the environment variable NEARFIELD_CORPUS names, ready for tests/data/corpus.
+/// During its lifetime, watches for failed expectations. If one fails, it writes the pair into the
+/// folder named by the environment variable NEARFIELD_CORPUS, ready for tests/data/corpus.
 class CorpusKeeper {
 public:
     CorpusKeeper(const Pair& pair, double contact_distance);

@@ -5,7 +5,7 @@
 namespace nearfield::test {
 namespace {
 
-/// Pairs that some query once answered wrongly: every query has to answer them right.
+/// Pairs for which a query once gave a wrong answer; every query must answer them correctly.
 class Corpus : public QueryTest {};
 
 TEST_F(Corpus, EveryQueryIsRight) {

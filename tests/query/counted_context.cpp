@@ -95,7 +95,7 @@ void CountedContext::make(const Settings& settings) {
 
 void CountedContext::make(std::uint32_t frames) {
     Settings settings;
-    settings.frames_in_flight = frames;
+    settings.batches_in_flight = frames;
     make(settings);
 }
 

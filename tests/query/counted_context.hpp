@@ -9,17 +9,17 @@
 
 namespace nearfield::test {
 
-/// What the library asks of queue and command buffers, counted on the way there.
+/// Counts of the library's calls on queue and command buffers.
 struct Calls {
     int submissions = 0;
     int waits = 0;
     int render_passes = 0;
-    int recordings = 0;        ///< of every kind of recording there is a command that comes first
-    bool lose_device = false;  ///< waiting says so, after it has waited
+    int recordings = 0;        ///< counts a command that starts every kind of recording
+    bool lose_device = false;  ///< waiting reports a lost device after it has waited
 };
 extern Calls calls;
 
-/// Tests that make a context of their own, with two shapes, whose calls are counted.
+/// Tests with their own context with two shapes, whose calls are counted.
 class CountedContext : public QueryTest {
 protected:
     void make(const Settings& settings);
@@ -29,7 +29,7 @@ protected:
     [[nodiscard]] Context& counted() { return *counted_; }
     void destroy() { counted_.reset(); }
 
-    /// What run() says; each query has to be answered.
+    /// The numbers from run(); each query must be answered.
     [[nodiscard]] std::vector<double> run(const Batch& batch);
     [[nodiscard]] std::vector<double> collect(Ticket ticket);
     [[nodiscard]] Ticket submit(const Batch& batch);

@@ -22,7 +22,7 @@ double signed_distance(const Circle& circle, const Vector2& point) {
     return distance(circle.centre, point) - circle.radius;
 }
 
-/// The deepest point of the boundary of `a` in `b`; below 0 where there is none inside.
+/// The depth of the deepest point of the boundary of `a` in `b`; negative if none is inside.
 double deepest(const Circle& a, const Circle& b) {
     return b.radius - std::abs(distance(a.centre, b.centre) - a.radius);
 }
@@ -93,11 +93,11 @@ void check_field(const Circle& circle, const DistanceFieldResult& result) {
 
 TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
     const Circle circle{{0.3, -0.2}, 2.0};
-    // Of the fewest sub-pixel bits a raster needs three quarters of the tolerance for itself, and
-    // something for rounding, which leaves less than a quarter for the rings (error budget).
+    // With the minimum number of sub-pixel bits, a raster needs three quarters of the tolerance
+    // plus a margin for rounding, which leaves less than a quarter for the rings (error budget).
     const bool coarse = sub_pixel_bits(host_device()) == 4;
     for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
-        for (const double share : {0.05, 0.248, most_deviation}) {
+        for (const double share : {0.05, 0.248, max_deviation}) {
             SCOPED_TRACE(std::string(to_string(technique)) + " " + std::to_string(share));
             DistanceFieldQuery query;
             query.b = add(circle, share * 0.2);
@@ -105,7 +105,7 @@ TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
             query.rectangle = Rectangle{{-4, -4}, {4, 4}};
             query.technique = technique;
             const DistanceFieldResult result = run_alone(context(), query);
-            if (coarse && share == most_deviation && technique != Technique::cpu) {
+            if (coarse && share == max_deviation && technique != Technique::cpu) {
                 EXPECT_EQ(result.status.code(), StatusCode::invalid_query);
                 EXPECT_NE(result.status.message().find("this device's raster"), std::string::npos)
                     << result.status.text();
@@ -116,7 +116,7 @@ TEST_F(Curves, FieldOfACircleIsWithinItsBoundOfTheAnalyticAnswer) {
     }
 }
 
-/// Every sample near what it is said to be near, every point of the truth near a sample.
+/// Every sample is near the shape it belongs to, and every true point is near a sample.
 TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
     const Circle a{{0, 0}, 2.0};
     const Circle b{{2.6, 0.5}, 1.5};
@@ -161,7 +161,7 @@ TEST_F(Curves, IntersectionsOfCirclesKeepTheirLaw) {
             }
         }
         if (boundary_b) {
-            // Where both circles cross, by Heron's formula.
+            // The crossings of both circles, by Heron's formula.
             const double between = distance(a.centre, b.centre);
             const double along =
                 (a.radius * a.radius - b.radius * b.radius + between * between) / (2.0 * between);
@@ -187,10 +187,10 @@ TEST_F(Curves, TooMuchDeviationIsRefusedByName) {
     EXPECT_EQ(result.status.code(), StatusCode::invalid_query);
     EXPECT_NE(result.status.message().find("off by 0.03 (A) and 0.03 (B)"), std::string::npos)
         << result.status.message();
-    // A distance field does not depend on A but for its box.
+    // A distance field depends on A only through its box.
     DistanceFieldQuery field{query.a, query.b, 0.2, std::nullopt};
     EXPECT_TRUE(run_alone(context(), field).status.ok());
-    // An update says anew how far the rings are off.
+    // An update replaces the deviation of the rings.
     const std::vector<Ring> rings{{{0, 0}, {2, 0}, {2, 2}}};
     ASSERT_TRUE(context().update_shape(query.a.shape, rings).ok());
     EXPECT_TRUE(run_alone(context(), query).status.ok());

@@ -6,16 +6,16 @@
 
 namespace nearfield::test {
 
-/// The device as a host asks about it before it makes one.
+/// The physical device, as a host inspects it before it creates a device.
 [[nodiscard]] PhysicalDevice physical_device_of(const HostDevice& host);
 
-/// Whether the device has the optional part of that name (Requirements::optional).
+/// True if the device has the optional part with that name (Requirements::optional).
 [[nodiscard]] bool offers(const HostDevice& host, const char* part);
 
-/// VkPhysicalDeviceLimits::subPixelPrecisionBits: 4, the fewest that a device may have, or more.
+/// VkPhysicalDeviceLimits::subPixelPrecisionBits: 4, the minimum that Vulkan requires, or more.
 [[nodiscard]] std::uint32_t sub_pixel_bits(const HostDevice& host);
 
-/// What a query has to say whose strategy needs the feature logicOp, of a device that has it not.
+/// Expects the error of a query whose strategy needs the feature logicOp on a device without it.
 void expect_logic_op_refused(const IntersectionResult& result);
 
 }  // namespace nearfield::test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-// Where single precision on the device, or double precision in the world, comes to its end.
+// Cases at the limits of single precision on the device and of double precision in the world.
 
 namespace nearfield::test {
 namespace {
@@ -46,7 +46,8 @@ protected:
         query.a.shape = *a;
         query.b.shape = *b;
         query.tolerance = tolerance;
-        // A length of 0.1 for each long edge inside, samples at most d times the root of two apart.
+        // A length of 0.1 for each long edge inside, with samples at most d times the square root
+        // of two apart.
         const double of_an_edge = 0.1 / (tolerance * std::numbers::sqrt2);
         const double edges_inside = low > -0.05 ? 2.0 : 1.0;
         for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
@@ -68,13 +69,13 @@ protected:
 };
 
 TEST_F(LongStrip, IsSampledWhereItMatters) {
-    // 14,000,000,000 parts an edge, more than 32 bits count, and 700,000,000.
+    // 14,000,000,000 samples per edge, more than 32 bits can count, and 700,000,000.
     expect_samples(-0.001, 0.049, 1e-4);
     expect_samples(-0.001, 0.049, 2e-3);
 }
 
 TEST_F(LongStrip, IsSampledWhereItMattersAlongAnEdge) {
-    // The lower edge of the strip lies on that of the square.
+    // The lower edge of the strip is on that of the square.
     expect_samples(-0.05, 0.049, 1e-4);
     expect_samples(-0.05, 0.049, 2e-3);
 }
@@ -97,7 +98,7 @@ TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
         EXPECT_LE(result.error_bound, 0.1);
         EXPECT_LT(x, 1e7);
         for (std::uint32_t column = 0; column < result.width; ++column) {
-            // The lowest row of cell centres lies between the box's lower and upper side.
+            // The lowest row of cell centres is between the box's lower and upper side.
             const double centre = result.origin.x + (column + 0.5) * result.cell;
             EXPECT_NEAR(static_cast<double>(result.values[column]), centre - 1.0,
                         result.error_bound);
@@ -107,7 +108,7 @@ TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
 }
 
 TEST_F(Extremes, TolerancesThatCoordinatesCannotResolveAreRefused) {
-    // Its own coordinates are huge; in the world it stands near the origin.
+    // Its own coordinates are huge; in the world it is near the origin.
     const auto far = context().add_shape(rectangle({5e11, 5e11}, {5e11 + 1.0, 5e11 + 1.0}));
     const auto near = context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     ASSERT_TRUE(far.ok() && near.ok());
@@ -138,7 +139,7 @@ TEST_F(Extremes, ALongEdgeOfAIsSampledOnlyNearB) {
 }
 
 TEST_F(Extremes, ManyOverlapTilesFillABufferToItsEnd) {
-    // Tiles and nothing else in the input buffer, of about the size it grows to.
+    // Only tiles in the input buffer, of about the size to which it grows.
     for (const int count : {1360, 1365, 4092, 4096}) {
         auto fresh = Context::create(host_device(), drawing());
         ASSERT_TRUE(fresh.ok());

@@ -11,7 +11,7 @@ namespace {
 using oracle::Nearest;
 using oracle::ShapeOracle;
 
-/// Two distances that count as equal, as the header says.
+/// The margin within which two distances count as equal, as the header states.
 double margin_of(double tolerance, double distance) {
     return std::max(tolerance / 1000, std::ldexp(distance, -18));
 }
@@ -39,7 +39,7 @@ std::string text_of(const Found& found) {
     return text.str();
 }
 
-/// The law of a nearest feature and the gradient from it.
+/// Checks a nearest feature and the gradient from it.
 void check_feature(Report& report, const ShapeOracle& b, double tolerance, const Found& found) {
     const double truth = b.nearest(found.point).distance;
     const double named = distance_to_feature(b, found.feature, found.point);
@@ -63,7 +63,7 @@ void check_feature(Report& report, const ShapeOracle& b, double tolerance, const
                                    }),
                        text_of(found), "has no rival");
     }
-    // Nearer than a thousandth of d either side may be meant.
+    // Closer than a thousandth of d, either side may be reported.
     if (found.has_gradient && named > tolerance / 1000 + allowed) {
         const double side = b.signed_distance(found.point) < 0.0 ? -1.0 : 1.0;
         const Vector2 expected = oracle::times(oracle::minus(found.point, place), side / named);
@@ -74,7 +74,7 @@ void check_feature(Report& report, const ShapeOracle& b, double tolerance, const
     }
 }
 
-/// Some cells of a result, or all.
+/// Checks some cells of a result, or all.
 template <class Check>
 void for_cells(const DistanceFieldResult& result, std::size_t most, Check&& check) {
     const std::size_t cells = std::size_t{result.width} * result.height;
@@ -154,7 +154,7 @@ Vector2 centre_of(const DistanceFieldResult& result, std::size_t cell) {
 }
 
 void FieldLaws::check_cells(const ShapeOracle& b, const DistanceFieldQuery& query,
-                            const DistanceFieldResult& result, std::size_t most_cells) {
+                            const DistanceFieldResult& result, std::size_t max_cells) {
     Report report("features and gradients");
     report.require(result.status.ok(), result.status.text());
     const std::size_t cells = std::size_t{result.width} * result.height;
@@ -165,7 +165,7 @@ void FieldLaws::check_cells(const ShapeOracle& b, const DistanceFieldQuery& quer
     if (!report.clean()) {
         return;
     }
-    for_cells(result, most_cells, [&](std::size_t cell) {
+    for_cells(result, max_cells, [&](std::size_t cell) {
         Found found;
         found.point = centre_of(result, cell);
         found.feature = result.features[cell];
@@ -178,7 +178,7 @@ void FieldLaws::check_cells(const ShapeOracle& b, const DistanceFieldQuery& quer
 }
 
 void FieldLaws::check_differences(const ShapeOracle& b, const DistanceFieldResult& result,
-                                  std::size_t most_cells) {
+                                  std::size_t max_cells) {
     Report report("central differences");
     report.require(result.status.ok(), result.status.text());
     const std::size_t cells = std::size_t{result.width} * result.height;
@@ -189,7 +189,7 @@ void FieldLaws::check_differences(const ShapeOracle& b, const DistanceFieldResul
         return;
     }
     const double most = result.gradient_error_bound * (1 + 1e-6) + b.rounding() / result.cell;
-    for_cells(result, most_cells, [&](std::size_t cell) {
+    for_cells(result, max_cells, [&](std::size_t cell) {
         const Vector2 centre = centre_of(result, cell);
         const double h = result.cell;
         const auto exact = [&](double x, double y) {
@@ -205,7 +205,7 @@ void FieldLaws::check_differences(const ShapeOracle& b, const DistanceFieldResul
     });
 }
 
-double FieldLaws::most_apart(const DistanceFieldResult& one, const DistanceFieldResult& other) {
+double FieldLaws::max_apart(const DistanceFieldResult& one, const DistanceFieldResult& other) {
     double most = 0.0;
     for (std::size_t i = 0; i < one.gradients.size(); ++i) {
         const auto difference = static_cast<double>(one.gradients[i] - other.gradients[i]);
@@ -225,9 +225,9 @@ void FieldLaws::check_blended(const DistanceFieldResult& differences,
     EXPECT_STRNE(blended.gradient_format, "");
     EXPECT_EQ(differences.values, blended.values);
     const double precision =
-        blended.gradient_error_bound - differences.gradient_error_bound;  // what the format costs
+        blended.gradient_error_bound - differences.gradient_error_bound;  // the cost of the format
     EXPECT_GT(precision, 0.0);
-    EXPECT_LE(most_apart(differences, blended), precision + 1e-7);
+    EXPECT_LE(max_apart(differences, blended), precision + 1e-7);
 }
 
 void FieldLaws::check_points(const ShapeOracle& b, const DistanceFieldQuery& query,

@@ -9,7 +9,7 @@
 
 namespace nearfield::test {
 
-/// One shape known to a context for as long as this lives, and the oracle's view of it.
+/// A shape in a context for the lifetime of this object, and its oracle.
 class PlacedShape {
 public:
     PlacedShape(Context& context, const Rings& rings, const Pose& pose);
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] DistanceFieldQuery query() const;
     [[nodiscard]] const oracle::ShapeOracle& oracle() const { return shape_.oracle(); }
     [[nodiscard]] const Rectangle& rectangle() const { return rectangle_; }
-    /// Everything needed to make it again.
+    /// Everything needed to reproduce it.
     [[nodiscard]] std::string text() const;
 
 private:
@@ -51,25 +51,25 @@ private:
 [[nodiscard]] Rectangle box_around(std::span<const Vector2> points);
 [[nodiscard]] Vector2 centre_of(const DistanceFieldResult& result, std::size_t cell);
 
-/// The laws of everything but the values of a distance field.
+/// Checks everything but the values of a distance field.
 class FieldLaws : public QueryTest {
 protected:
-    /// Features and analytic gradients at cells: nearest up to the stated margin, of unit length
-    /// and right where they are the only answer, flagged where they are not.
+    /// Features and analytic gradients at cells: features must be nearest up to the stated margin;
+    /// gradients must have unit length and be correct if they are unique, and flagged otherwise.
     static void check_cells(const oracle::ShapeOracle& b, const DistanceFieldQuery& query,
-                            const DistanceFieldResult& result, std::size_t most_cells = 3000);
-    /// Gradients by central differences against those of the exact signed distance.
+                            const DistanceFieldResult& result, std::size_t max_cells = 3000);
+    /// Compares gradients by central differences with those of the exact signed distance.
     static void check_differences(const oracle::ShapeOracle& b, const DistanceFieldResult& result,
-                                  std::size_t most_cells = 3000);
-    /// Blended gradients against differences of the same values.
+                                  std::size_t max_cells = 3000);
+    /// Compares blended gradients with differences of the same values.
     static void check_blended(const DistanceFieldResult& differences,
                               const DistanceFieldResult& blended);
-    /// What is reconstructed at points.
+    /// Checks reconstructed values at points.
     static void check_points(const oracle::ShapeOracle& b, const DistanceFieldQuery& query,
                              const DistanceFieldResult& result);
-    /// The largest difference of two fields of gradients in any component.
-    [[nodiscard]] static double most_apart(const DistanceFieldResult& one,
-                                           const DistanceFieldResult& other);
+    /// The largest component-wise difference of two gradient fields.
+    [[nodiscard]] static double max_apart(const DistanceFieldResult& one,
+                                          const DistanceFieldResult& other);
 };
 
 }  // namespace nearfield::test

@@ -11,7 +11,7 @@ constexpr std::uint64_t seed = 90210;
 
 class Field : public QueryTest {
 protected:
-    /// The field of a shape over a rectangle by both techniques, checked; the raster's.
+    /// Checks the field of a shape over a rectangle with both techniques; returns the raster's.
     static DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
                                      const Rectangle& rectangle) {
         Expected<ShapeHandle> handle = context().add_shape(rings);
@@ -33,7 +33,8 @@ protected:
         return result;
     }
 
-    /// The same grid, values within the sum of both bounds, and one sign where neither is near 0.
+    /// Expects the same grid, values within the sum of both bounds, and equal signs unless a value
+    /// is near 0.
     static void check_agree(const DistanceFieldResult& raster, const DistanceFieldResult& exact) {
         ASSERT_TRUE(raster.status.ok() && exact.status.ok());
         EXPECT_EQ(raster.origin, exact.origin);
@@ -54,7 +55,8 @@ protected:
         }
     }
 
-    /// The grid starts at the rectangle's low corner, covers it and has no cell to spare.
+    /// Expects a grid that starts at the rectangle's low corner, covers it and has no superfluous
+    /// cells.
     static void check_covers(const DistanceFieldResult& result, const Rectangle& rectangle) {
         const double allowed =
             1e-6 * result.cell + 1e-12 * (std::abs(rectangle.max.x) + std::abs(rectangle.max.y));
@@ -125,7 +127,7 @@ TEST_F(Field, CoversWhatTheBoxesShare) {
 TEST_F(Field, RectanglesLargerThanATileHold) {
     Random random(seed);
     const Rings shape = scaled_and_moved(star(random, 12, 0.3), 20.0, {});
-    const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells a unit
+    const double d = 1.0 / (150.0 * std::numbers::sqrt2);  // 150 cells per unit
     const auto wide = check(shape, {}, d, {{-20.0, 3.0}, {20.0, 3.05}});
     EXPECT_GT(wide.width, 5900U);
     const auto high = check(shape, {}, d, {{-0.03, -20.0}, {0.03, 20.0}});
@@ -151,8 +153,8 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
     }
 }
 
-/// What the CPU says does not depend on how it is asked: with features it measures to the shape's
-/// own edges, with differences over a larger grid.
+/// The CPU's answer does not depend on the query's options: with features it measures to the
+/// shape's own edges, with differences over a larger grid.
 TEST_F(Field, OfTheCpuSaysTheSameHoweverItIsAsked) {
     Random random(seed);
     const Rings rings = coast(random, 2000, 0.5);

@@ -104,7 +104,7 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     check_field(placed.b(), query.tolerance, results[field], 2000);
     EXPECT_GT(results[intersection].count, 10000U);
     EXPECT_EQ(run(batch), all_numbers(results));
-    // Of the same tiles; larger ones may move a few samples at the rim.
+    // Queries with the same tiles; larger tiles may move a few samples at the edges.
     watched_query.technique = Technique::cpu;
     EXPECT_EQ(results[intersection].count, run_alone(counted(), watched_query).count);
 }
@@ -126,7 +126,7 @@ TEST_F(Frames, WithMoreSamplesThanRoomRunAgainOnce) {
     EXPECT_EQ(calls.submissions, 3) << "there was room";
     EXPECT_EQ(collect(first), all_numbers(results));
     EXPECT_EQ(calls.submissions, 4);
-    // Now there is room for all.
+    // Now the capacity suffices for all.
     EXPECT_EQ(collect(submit(batch)), all_numbers(results));
     EXPECT_EQ(calls.submissions, 5);
     EXPECT_EQ(calls.waits, 5);
@@ -173,7 +173,7 @@ TEST_F(Frames, OfTenThousandPairsTakeOneSubmission) {
         ASSERT_TRUE(one.status.ok()) << i << ": " << one.status.text();
         ASSERT_EQ(one.intersects, other.intersects) << i;
         ASSERT_EQ(one.technique, Technique::raster);
-        // Points that touch, to within d/1000, may count or not.
+        // Points that touch within d/1000 may or may not count.
         ASSERT_NEAR(one.count > 0 ? one.deepest.depth : 0.0,
                     other.count > 0 ? other.deepest.depth : 0.0, d / 1000.0)
             << i;

@@ -6,10 +6,10 @@
 
 namespace nearfield::test {
 
-/// Batches in flight that the library submits.
+/// Tests with batches in flight that the library submits.
 class Frames : public CountedContext {
 protected:
-    /// One of each kind of query; `number` tells batches apart.
+    /// One query of each kind; `number` distinguishes batches.
     [[nodiscard]] Batch batch(int number) const;
 
     std::vector<Vector2> field_points_{{0.1, 0.2}, {-0.3, 0.4}};

@@ -65,7 +65,7 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
     }
     for (const std::uint32_t frames : {0U, 9U}) {
         Settings settings;
-        settings.frames_in_flight = frames;
+        settings.batches_in_flight = frames;
         const Expected<Context> made = Context::create(host_device(), drawing(settings));
         ASSERT_FALSE(made.ok());
         EXPECT_EQ(made.status().code(), StatusCode::invalid_settings);
@@ -92,7 +92,7 @@ TEST_F(Frames, AreCollectedOnce) {
 
 TEST_F(Frames, ThatAreRefusedLeaveNothing) {
     Settings settings;
-    settings.frames_in_flight = 1;
+    settings.batches_in_flight = 1;
     settings.memory_limit = 16U << 20U;
     make(settings);
     DistanceFieldQuery field;
@@ -127,7 +127,7 @@ TEST_F(Frames, AnswerForShapesAsTheyWereSubmitted) {
         EXPECT_NE(collect(second), before[1]);
         EXPECT_EQ(run(batch(1)), before[1]);
     }
-    // Removed while in flight, and the place taken by another shape.
+    // Removed while in flight, and its slot is reused by another shape.
     const Ticket ticket = submit(batch(0));
     const Batch stale = batch(0);
     ASSERT_TRUE(counted().remove_shape(a_).ok());
@@ -149,7 +149,7 @@ TEST_F(Frames, BorrowNothing) {
     const std::vector<double> expected = run(queries);
     const Ticket ticket = submit(queries);
     std::fill(field_points_.begin(), field_points_.end(), Vector2{1e9, 1e9});
-    // Queries of other kinds where those of the batch have been.
+    // Queries of other kinds in place of those of the batch.
     const std::size_t count = queries.queries().size();
     queries.clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -165,12 +165,12 @@ TEST_F(Frames, BorrowNothing) {
 TEST_F(Frames, OfTwoContextsDoNotMeet) {
     make(2);
     Settings settings;
-    settings.frames_in_flight = 1;
+    settings.batches_in_flight = 1;
     Expected<Context> second = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(second.ok()) << second.status().text();
     ASSERT_TRUE(second->add_shape(rings_a_).ok() && second->add_shape(rings_b_).ok());
     const std::vector<double> expected = run(batch(0));
-    // The handles of the first two shapes are the same in both.
+    // The handles of the first two shapes are equal in both contexts.
     const Ticket here = submit(batch(0));
     const Expected<Ticket> there = second->submit(batch(0));
     ASSERT_TRUE(there.ok()) << there.status().text();

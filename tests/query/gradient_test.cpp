@@ -15,7 +15,8 @@ constexpr std::uint64_t seed = 31337;
 
 class Gradients : public FieldLaws {
 protected:
-    /// What blending costs, into the test's report: the figures of docs/performance.md.
+    /// Records the cost of blending in the test's report: the figures in
+    /// docs/measurements/fields.md.
     static void record_cost(const DistanceFieldResult& differences,
                             const DistanceFieldResult& blended) {
         double sum = 0.0;
@@ -31,7 +32,7 @@ protected:
             stream << number;
             return stream.str();
         };
-        RecordProperty("largest", text(most_apart(differences, blended)));
+        RecordProperty("largest", text(max_apart(differences, blended)));
         RecordProperty("mean", text(sum / static_cast<double>(differences.gradients.size())));
         RecordProperty("stated",
                        text(blended.gradient_error_bound - differences.gradient_error_bound));
@@ -92,7 +93,7 @@ TEST_F(Gradients, CentralDifferencesHoldAndBlendingAgrees) {
     }
 }
 
-/// The device blends single precision; where it does not, half has to do.
+/// The device blends single precision; otherwise half precision must suffice.
 TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     test_support::Lies lies;
     lies.format = [](VkFormat format, VkFormatProperties& properties) {
@@ -122,7 +123,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     check_blended(differences, blended);
     record_cost(differences, blended);
 
-    // Where half precision tells nothing any more, it says so.
+    // If half precision carries no information, the result says so.
     query.rectangle = {{-1.5, 30.0}, {1.5, 31.0}};
     EXPECT_EQ(run_alone(*half, query).status.code(), StatusCode::invalid_query);
     query.gradient = GradientMethod::central_differences;
@@ -148,7 +149,7 @@ TEST_F(Gradients, SinglePrecisionCostsNearlyNothing) {
     record_cost(differences, blended);
 }
 
-/// Several tiles and rounds: no seam in anything.
+/// Several tiles and tile batches: no seams.
 TEST_F(Gradients, HoldAcrossTilesAndRounds) {
     Random random(seed + 7);
     Settings settings;
@@ -191,7 +192,7 @@ TEST_F(Gradients, OnTheBoundaryAreTheWall) {
     }
 }
 
-/// Turning and moving everything turns the gradient and leaves the rest.
+/// Rotating and moving everything rotates the gradient and changes nothing else.
 TEST_F(Gradients, FollowRigidMotions) {
     const int cases = random_cases(30);
     for (int i = 0; i < cases; ++i) {
@@ -229,8 +230,8 @@ TEST_F(Gradients, FollowRigidMotions) {
                            "distance ", p.distance, " becomes ", q.distance);
             const double truth = here.oracle().nearest(points[k]).distance;
             if (p.unique && q.unique && truth > 1e-3) {
-                // Of features within d/1000 of each other on one wall either may be named, and
-                // vertices in one place have several names.
+                // Any of the features within d/1000 of each other on one wall may be reported, and
+                // coincident vertices have several indices.
                 const double margin = query.tolerance / 1000;
                 const double along_wall = std::sqrt(margin * (2 * truth + margin));
                 const Vector2 expected = turned(p.gradient, motion.angle);

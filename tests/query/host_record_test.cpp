@@ -22,7 +22,7 @@ protected:
 };
 
 TEST_F(Recorded, AnswersAreThoseOfRunForEveryNumberOfFramesInFlight) {
-    for (std::uint32_t frames = 1; frames <= most_frames_in_flight; ++frames) {
+    for (std::uint32_t frames = 1; frames <= max_batches_in_flight; ++frames) {
         SCOPED_TRACE(frames);
         make(frames);
         HostFrames host(host_device(), frames);
@@ -59,7 +59,7 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
         host.submit(frame);
     }
     Results results;
-    for (int i = 0; i < 2; ++i) {  // and the ticket stays good
+    for (int i = 0; i < 2; ++i) {  // and the ticket stays valid
         EXPECT_FALSE(counted().is_ready(tickets[1]));
         const Status status = counted().collect(tickets[1], results);
         EXPECT_EQ(status.code(), StatusCode::not_ready);
@@ -70,14 +70,14 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
     host.abandon(13);
     host.wait(12);
     counted().frame_completed(11);
-    counted().frame_completed(3);  // no way back
+    counted().frame_completed(3);  // the number cannot decrease
     EXPECT_TRUE(counted().is_ready(tickets[0]));
     EXPECT_TRUE(counted().is_ready(tickets[1]));
     EXPECT_FALSE(counted().is_ready(tickets[2]));
     EXPECT_EQ(collect(tickets[1]), expected);
     EXPECT_EQ(collect(tickets[0]), expected);
     EXPECT_EQ(counted().collect(tickets[0], results).code(), StatusCode::unknown_ticket);
-    // Recording for frame 15 implies that frame 12 is complete, whatever becomes of it.
+    // Recording for frame 15 implies that frame 12 is complete, whatever happens to it.
     const Expected<Ticket> next =
         counted().record(small(), {.commands = host.begin(15), .frame = 15});
     EXPECT_TRUE(next.ok()) << next.status().text();
@@ -190,7 +190,7 @@ TEST_F(Recorded, QueriesThatTakeASecondSubmissionAreRefusedAlone) {
     EXPECT_GT(by_cpu.records.size(), 5U);
     EXPECT_EQ(chosen.records.size(), by_cpu.records.size());
     EXPECT_TRUE(std::get<PenetrationResult>(results.results[4]).status.ok());
-    // Submitted, all of them have answers.
+    // Submitted batches are all answered.
     EXPECT_EQ(run(automatic).empty(), false);
 }
 
@@ -199,7 +199,7 @@ TEST_F(Recorded, SamplesHaveRoomHoweverMany) {
     HostFrames host(host_device(), 1);
     Batch dense;
     for (const Technique technique : {Technique::raster, Technique::compute}) {
-        // Most of the box is in both, more than a first submission has room for.
+        // Most of the box is in both shapes, which exceeds the capacity of a first submission.
         dense.add(IntersectionQuery{{a_, {}},
                                     {a_, {}},
                                     0.004,
@@ -221,7 +221,7 @@ TEST_F(Recorded, SamplesHaveRoomHoweverMany) {
 TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
     Settings settings;
     settings.memory_limit = 16U << 20U;
-    settings.frames_in_flight = 1;
+    settings.batches_in_flight = 1;
     make(settings);
     HostFrames host(host_device(), 1);
     VkCommandBuffer commands = host.begin(5);
@@ -242,7 +242,7 @@ TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
     EXPECT_EQ(code(small(), odd), StatusCode::invalid_settings);
     counted().frame_completed(5);
     EXPECT_EQ(code(small(), {.commands = commands, .frame = 5}), StatusCode::invalid_submission);
-    // What the CPU answers alone takes no command.
+    // Queries that only the CPU answers need no commands.
     Batch by_cpu;
     by_cpu.add(SeparationQuery{{a_, {}}, {b_, {{3.0, 0.0}, 0.0}}, 0.04, Technique::cpu});
     const Ticket ticket = record(by_cpu, commands, 6);
@@ -257,7 +257,7 @@ TEST_F(Recorded, BatchesDoNotKeepAContextFromGoing) {
     HostFrames host(host_device(), 2);
     (void)record(batch(0), host.begin(0), 0);
     host.submit(0);
-    host.wait(0);  // done, and neither said nor collected
+    host.wait(0);  // complete, but neither reported nor collected
     (void)record(batch(1), host.begin(1), 1);
     host.abandon(1);  // never begun
     destroy();

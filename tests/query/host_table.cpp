@@ -81,7 +81,7 @@ std::vector<double> Scene::record(const Batch& batch, HostFrames& host, std::uin
 
 Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
     Settings settings;
-    settings.frames_in_flight = frames;
+    settings.batches_in_flight = frames;
     Expected<Context> made = Context::create(device, drawing(settings));
     if (!made.ok()) {
         throw std::runtime_error(made.status().text());

@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
-// What a host wants of a library inside its Vulkan device: a test for each row of that table, named
-// after it, in the files host_table_*_test.cpp. Every device there is under the validation layers.
+// A host's requirements for a library inside its Vulkan device: a test for each row of that table,
+// named after it, in the files host_table_*_test.cpp. Every available device is tested under the
+// validation layers.
 
 namespace nearfield::test {
 
-/// Two shapes of a context and what can be asked of them.
+/// Two shapes of a context and queries on them.
 struct Scene {
     explicit Scene(Context& owner);
 
@@ -27,7 +28,7 @@ struct Scene {
 
     [[nodiscard]] std::vector<double> run(const Batch& batch) const;
     [[nodiscard]] std::vector<double> collect(const Expected<Ticket>& ticket) const;
-    /// One frame of a host that records.
+    /// Records one frame of a host.
     [[nodiscard]] std::vector<double> record(const Batch& batch, test_support::HostFrames& host,
                                              std::uint64_t frame) const;
 
@@ -38,14 +39,14 @@ struct Scene {
 
 class HostTable : public testing::Test {
 protected:
-    /// The device that a test is about; bare unless asked for.
+    /// The device under test; bare by default.
     const HostDevice& make_host(const test_support::Enabled& enabled = {}) {
         host_.emplace(enabled);
         return host_->device();
     }
     [[nodiscard]] const HostDevice& host() const { return host_->device(); }
 
-    /// Watches every call that contexts on the returned device make.
+    /// Watches every call of contexts on the returned device.
     const HostDevice& watch(std::function<void(const test_support::WatchedCall&)> watcher) {
         loader_.emplace(host(), test_support::watched(host(), std::move(watcher)));
         return loader_->host();
@@ -63,11 +64,11 @@ private:
     std::optional<test_support::FakeLoader> loader_;
 };
 
-/// A context whose host did not enable timeline semaphores says so to who has one signalled.
+/// A context whose host did not enable timeline semaphores rejects a submission that signals one.
 void expect_timelines_refused(Context& context, const Batch& batch);
 
-/// The host, with every name noted that the library asks for: entry points, through the one
-/// function that a host hands over. One at a time.
+/// The host, recording all names of entry points that the library requests through the host's
+/// function. One at a time.
 [[nodiscard]] HostDevice noting_names(const HostDevice& host, std::set<std::string>& names);
 
 }  // namespace nearfield::test

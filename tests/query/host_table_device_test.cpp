@@ -18,7 +18,7 @@ TEST_F(HostTable, Loader) {
     }
     EXPECT_GT(names.size(), 70U);
     EXPECT_TRUE(names.contains("vkCreateComputePipelines"));
-    // A name that cannot be had is an error that says so.
+    // A missing entry point is reported as an error.
     HostDevice lacking = host();
     static PFN_vkGetInstanceProcAddr below = nullptr;
     below = lacking.get_instance_proc_addr;
@@ -32,7 +32,7 @@ TEST_F(HostTable, Loader) {
     EXPECT_EQ(status.reasons()[0].find("entry point vkGetPhysicalDeviceMemoryProperties: "), 0U);
 }
 
-/// By a way of drawing that needs the feature logicOp.
+/// Uses a strategy that needs the feature logicOp.
 IntersectionQuery by_logic_op(const Scene& scene) {
     IntersectionQuery query{{scene.a, {}}, {scene.b, {}}, 0.1};
     query.strategy = IntersectionStrategy::logic_op;
@@ -41,8 +41,8 @@ IntersectionQuery by_logic_op(const Scene& scene) {
 }
 
 TEST_F(HostTable, Requirements) {
-    // What is said to be needed before there is a device is what a context needs of it: nothing
-    // enabled, and a queue of the family named.
+    // The requirements reported before there is a device are those of a context: nothing enabled,
+    // and a queue of the named family.
     make_host();
     const Expected<Requirements> needed = requirements(physical_device_of(host()));
     ASSERT_TRUE(needed.ok()) << needed.status().text();
@@ -53,8 +53,7 @@ TEST_F(HostTable, Requirements) {
         const Scene scene(context);
         EXPECT_FALSE(scene.run(scene.every()).empty());
     }
-    // All that is optional can be enabled just as it is listed, and what is not listed is not
-    // there.
+    // Every listed optional part can be enabled as listed, and unlisted parts are unavailable.
     const bool timelines = needed->timeline_semaphore.timelineSemaphore == VK_TRUE;
     VulkanHost full({needed->features, timelines});
     EXPECT_EQ(full.device().logic_op, needed->features.logicOp == VK_TRUE);
@@ -78,7 +77,7 @@ TEST_F(HostTable, Requirements) {
 }
 
 TEST_F(HostTable, EnabledSet) {
-    // Whatever the physical device has, the device has what the host says: nothing.
+    // Whatever the physical device supports, the device has only what the host reports: nothing.
     make_host();
     Context context = make(host());
     const Scene scene(context);

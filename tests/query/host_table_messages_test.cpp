@@ -10,7 +10,7 @@ namespace {
 using test_support::HostFrames;
 using test_support::WatchedCall;
 
-// Names and labels, as they pass by.
+// Collects object names and labels.
 
 struct Debugging {
     std::set<std::uint64_t> named;
@@ -69,7 +69,7 @@ TEST_F(HostTable, Debugging) {
     debugging.labels.clear();
     (void)scene.record(scene.every(true), frames, 0);
     ASSERT_FALSE(debugging.labels.empty());
-    EXPECT_EQ(debugging.labels.front(), "nearfield");  // around all that is in the host's buffer
+    EXPECT_EQ(debugging.labels.front(), "nearfield");  // around all commands in the host's buffer
     EXPECT_EQ(debugging.open, 0);
     for (const auto& [object, call] : made) {
         EXPECT_TRUE(debugging.named.contains(object)) << call << " made an object without a name";
@@ -77,7 +77,7 @@ TEST_F(HostTable, Debugging) {
     EXPECT_GT(made.size(), 100U);
 }
 
-// A device that is lost when it is told to be.
+// Makes the device fail as lost on request.
 
 bool device_is_lost = false;
 

@@ -14,7 +14,7 @@ namespace {
 using test_support::HostFrames;
 using test_support::WatchedCall;
 
-/// Callbacks of a host, which count what they give and take.
+/// A host's allocation callbacks, which count allocations and frees.
 struct CountingAllocator {
     std::atomic<std::int64_t> in_use{0};
     std::atomic<std::int64_t> given{0};
@@ -94,7 +94,8 @@ TEST_F(HostTable, Memory) {
         std::optional<VkAllocationCallbacks> borrowed = callbacks;
         device.allocator = &*borrowed;
         Context context = make(device);
-        borrowed = VkAllocationCallbacks{};  // copied: what it points to has to live, not it
+        borrowed = VkAllocationCallbacks{};  // copied: only the objects it points to must stay
+                                             // alive
         const Scene scene(context);
         HostFrames frames(host(), 1);
         (void)scene.run(scene.every());
@@ -102,7 +103,7 @@ TEST_F(HostTable, Memory) {
         const MemoryUse use = context.memory_use();
         EXPECT_GT(use.in_use, 1U << 16U);
         EXPECT_GE(use.peak, use.in_use);
-        // Larger images take the place of smaller ones: the peak stays when they have gone.
+        // Larger images replace smaller ones: the peak stays recorded after they are destroyed.
         (void)scene.run(scene.small(0.001));
         EXPECT_GT(context.memory_use().peak, use.peak);
         const MemoryUse grown = context.memory_use();
@@ -147,7 +148,7 @@ TEST_F(HostTable, Pipelines) {
         (void)scene.record(scene.every(true), frames, 0);
         EXPECT_EQ(pipelines, at_creation);
     }
-    // It is the host's still.
+    // It still belongs to the host.
     std::size_t size = 0;
     EXPECT_EQ(test_support::host_function<PFN_vkGetPipelineCacheData>(
                   host(), "vkGetPipelineCacheData")(host().device, cache, &size, nullptr),
@@ -158,7 +159,8 @@ TEST_F(HostTable, Pipelines) {
 }
 
 TEST_F(HostTable, Shaders) {
-    // All are made with the pipelines, gone when the context is made, and no compiler is loaded.
+    // All are created with the pipelines and destroyed when the context is complete, and no
+    // compiler is loaded.
     make_host();
     std::int64_t alive = 0;
     int made = 0;

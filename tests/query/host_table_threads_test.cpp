@@ -7,7 +7,7 @@
 namespace nearfield::test {
 namespace {
 
-/// A queue that several threads use, each through a context of its own.
+/// A queue that several threads use, each through its own context.
 struct SharedQueue {
     std::mutex mutex;
     std::atomic<int> inside{0};
@@ -43,7 +43,7 @@ TEST_F(HostTable, Threads) {
     locking.queue_access.user = &queue;
     locking.queue_access.lock = [](void* user) { static_cast<SharedQueue*>(user)->enter(); };
     locking.queue_access.unlock = [](void* user) { static_cast<SharedQueue*>(user)->leave(); };
-    // A host whose queue can be had through its own function alone.
+    // A host whose queue is available only through its own function.
     HostDevice by_host = host();
     by_host.queue = VK_NULL_HANDLE;
     by_host.queue_access.user = &queue;
@@ -51,14 +51,14 @@ TEST_F(HostTable, Threads) {
                                      VkFence fence) {
         return static_cast<SharedQueue*>(user)->submit(count, infos, fence);
     };
-    constexpr int rounds = 5;
+    constexpr int tile_batches = 5;
     std::vector<std::vector<double>> answers(4);
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         threads.emplace_back([&, i] {
             Context context = make(i % 2 == 0 ? locking : by_host);
             const Scene scene(context);
-            for (int round = 0; round < rounds; ++round) {
+            for (int round = 0; round < tile_batches; ++round) {
                 answers[i] = scene.run(scene.small());
             }
             const Expected<Ticket> in_flight = context.submit(scene.small());
@@ -74,9 +74,9 @@ TEST_F(HostTable, Threads) {
     }
     EXPECT_EQ(queue.collisions, 0);
     EXPECT_EQ(queue.inside, 0);
-    EXPECT_EQ(queue.locked, 4 * (rounds + 1));
-    EXPECT_EQ(queue.submitted, 2 * (rounds + 1));
-    // Half of a lock is none.
+    EXPECT_EQ(queue.locked, 4 * (tile_batches + 1));
+    EXPECT_EQ(queue.submitted, 2 * (tile_batches + 1));
+    // Half of a lock is an error.
     HostDevice half = locking;
     half.queue_access.unlock = nullptr;
     const Status status = Context::create(half).status();

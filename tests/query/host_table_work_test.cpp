@@ -24,7 +24,7 @@ TEST_F(HostTable, Work) {
     EXPECT_EQ(submissions, 1);
 }
 
-/// A semaphore of the host's, which is gone with it.
+/// A semaphore of the host, destroyed with this object.
 class HostSemaphore {
 public:
     HostSemaphore(const HostDevice& host, VkSemaphoreType type) : host_(host) {
@@ -43,7 +43,7 @@ public:
 
     [[nodiscard]] VkSemaphore get() const { return semaphore_; }
 
-    // Of timelines.
+    // For timeline semaphores.
 
     [[nodiscard]] std::uint64_t value() const {
         std::uint64_t value = 0;
@@ -93,10 +93,10 @@ TEST_F(HostTable, HandOff) {
     const HostSemaphore timeline(host(), VK_SEMAPHORE_TYPE_TIMELINE);
     const HostSemaphore binary(host(), VK_SEMAPHORE_TYPE_BINARY);
     const std::vector<double> expected = scene.run(scene.small());
-    // Whether the device has anything to do or not.
+    // With and without work for the device.
     for (const bool device_works : {true, false}) {
         SCOPED_TRACE(device_works);
-        // One waits for the host, the other for the first by the binary semaphore.
+        // One waits for the host, the other for the first through the binary semaphore.
         const std::uint64_t base = timeline.value();
         const SemaphoreWait for_host{timeline.get(), VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, base + 1};
         const std::array<SemaphoreSignal, 2> both{{{timeline.get(), base + 2}, {binary.get(), 0}}};
@@ -130,7 +130,7 @@ TEST_F(HostTable, Semaphores) {
         return;
     }
     const HostSemaphore timeline(host(), VK_SEMAPHORE_TYPE_TIMELINE);
-    // What cannot be used is said by name, and nothing is submitted.
+    // An invalid semaphore is reported by name, and nothing is submitted.
     const auto refusal = [&](const Submission& submission) {
         const Status status = context.submit(scene.small(), submission).status();
         EXPECT_EQ(status.code(), StatusCode::invalid_submission) << status.text();
@@ -152,7 +152,7 @@ TEST_F(HostTable, Waits) {
     make_host();
     std::set<std::string> names;
     {
-        // Made, grown, lost sight of and destroyed, in both ways of working.
+        // Created, grown, with an uncollected ticket, and destroyed, in both modes.
         Context context = make(noting_names(host(), names));
         const Scene scene(context);
         HostFrames frames(host(), 2);
@@ -164,7 +164,7 @@ TEST_F(HostTable, Waits) {
     EXPECT_TRUE(names.contains("vkWaitForFences"));
     EXPECT_FALSE(names.contains("vkDeviceWaitIdle"));
     EXPECT_FALSE(names.contains("vkQueueWaitIdle"));
-    // Each of its own submissions is waited for once, and nothing of what is recorded.
+    // Each of its own submissions is waited for once, and recorded ones not at all.
     int waits = 0;
     {
         Context context =
@@ -187,12 +187,12 @@ TEST_F(HostTable, Waits) {
 
 TEST_F(HostTable, Lifetime) {
     make_host();
-    for (std::uint32_t in_flight = 1; in_flight <= most_frames_in_flight; ++in_flight) {
+    for (std::uint32_t in_flight = 1; in_flight <= max_batches_in_flight; ++in_flight) {
         SCOPED_TRACE(in_flight);
         Context context = make(host(), in_flight);
         const Scene scene(context);
         HostFrames frames(host(), in_flight);
-        // Each needs a larger atlas than the one before, which is still in flight.
+        // Each needs a larger atlas than the previous one, which is still in flight.
         std::vector<Expected<Ticket>> tickets;
         std::vector<Batch> batches;
         for (std::uint32_t frame = 0; frame < in_flight; ++frame) {

@@ -73,7 +73,8 @@ TEST_F(Intersection, AreaConvergesUnderRefinement) {
             const auto kind = IntersectionKind::volume_volume;
             const auto result = run_alone(context(), placed.intersection(kind));
             check_intersection(placed, kind, result);
-            // Counting cells is far better than its bound: the errors of single cells cancel.
+            // Counting cells is far more accurate than its bound: the errors of single cells
+            // cancel.
             const double truth = oracle::overlap(placed.a(), placed.b()).area;
             EXPECT_NEAR(result.area, truth, pair.tolerance) << describe(pair);
         }
@@ -81,7 +82,7 @@ TEST_F(Intersection, AreaConvergesUnderRefinement) {
 }
 
 TEST_F(Intersection, NamesAnEdgeNearbyOnARunOfCollinearOnes) {
-    // A's lower side is twenty edges on one line.
+    // A's lower side consists of twenty edges on one line.
     Rings a = rectangle({0, 0}, {10, 5});
     for (int i = 1; i < 20; ++i) {
         a[0].insert(a[0].begin() + i, {i / 2.0, 0.0});
@@ -107,7 +108,7 @@ TEST_F(Intersection, IsSymmetricUpToTheBound) {
             check_intersection(one, kind, ab);
             check_intersection(other, kind, ba);
             EXPECT_EQ(ab.intersects, ba.intersects);
-            // Both samplings find the same crossings (checked above), but by a boundary a cell's
+            // Both samplings find the same crossings (checked above), but for boundaries a cell's
             // centre may be in one and not in the other.
             if (kind == IntersectionKind::volume_volume) {
                 EXPECT_EQ(ab.count, ba.count);

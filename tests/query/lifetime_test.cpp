@@ -52,7 +52,7 @@ TEST_F(Lifetime, ARemovedShapeStaysUnknown) {
     Expected<ShapeHandle> removed = context().add_shape(square);
     ASSERT_TRUE(removed.ok());
     ASSERT_TRUE(context().remove_shape(removed.value()).ok());
-    // The next shape may take the place in memory, but not the name.
+    // The next shape may reuse the memory, but not the handle.
     Expected<ShapeHandle> next = context().add_shape(square);
     ASSERT_TRUE(next.ok());
     EXPECT_FALSE(next.value() == removed.value());

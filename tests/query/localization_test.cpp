@@ -7,7 +7,7 @@ namespace {
 
 class Localization : public QueryTest {};
 
-/// Whatever the hierarchies are made of and however high they are, results keep their laws.
+/// Results stay correct for all bounding volumes and heights of the hierarchies.
 TEST_F(Localization, NoSettingChangesWhatIsTrue) {
     for (const auto volume : {BoundingVolume::axis_aligned, BoundingVolume::oriented}) {
         for (const std::uint32_t height : {0U, 3U, 16U}) {
@@ -86,7 +86,7 @@ TEST_F(Localization, FarShapesCostTheirTopLevelBoxes) {
     query.b = {*shape, {{5, 0}, 0.0}};
     query.tolerance = 0.1;
     const LocalizationStatistics statistics = run_alone(context(), query).localization;
-    // Once for the regions, once for whether they intersect.
+    // Once for the regions, once for the intersection test.
     EXPECT_EQ(statistics.nodes_evaluated, 4U);
     EXPECT_EQ(statistics.pairs_rejected, 2U);
     EXPECT_EQ(statistics.edges_kept, 0U);

@@ -15,7 +15,8 @@ void sort_by_point(std::vector<Record>& records) {
     });
 }
 
-/// Calls `both(of one, of other)` for records at the same point and `alone(record)` for the rest.
+/// Calls `both(record of one, record of other)` for records at the same point and `alone(record)`
+/// for the rest.
 template <class Record, class Both, class Alone>
 void match(std::vector<Record> one, std::vector<Record> other, const Both& both,
            const Alone& alone) {

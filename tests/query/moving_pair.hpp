@@ -7,7 +7,7 @@
 
 namespace nearfield::test {
 
-/// Two shapes and where they move to.
+/// Two shapes and their end poses.
 struct MovingPair {
     Pair pair;
     Pose end_a;
@@ -15,23 +15,23 @@ struct MovingPair {
     double contact_distance = 0.0;
 };
 
-/// Where a shape is between its two poses.
+/// The pose of a shape between its two poses.
 Pose pose_at_time(const Pose& start, const Pose& end, double time);
 
 MovingPair swapped(const MovingPair& moving);
 MovingPair reversed(const MovingPair& moving);
-/// The same motion seen from elsewhere.
+/// The same motion with both shapes moved by `by`.
 MovingPair moved_together(const MovingPair& moving, const Pose& by);
-/// Shapes of any family, apart by more or less, that cross each other's ways and turn.
+/// Shapes of any family at various distances that rotate and cross each other's paths.
 MovingPair any_moving_pair(Random& random);
-/// B stands still at the origin.
+/// B is fixed at the origin.
 MovingPair falling(const Rings& a, const Rings& b, const Pose& start, const Pose& end,
                    double tolerance);
 
-/// To come that close is to touch.
+/// Sets the distance at which the shapes count as touching.
 MovingPair keeping(MovingPair moving, double contact_distance);
 
-/// What the oracle says of a time, by looking at the shapes then and at nothing else.
+/// The oracle's view of one time, from the shapes at that time only.
 class Moment {
 public:
     Moment(const MovingPair& moving, double time);
@@ -46,7 +46,7 @@ private:
     oracle::ShapeOracle b_;
 };
 
-/// How far, at the most, a vertex of A and one of B move against each other between two times.
+/// An upper bound on the relative motion of a vertex of A and one of B between two times.
 double relative_motion(const Moment& from, const Moment& to);
 
 }  // namespace nearfield::test

@@ -20,14 +20,15 @@ Rings plain(const support::Rings& rings) {
 
 }  // namespace
 
-std::vector<NamedRings> nasty_shapes(Context& context, std::uint32_t cells, std::uint64_t seed) {
+std::vector<NamedRings> degenerate_shapes(Context& context, std::uint32_t cells,
+                                          std::uint64_t seed) {
     std::vector<NamedRings> shapes;
-    for (const support::NastyPolygon& nasty :
-         support::nasty_polygons(cells, cells, static_cast<std::uint32_t>(seed))) {
-        Rings rings = plain(nasty.rings);
+    for (const support::NastyPolygon& degenerate :
+         support::degenerate_polygons(cells, cells, static_cast<std::uint32_t>(seed))) {
+        Rings rings = plain(degenerate.rings);
         if (const auto shape = context.add_shape(rings); shape.ok()) {
             EXPECT_TRUE(context.remove_shape(*shape).ok());
-            shapes.push_back({nasty.name, std::move(rings)});
+            shapes.push_back({degenerate.name, std::move(rings)});
         }
     }
     EXPECT_GE(shapes.size(), 6U);

@@ -11,8 +11,8 @@ namespace {
 
 class Outlines : public QueryTest {};
 
-/// B's pose for an overlap of `share` of the smaller area. Long outlines may have to be turned to
-/// overlap by that much.
+/// B's pose for an overlap of `share` of the smaller area. Long outlines may need rotation to reach
+/// that overlap.
 std::optional<Pose> overlapping_pose(const oracle::ShapeOracle& a, const Rings& b, double share) {
     for (const double angle : {0.0, 0.8, 1.6, 2.4}) {
         const auto pose = oracle::pose_for_overlap(a, b, angle, {1.0, 0.35}, share);
@@ -39,7 +39,7 @@ TEST_F(Outlines, PenetrateByEveryShare) {
                     oracle::overlap(a, oracle::ShapeOracle(outlines[j].rings, *pose)).box;
                 const double side =
                     std::max(common.max.x - common.min.x, common.max.y - common.min.y);
-                // Every other pair the other way round, so that each outline is A and B in turn.
+                // Every other pair is swapped, so that each outline serves as A and as B.
                 Pair pair{outlines[i], outlines[j], {}, *pose, side / 256};
                 if ((i + j) % 2 == 0) {
                     std::swap(pair.a, pair.b);

@@ -9,7 +9,7 @@
 
 namespace nearfield::test {
 
-/// Two shapes at their places and the tolerance to ask with.
+/// Two shapes with poses and the tolerance for queries.
 struct Pair {
     NamedRings a;
     NamedRings b;
@@ -18,13 +18,13 @@ struct Pair {
     double tolerance = 0.0;
 };
 
-/// What the oracle says about whether two shapes intersect.
+/// The oracle's answer to whether two shapes intersect.
 enum class Truth { no, yes, too_close_to_call };
 
-/// A pair known to a context for as long as this lives, and the oracle's view of it.
+/// A pair in a context for the lifetime of this object, and its oracles.
 class PlacedPair {
 public:
-    /// The queries ask for the technique.
+    /// The queries request this technique.
     PlacedPair(Context& context, Pair pair, Technique technique = Technique::raster);
     ~PlacedPair();
     PlacedPair(const PlacedPair&) = delete;
@@ -36,9 +36,9 @@ public:
     [[nodiscard]] const oracle::ShapeOracle& a() const { return oracle_a_; }
     [[nodiscard]] const oracle::ShapeOracle& b() const { return oracle_b_; }
     [[nodiscard]] const Pair& pair() const { return pair_; }
-    /// How far rounding in double precision may move a point of either.
+    /// The maximum displacement of a point of either shape by rounding in double precision.
     [[nodiscard]] double rounding() const { return oracle_a_.rounding() + oracle_b_.rounding(); }
-    /// Whether the shapes intersect, where rounding cannot decide it.
+    /// Whether the shapes intersect, if rounding cannot affect it.
     [[nodiscard]] Truth intersects() const;
 
     [[nodiscard]] PenetrationQuery penetration(
@@ -58,17 +58,17 @@ private:
     ShapeHandle handle_b_;
 };
 
-/// Shapes of random families and sizes that overlap more often than not; some far from the origin
-/// of the world, some far from the origin of their own coordinates.
+/// Shapes of random families and sizes that usually overlap; some far from the origin of the world,
+/// some far from the origin of their own coordinates.
 Pair any_pair(Random& random);
 
-/// Every family against another one, at sizes about 10, with a tolerance of 0.15.
+/// Every family against another one, at sizes of about 10, with a tolerance of 0.15.
 std::vector<Pair> family_pairs(std::uint64_t seed);
 
-/// The pose that brings the point `own` of a shape's own coordinates to `world`, turned by `angle`.
+/// The pose that rotates by `angle` and moves the point `own` in shape coordinates to `world`.
 Pose pose_at(const Vector2& own, const Vector2& world, double angle);
 
-/// Everything needed to make the pair again.
+/// Everything needed to reproduce the pair.
 std::string describe(const Pair& pair);
 
 }  // namespace nearfield::test

@@ -22,7 +22,7 @@ protected:
             check_penetration(placed, points, run_alone(context(), placed.penetration(points)));
         }
     }
-    /// Two shapes in world coordinates.
+    /// Checks two shapes in world coordinates.
     static void check(const Rings& a, const Rings& b, double tolerance) {
         check(Pair{{"A", a}, {"B", b}, {}, {}, tolerance});
     }
@@ -94,7 +94,7 @@ TEST_F(Penetration, HoldsForAThousandParts) {
 }
 
 TEST_F(Penetration, DepthOfARectangleIsPlain) {
-    // The left side of A stands 3 deep in B, nearest to B's right side; no other side is as near.
+    // The left side of A is 3 deep in B, nearest to B's right side; no other side is as near.
     const PlacedPair pair(
         context(),
         {{"A", rectangle({7, 4}, {30, 6})}, {"B", rectangle({0, 0}, {10, 10})}, {}, {}, 0.1});

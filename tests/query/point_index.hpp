@@ -11,7 +11,7 @@
 
 namespace nearfield::test {
 
-/// Points sorted into squares, to ask whether there is one near a place.
+/// A grid of points that finds whether one is near a position.
 class PointIndex {
 public:
     explicit PointIndex(double radius) : radius_(radius) {}
@@ -23,7 +23,7 @@ public:
         squares_[key(column(point), row(point))].push_back(point);
     }
 
-    /// True where a point added is no farther from `point` than the radius.
+    /// True if an added point is no farther from `point` than the radius.
     [[nodiscard]] bool has_near(const Vector2& point) const {
         for (std::int64_t dx = -1; dx <= 1; ++dx) {
             for (std::int64_t dy = -1; dy <= 1; ++dy) {

@@ -10,8 +10,8 @@
 namespace nearfield::test {
 namespace {
 
-/// Made once for the whole program and taken down at its end, while Vulkan is still loaded. The
-/// context is made when it is first asked for: its pipelines take seconds on some drivers.
+/// Created once for the whole program and destroyed at its end, while Vulkan is still loaded. The
+/// context is created on first use: its pipelines take seconds on some drivers.
 class Device : public testing::Environment {
 public:
     void SetUp() override { host_.emplace(); }
@@ -39,7 +39,7 @@ private:
     std::optional<Context> context_;
 };
 
-/// GoogleTest owns it.
+/// Owned by GoogleTest.
 Device& device() {
     static Device* const shared = new Device;
     return *shared;

@@ -10,15 +10,14 @@
 
 namespace nearfield::test {
 
-/// Number of random cases a test tries: `usual`, or what the environment variable
-/// NEARFIELD_TEST_CASES says.
+/// The number of random cases in a test: `usual`, or the environment variable NEARFIELD_TEST_CASES.
 int random_cases(int usual);
-/// 0, or what the environment variable NEARFIELD_TEST_FIRST says.
+/// 0, or the environment variable NEARFIELD_TEST_FIRST.
 int first_case();
 
-/// Calls `check(random)` once a case, each with a source of numbers of its own. The seed and the
-/// case stand in the trace of a failure; the environment variable NEARFIELD_TEST_FIRST names the
-/// case to begin with.
+/// Calls `check(random)` once per case, each with its own random number generator. Failure traces
+/// contain the seed and the case; the environment variable NEARFIELD_TEST_FIRST selects the first
+/// case.
 template <class Check>
 void for_each_case(std::uint64_t seed, int usual, const Check& check) {
     const int first = first_case();
@@ -30,22 +29,22 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
     }
 }
 
-/// Settings with which Technique::automatic draws whatever can be drawn, so that a query that says
-/// nothing tests the raster.
+/// Settings with which Technique::automatic uses the raster wherever possible, so that a query
+/// without a technique tests it.
 [[nodiscard]] Settings drawing(Settings settings = {});
 
-/// Tests that share one context on one bare, validated host device. A test fails where the
-/// validation layers had something to say.
+/// Tests that share one context on one bare, validated host device. A test fails if the validation
+/// layers report anything.
 class QueryTest : public testing::Test {
 protected:
     void TearDown() override;
 
     [[nodiscard]] static Context& context();
-    /// The device that context() stands on, for a second context.
+    /// The device of context(), for a second context.
     [[nodiscard]] static const HostDevice& host_device();
 };
 
-/// Runs a batch of one query. Where the whole batch fails, its status stands in the result.
+/// Runs a batch of one query. If the whole batch fails, the result contains its status.
 template <class Query>
 typename ResultOf<Query>::type run_alone(Context& context, const Query& query) {
     Batch batch;

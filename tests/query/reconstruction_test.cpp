@@ -13,7 +13,7 @@ constexpr std::uint64_t seed = 60606;
 
 class Reconstruction : public FieldLaws {
 protected:
-    /// Points all over a rectangle, its edge and corners among them.
+    /// Points in a rectangle, including its edge and corners.
     static std::vector<Vector2> any_points(Random& random, const Rectangle& box, int count) {
         std::vector<Vector2> points{
             box.min, box.max, {box.min.x, box.max.y}, {0.5 * (box.min.x + box.max.x), box.min.y}};
@@ -80,7 +80,7 @@ TEST_F(Reconstruction, HoldsForEveryFamilyAndRealOutlines) {
     check(iceland, 2.0, outline.box());
 }
 
-/// Cells in which two fields differ: in sign, or in anything.
+/// Cells in which two fields differ: in sign, or in any member.
 struct Differences {
     int signs = 0;
     int values = 0;
@@ -95,9 +95,9 @@ Differences differences(const DistanceFieldResult& one, const DistanceFieldResul
     return found;
 }
 
-/// The three encodings give one sign everywhere: each in a batch of its own, where the whole field
-/// is the same bit for bit, and all three side by side in one atlas, where a tile's place may
-/// decide which of two equally near features is drawn.
+/// The three encodings give equal signs: each in its own batch, where the whole field is identical
+/// bit for bit, and all three side by side in one atlas, where a tile's place may decide which of
+/// two equally near features is drawn.
 TEST_F(Reconstruction, SignEncodingsAgree) {
     const int cases = random_cases(40);
     for (int i = 0; i < cases; ++i) {
@@ -132,9 +132,9 @@ TEST_F(Reconstruction, SignEncodingsAgree) {
     }
 }
 
-/// Fields of every kind beside other queries, so that all passes share one graph.
-/// Features that are the only nearest ones are the same, whatever else is asked for; where two are
-/// about as near, either may be named and a few cells differ.
+/// Fields of every kind together with other queries, so that all passes share one graph. Unique
+/// nearest features do not depend on the rest of the batch; if two are about equally near, either
+/// may be reported and a few cells differ.
 void check_features_alike(const DistanceFieldResult& one, const DistanceFieldResult& other) {
     ASSERT_EQ(one.features.size(), other.features.size());
     std::size_t unique = 0;
@@ -222,7 +222,7 @@ TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
         EXPECT_TRUE(alone.values.empty());
         for (std::size_t k = 0; k < points.size(); ++k) {
             expect_same(whole.points[k], alone.points[k], k);
-            // The image says the same where all four cells are in it.
+            // The image gives the same value if it contains all four cells.
             const double x = (points[k].x - whole.origin.x) / whole.cell - 0.5;
             const double y = (points[k].y - whole.origin.y) / whole.cell - 0.5;
             if (x < 0 || y < 0 || x >= whole.width - 1.0 || y >= whole.height - 1.0) {
@@ -244,7 +244,7 @@ TEST_F(Reconstruction, CellsAloneGiveWhatTheWholeImageGives) {
     }
 }
 
-/// Both techniques look at the same cells, in the image and around its rim.
+/// Both techniques use the same cells, in the image and around its border.
 TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
     const int cases = random_cases(20);
     for (int i = 0; i < cases; ++i) {
@@ -273,7 +273,7 @@ TEST_F(Reconstruction, TechniquesAgreeAtPoints) {
     }
 }
 
-/// Several tiles and rounds, points everywhere, and only some tiles with points.
+/// Several tiles and tile batches, points everywhere, and points in only some tiles.
 TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
     Random random(seed);
     Settings settings;
@@ -299,7 +299,7 @@ TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
     }
 }
 
-/// The values behind a difference at a point are the field's own.
+/// The values behind a difference at a point are those of the field.
 TEST_F(Reconstruction, GradientsAtPointsAreBilinearBetweenCells) {
     Random random(seed + 3);
     const PlacedShape shape(context(), star(random, 20, 0.4), {});

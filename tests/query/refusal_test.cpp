@@ -18,7 +18,7 @@ protected:
                 {{"A", rectangle({0, 0}, {4, 4})}, {"B", rectangle({2, 2}, {6, 6})}, {}, {}, 0.1}) {
     }
 
-    /// Runs queries that have to be refused between two good ones, which have to be answered.
+    /// Runs queries that must be rejected between two valid ones, which must be answered.
     template <class Query>
     void expect_refused(const std::vector<Query>& bad, StatusCode code) {
         Batch batch;
@@ -109,7 +109,7 @@ TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
     ASSERT_TRUE(small.ok()) << small.status().text();
     const Expected<ShapeHandle> shape = small->add_shape(rectangle({0, 0}, {1, 1}));
     ASSERT_TRUE(shape.ok());
-    // What fits as distances alone does not fit with features and gradients.
+    // A size that fits for distances alone does not fit with features and gradients.
     DistanceFieldQuery query{{}, {*shape, {}}, 0.0005, Rectangle{{0, 0}, {1, 1}}};
     EXPECT_TRUE(run_alone(*small, query).status.ok());
     query.features = query.gradients = true;
@@ -126,7 +126,7 @@ TEST_F(Refusal, OfUnknownShapes) {
     queries[1].b.shape = {};
     queries[2].b.shape.generation += 1000;
     expect_refused(queries, StatusCode::unknown_shape);
-    // Neither A nor a rectangle says what the field should cover.
+    // Neither A nor a rectangle determines the area of the field.
     Batch batch;
     const auto field = batch.add(DistanceFieldQuery{{}, pair_.instance_b(), 0.1, std::nullopt});
     Results results;
@@ -154,7 +154,7 @@ TEST_F(Refusal, OfShapes) {
         EXPECT_FALSE(handle.status().message().empty());
         EXPECT_EQ(context().update_shape(before, bad[i]).code(), StatusCode::invalid_shape);
     }
-    // A refused update leaves the shape as it was.
+    // A rejected update leaves the shape as it was.
     check_penetration(pair_, PenetrationPoints::boundary,
                       run_alone(context(), pair_.penetration()));
 }

@@ -7,8 +7,8 @@
 
 namespace nearfield::test {
 
-/// Gathers what is wrong with one result, so that ten thousand broken records make one failure with
-/// the first few spelt out.
+/// Collects the violations of one result, so that ten thousand wrong records give one failure with
+/// the first few in detail.
 class Report {
 public:
     explicit Report(std::string about) : about_(std::move(about)) { text_.precision(17); }
@@ -20,11 +20,11 @@ public:
     Report(const Report&) = delete;
     Report& operator=(const Report&) = delete;
 
-    /// Notes a violation where `holds` is false; `details` are written one after another.
+    /// Records a violation if `holds` is false; `details` are written one after another.
     template <class... Details>
     void require(bool holds, const Details&... details) {
-        constexpr int most_written = 5;
-        if (!holds && ++count_ <= most_written) {
+        constexpr int max_written = 5;
+        if (!holds && ++count_ <= max_written) {
             text_ << "  ";
             (text_ << ... << details) << '\n';
         }

@@ -55,7 +55,7 @@ bool is_arrow(Shown what) {
     return what == Shown::arrow_inside || what == Shown::arrow_outside;
 }
 
-/// Where neither arrow nor dot is, the picture has to show the side that the oracle says.
+/// Where there is neither an arrow nor a dot, the picture must show the side given by the oracle.
 void check_sides(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
     std::size_t checked = 0;
     for (std::uint32_t row = 3; row < picture.height; row += 7) {
@@ -80,7 +80,7 @@ void check_sides(const Scene& scene, const Picture& picture, const ContactResult
     EXPECT_GT(checked, 5000U);
 }
 
-/// In the middle of the shaft of every contact's arrow there is an arrow.
+/// The middle of the shaft of every contact's arrow is drawn.
 void check_arrows(const Scene& scene, const Picture& picture, const ContactResult& contacts) {
     ASSERT_GT(contacts.records.size(), 20U);
     for (const ContactRecord& record : contacts.records) {
@@ -92,8 +92,8 @@ void check_arrows(const Scene& scene, const Picture& picture, const ContactResul
     }
 }
 
-/// In the middle of every sample's dot there is a dot, or an arrow over it; and dots take no more
-/// room than as many of them do.
+/// The middle of every sample's dot shows a dot, or an arrow over it; and dots cover no more area
+/// than that number of dots does.
 void check_samples_drawn(const Scene& scene, const Picture& picture,
                          const IntersectionResult& overlap) {
     ASSERT_GT(overlap.samples.size(), 200U);
@@ -140,7 +140,7 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         const Expected<ResidentRecords> records = context().resident(*ticket, contacts_handle);
         const Expected<ResidentSamples> samples = context().resident(*ticket, overlap_handle);
         ASSERT_TRUE(images.ok() && records.ok() && samples.ok());
-        // Drawn before anything is collected: nothing has come back to the CPU.
+        // Drawn before anything is collected: nothing has been read back to the CPU.
         const Picture picture = view.draw({*images, *records, *samples}, scene.shot);
         Results results;
         ASSERT_TRUE(context().collect(*ticket, results).ok());

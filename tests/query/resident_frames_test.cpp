@@ -13,7 +13,7 @@ TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     const Pair shapes{
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
     Settings settings;
-    settings.frames_in_flight = 2;
+    settings.batches_in_flight = 2;
     Expected<Context> made = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(made.ok()) << made.status().text();
     const PlacedPair pair(*made, shapes, Technique::raster);
@@ -61,8 +61,8 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
     const Rings rings = with_holes(random, 3);
     const Pair shapes{{"turned", rings}, {"holes", rings}, {{0.03, 0.02}, 0.12}, {}, 0.01};
     for (const Technique technique : on_device) {
-        // With a context of its own: the samples of the intersection, most cells of its regions,
-        // find no room in the first submission, and their rounds are submitted again.
+        // With its own context: the samples of the intersection, most cells of its regions, exceed
+        // the capacity of the first submission, and their tile batches are submitted again.
         Expected<Context> made = Context::create(host_device(), drawing());
         ASSERT_TRUE(made.ok()) << made.status().text();
         const PlacedPair pair(*made, shapes, technique);
@@ -104,7 +104,7 @@ TEST_F(Resident, ImagesOnlyGrow) {
     const Pair shapes{
         {"coast", coast(random, 120, 0.5)}, {"holes", with_holes(random, 3)}, {}, {}, 0.03};
     Settings settings;
-    settings.frames_in_flight = 1;
+    settings.batches_in_flight = 1;
     Expected<Context> made = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(made.ok()) << made.status().text();
     const PlacedPair pair(*made, shapes, Technique::raster);
@@ -181,7 +181,7 @@ TEST_F(Resident, RefusesByName) {
 }
 
 TEST_F(Resident, AutomaticAnswersOnTheDevice) {
-    // With costs by which the CPU is always the fastest.
+    // With costs that always make the CPU the fastest.
     Settings settings;
     constexpr WorkCost dear{1.0, 1.0, 1.0};
     constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};

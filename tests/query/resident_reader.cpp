@@ -20,7 +20,7 @@ Vector2 in_world(const float (&place)[2], const Vector2& origin) {
     return {origin.x + static_cast<double>(place[0]), origin.y + static_cast<double>(place[1])};
 }
 
-/// The structure at a byte of what was read.
+/// The structure at a byte offset in the data.
 template <class Structure>
 Structure structure_at(const std::vector<std::uint32_t>& words, std::size_t byte) {
     Structure structure;

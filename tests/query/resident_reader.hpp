@@ -9,7 +9,7 @@
 
 namespace nearfield::test {
 
-/// A texel of the feature image, or the feature of a record, taken apart.
+/// A texel of the feature image, or the feature of a record, decoded.
 struct FeatureContents {
     Feature feature;
     bool unique = false;
@@ -23,7 +23,7 @@ struct FieldContents {
 
 struct RecordContents : FeatureContents {
     Vector2 own_point;  ///< relative to the records' origin
-    Vector2 point;      ///< in the world, as the others
+    Vector2 point;      ///< in the world, like the others
     Vector2 nearest;
     Vector2 normal;
     double distance = 0.0;
@@ -51,7 +51,7 @@ struct SamplesContents {
     std::vector<SampleContents> samples;
 };
 
-/// Reads back what stays on the device, as a host would that wants to look at it.
+/// Reads back resident outputs, as a host would.
 class ResidentReader {
 public:
     explicit ResidentReader(const HostDevice& host) : gpu_(host) {}

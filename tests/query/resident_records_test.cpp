@@ -11,12 +11,12 @@ namespace {
 constexpr std::uint64_t record_seed = 8100;
 
 struct RecordComparison {
-    double largest_error = 0.0;  ///< in parts of the bound
+    double largest_error = 0.0;  ///< as a fraction of the bound
     std::size_t compared = 0;
-    std::size_t alone = 0;  ///< records on one side only
+    std::size_t alone = 0;  ///< records on only one side
 };
 
-/// What a record of either kind says, to compare with the device's.
+/// The members of a record of either kind, for comparison with the device's.
 struct Claim {
     Vector2 point;
     Vector2 nearest;
@@ -69,8 +69,8 @@ void check_record(const PlacedPair& pair, const ResidentRecords& resident,
     }
 }
 
-/// Both sides have their records in the same order; where one has a record that the other lacks it
-/// has to be a close call.
+/// Both sides have their records in the same order; a record that one side lacks must be a
+/// borderline case.
 template <class Record, class IsCloseCall>
 RecordComparison compare_records(const PlacedPair& pair, const ResidentRecords& resident,
                                  const RecordsContents& contents,
@@ -154,7 +154,7 @@ TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
     });
     EXPECT_GT(compared, 1000U);
     RecordProperty("largest_error_in_bounds", std::to_string(largest));
-    // Of the right size: a bound that is never nearly reached would hide an error.
+    // The bound must be nearly reached: a much larger one would hide an error.
     EXPECT_GT(largest, 1e-3);
 }
 
@@ -211,7 +211,7 @@ TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
         const auto by_place = [](const RecordContents& i, const RecordContents& j) {
             return i.place < j.place;
         };
-        // One round after the other: not in order, so there were several.
+        // One tile batch after the other: records are out of order, so there were several.
         EXPECT_FALSE(std::is_sorted(contents.records.begin(), contents.records.end(), by_place));
         std::sort(contents.records.begin(), contents.records.end(), by_place);
         const RecordComparison comparison =

@@ -13,16 +13,16 @@ constexpr std::uint64_t sample_seed = 8300;
 constexpr std::array kinds_of_samples{IntersectionKind::boundary_boundary,
                                       IntersectionKind::boundary_volume,
                                       IntersectionKind::volume_volume};
-// Those that a bare device has.
+// The strategies that a bare device supports.
 constexpr std::array strategies_of_samples{
     IntersectionStrategy::stencil, IntersectionStrategy::blend, IntersectionStrategy::depth};
 
-/// What stays of an intersection, and what came back.
+/// The resident output of an intersection, and the result on the CPU.
 struct Kept {
     ResidentSamples resident;
     SamplesContents contents;
     IntersectionResult result;
-    std::size_t other_edges = 0;  ///< as near as those that the CPU names
+    std::size_t other_edges = 0;  ///< as near as those that the CPU reports
 };
 
 double per_axis(const Vector2& a, const Vector2& b) {
@@ -75,7 +75,7 @@ void check_kept_sample(const PlacedPair& pair, Kept& kept, std::size_t i) {
     }
 }
 
-/// The same samples in the same order, and a summary of them.
+/// Expects the same samples in the same order, and a summary of them.
 void check_kept(const PlacedPair& pair, Kept& kept) {
     ASSERT_TRUE(kept.result.status.ok()) << kept.result.status.text();
     ASSERT_NO_FATAL_FAILURE(check_kept_summary(kept));
@@ -115,7 +115,7 @@ protected:
         return kept;
     }
 
-    /// All kinds by both techniques, and the drawn ones by all strategies.
+    /// All kinds by both techniques, and the rasterised ones by all strategies.
     std::size_t check_all(const Pair& shapes) {
         std::size_t found = 0;
         for (const Technique technique : on_device) {
@@ -163,7 +163,7 @@ TEST_F(ResidentIntersections, SamplesOfEveryFamily) {
     }
 }
 
-/// Long runs of edges stand for one: which of them a sample names the device decides.
+/// Long runs of edges are simplified to one: the device decides which of them a sample reports.
 TEST_F(ResidentIntersections, EdgesOfRealOutlines) {
     const std::vector<NamedRings> outlines = read_outlines(NEARFIELD_TEST_DATA);
     std::size_t named = 0;
@@ -182,7 +182,7 @@ TEST_F(ResidentIntersections, EdgesOfRealOutlines) {
     EXPECT_GT(named, 1000U);
 }
 
-/// A context whose atlas is so small that intersections take many tiles and rounds.
+/// A context whose atlas is so small that intersections take many tiles and tile batches.
 Expected<Context> context_of_many_rounds(const HostDevice& host) {
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;
@@ -238,7 +238,7 @@ TEST_F(ResidentIntersections, WhatComesBackAndWhatStaysAreAskedForApart) {
 
 TEST_F(ResidentIntersections, WhereNothingMeetsTheSummaryIsEmpty) {
     const NamedRings square{"square", rectangle({0.0, 0.0}, {1.0, 1.0})};
-    // Apart by their boxes; and boxes that meet of shapes that do not.
+    // Disjoint boxes; and overlapping boxes of disjoint shapes.
     const NamedRings corner{"corner", {{{0.0, 0.0}, {3.0, 0.0}, {0.0, 3.0}}}};
     for (const Pair& apart : {Pair{square, square, {}, {{5.0, 0.0}, 0.0}, 0.05},
                               Pair{corner, square, {}, {{1.9, 1.9}, 0.0}, 0.05}}) {

@@ -62,7 +62,7 @@ DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique) {
     query.technique = technique;
     const auto [low, high] = pair.b().box();
     const double cell = std::sqrt(2.0) * query.tolerance;
-    // Some of it, so that large shapes take no time: off the shape's middle, to have both sides.
+    // A part of it, so that large shapes stay fast: off the shape's middle, to contain both sides.
     const double width = std::min(high.x - low.x + 20.0 * cell, 150.0 * cell);
     const double height = std::min(high.y - low.y + 20.0 * cell, 90.0 * cell);
     query.rectangle = Rectangle{{low.x - 7.3 * cell, low.y - 7.3 * cell},

@@ -12,7 +12,7 @@ namespace nearfield::test {
 
 inline constexpr std::array<Technique, 2> on_device{Technique::raster, Technique::compute};
 
-/// Looks at what stays on the device.
+/// Tests of resident outputs.
 class Resident : public QueryTest {
 protected:
     void SetUp() override { reader_ = std::make_unique<ResidentReader>(host_device()); }
@@ -23,7 +23,7 @@ protected:
 
     [[nodiscard]] ResidentReader& reader() { return *reader_; }
 
-    /// Submits a batch of one query and reads what it leaves on the device before it is collected.
+    /// Submits a batch of one query and reads its resident output before it is collected.
     template <class Query, class Read>
     typename ResultOf<Query>::type ask(Context& context, const Query& query, Read&& read) {
         Batch batch;
@@ -53,13 +53,13 @@ private:
 
 [[nodiscard]] double distance_between(const Vector2& a, const Vector2& b);
 
-/// A feature may be named another way only where both are as near: at a vertex.
+/// Different features may be reported only if both are equally near: at a vertex.
 [[nodiscard]] bool same_place(const oracle::ShapeOracle& shape, const Feature& a, const Feature& b,
                               const Vector2& point, double allowed);
 
-/// Of the pair's B, some of it that has both sides; it stays on the device.
+/// A field of part of the pair's B with both sides; it stays on the device.
 [[nodiscard]] DistanceFieldQuery field_of(const PlacedPair& pair, Technique technique);
-/// What stays has to be what came back.
+/// The resident output must equal the result that was read back.
 void check_field(const PlacedPair& pair, const ResidentField& field, const FieldContents& contents,
                  const DistanceFieldResult& result);
 

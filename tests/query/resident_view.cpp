@@ -16,7 +16,7 @@ using test_support::require;
 
 constexpr VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
 
-/// As in shaders/view.glsl.
+/// Matches shaders/view.glsl.
 struct Push {
     float field_low[2];
     float records_low[2];

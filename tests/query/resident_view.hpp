@@ -11,7 +11,7 @@
 
 namespace nearfield::test {
 
-/// What a host drew, from the top row down.
+/// A picture drawn by a host, from the top row down.
 struct Picture {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
@@ -25,19 +25,19 @@ struct Picture {
     void write(const std::string& path) const;
 };
 
-/// A host's own renderer: a render pass and three pipelines whose shaders read what nearfield left
-/// on the device. It sees nothing of what comes back to the CPU.
+/// A host's own renderer: a render pass and three pipelines whose shaders read nearfield's resident
+/// outputs. It does not use the results on the CPU.
 class ResidentView {
 public:
     ResidentView(const HostDevice& host, VkExtent2D pixels);
 
     struct Shot {
         Vector2 low;                ///< of the picture, world coordinates
-        double step = 0.0;          ///< world units a pixel
+        double step = 0.0;          ///< world units per pixel
         double arrow_length = 0.0;  ///< world units
         double line_spacing = 0.0;
     };
-    /// What there is to draw.
+    /// The outputs to draw.
     struct Subject {
         ResidentField field;
         ResidentRecords contacts;

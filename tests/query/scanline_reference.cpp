@@ -3,7 +3,7 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/plan/planner.hpp>
-#include <engine/plan/round.hpp>
+#include <engine/plan/tile_batch.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/scanline.hpp>
@@ -27,7 +27,7 @@ geometry::Mesh part_of(const geometry::Mesh& mesh, plan::DrawRange range) {
     return {first, first + range.count};
 }
 
-/// By sample: nothing, or the id of the first triangle that covers it; for volumes, nothing or 0.
+/// For each sample the id of the first triangle that covers it, or none; for volumes, 0 or none.
 std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh& mesh,
                                 plan::Part part) {
     std::vector<std::uint32_t> image(std::size_t{tile.width} * tile.height, nothing);
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
     return image;
 }
 
-void scan_tile(const plan::Plan& plan, const plan::Round& round, const plan::TileDraw& draw,
+void scan_tile(const plan::Plan& plan, const plan::TileBatch& round, const plan::TileDraw& draw,
                geometry::SubpixelGrid grid, std::vector<Placed>& found) {
     const plan::Tile& planned = plan.tiles[round.tile_index[draw.tile]];
     const support::Tile tile{draw.width, draw.height, grid};
@@ -90,10 +90,10 @@ std::vector<ReferenceSample> scan_intersection(const HostDevice& host, const Pla
     std::vector<AnyResult> results;
     const std::vector<plan::QueryShapes> shapes{{&a, &b}};
     planner.plan(queries, shapes, plan, results);
-    plan::RoundBuilder builder(limits.subpixel);
-    plan::Round round;
+    plan::TileBatchBuilder builder(limits.subpixel);
+    plan::TileBatch round;
     std::vector<Placed> found;
-    for (std::uint32_t number = 0; number < plan.rounds; ++number) {
+    for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
         builder.build(plan, number, round);
         for (const auto& draws : round.overlap_draws) {
             for (const plan::TileDraw& draw : draws) {

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <vector>
 
-// Where lengths get so small that their products come near to nothing.
+// Lengths so small that their products are close to zero.
 
 namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t seed = 9100;
 
-/// Shapes of about 2 become ones a little larger than `smallest_extent`; a power of two, so that
+/// Scales shapes of size about 2 to slightly above `smallest_extent`; a power of two, so that
 /// nothing is rounded.
 constexpr int scale = -66;
 
@@ -33,7 +33,7 @@ Rings scaled(Rings rings) {
     return rings;
 }
 
-/// The same queries in units that make all lengths small; of `points` those of fields are kept.
+/// The same queries in units that make all lengths small; `points` keeps the fields' points alive.
 Batch scaled(const Batch& batch, ShapeHandle a, ShapeHandle b, ShapeHandle small_a,
              ShapeHandle small_b, std::vector<std::vector<Vector2>>& points) {
     const auto small = [&](Instance& instance) {

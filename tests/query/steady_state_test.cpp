@@ -10,11 +10,11 @@
 namespace nearfield::test {
 namespace {
 
-// What the library asks of the driver, counted on the way there. The driver and the validation
-// layers below allocate as they please: that is kept apart.
+// Counts the library's calls to the driver. Allocations of the driver and the validation layers are
+// counted separately.
 
 std::uint64_t allocations_below = 0;
-std::vector<std::string> created;  // entry points called that make or destroy something
+std::vector<std::string> created;  // entry points called that create or destroy objects
 
 void note_call(const test_support::WatchedCall& call) {
     allocations_below += call.allocations;
@@ -52,8 +52,7 @@ protected:
     [[nodiscard]] Context& watched() { return *watched_; }
     [[nodiscard]] const Batch& batch() const { return batch_; }
 
-    /// Queries whose results stay on the device: fields first, then penetration, contacts and
-    /// intersections.
+    /// Queries with resident outputs: fields first, then penetration, contacts and intersections.
     [[nodiscard]] Batch resident_batch() const {
         Batch batch;
         DistanceFieldQuery field;
@@ -78,15 +77,15 @@ protected:
         return batch;
     }
 
-    /// Both shapes take the next of their forms.
+    /// Both shapes take their next form.
     [[nodiscard]] bool deform(int frame) {
         const auto form = static_cast<std::size_t>(frame) % rings_a_.size();
         return watched_->update_shape(a_, rings_a_[form]).ok() &&
                watched_->update_shape(b_, rings_b_[form]).ok();
     }
 
-    /// Calls `frame(number)`, which returns whether all went well, first to warm up and then as
-    /// often as is asked for, and expects nothing made in the second part.
+    /// Calls `frame(number)`, which returns whether it succeeded, first to warm up and then as
+    /// often as requested, and expects no creation or allocation in the second part.
     template <class Frame>
     void expect_nothing_made(int frames, const Frame& frame) {
         constexpr int warm_up = 24;
@@ -106,7 +105,7 @@ protected:
         EXPECT_EQ(all - allocations_below, 0U) << "in " << frames << " frames";
     }
 
-    /// What the host does itself does not count.
+    /// Work of the host itself does not count.
     template <class Action>
     static void by_others(const Action& action) {
         const std::uint64_t before = test_support::allocation_count_of_this_thread();
@@ -128,11 +127,11 @@ protected:
     }
 
 private:
-    /// One of each kind of query that a frame of a simulation asks, by every technique.
+    /// One query of each kind that a simulation frame needs, by every technique.
     static Batch frame(ShapeHandle a, ShapeHandle b) {
         Batch batch;
-        // All contacts in one square of GradientNormals: how many fields it asks for is then the
-        // same in every frame, whatever the forms.
+        // All contacts in one square of GradientNormals: the number of fields is then the same in
+        // every frame, whatever the forms.
         const Instance here{a, {{5.0, 5.0}, 0.0}};
         const Instance there{b, {{5.7, 5.1}, 0.3}};
         const Instance apart{b, {{8.5, 5.1}, 0.3}};
@@ -178,7 +177,7 @@ TEST_F(SteadyState, AThousandFramesInFlightAllocateAndCreateNothing) {
     Results results;
     Ticket former;
     expect_nothing_made(1000, [&](int number) {
-        // The frame before is still in flight when the shapes deform and this one is submitted.
+        // The previous frame is still in flight when the shapes deform and this one is submitted.
         if (!deform(number)) {
             return false;
         }
@@ -195,7 +194,7 @@ TEST_F(SteadyState, AThousandFramesInFlightAllocateAndCreateNothing) {
 TEST_F(SteadyState, AThousandRecordedFramesAllocateAndCreateNothing) {
     constexpr std::uint64_t frames = 2;
     test_support::HostFrames host(host_device(), frames);
-    // Refusing a query takes words, which take memory: the batch has none to refuse.
+    // An error message needs memory, so the batch contains no query that is rejected.
     Batch recordable;
     for (const AnyQuery& query : batch().queries()) {
         const auto* const contacts = std::get_if<ContactQuery>(&query);

@@ -20,7 +20,7 @@ constexpr std::array every_strategy{IntersectionStrategy::stencil, IntersectionS
 constexpr std::array every_kind{IntersectionKind::boundary_boundary,
                                 IntersectionKind::boundary_volume, IntersectionKind::volume_volume};
 
-/// A device with the feature logicOp where there is one, validated, and contexts on it.
+/// A validated device, with the feature logicOp if available, and contexts on it.
 class Strategies : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -44,12 +44,13 @@ protected:
         return std::move(*made);
     }
 
-    /// Where not, the query is refused.
+    /// Otherwise the query is rejected.
     static bool is_available(IntersectionStrategy strategy) {
         return strategy != IntersectionStrategy::logic_op || host_->device().logic_op;
     }
 
-    /// All strategies and kinds, on the device and on the CPU: the same samples as the scanline's.
+    /// All strategies and kinds, on the device and on the CPU, must give the same samples as the
+    /// scanline reference.
     static void check(const PlacedPair& pair, Context& context, const Settings& settings = {});
 
     static test_support::VulkanHost* host_;
@@ -165,8 +166,8 @@ TEST_F(Strategies, AgreeOnEveryFamily) {
     }
 }
 
-/// All outlines of a folder by every share of overlap, `cells` along the longer side of what they
-/// share. The folder NEARFIELD_TEST_OUTLINES takes the place of the usual one.
+/// All outlines of a folder at several overlaps, with `cells` along the longer side of the
+/// intersection. The environment variable NEARFIELD_TEST_OUTLINES replaces the default folder.
 TEST_F(Strategies, AgreeOnOutlines) {
     const char* const folder = std::getenv("NEARFIELD_TEST_OUTLINES");
     const auto outlines = read_outlines(folder != nullptr ? folder : NEARFIELD_TEST_DATA);
@@ -191,7 +192,7 @@ TEST_F(Strategies, AgreeOnOutlines) {
 }
 
 TEST_F(Strategies, AgreeOverManyTilesAndRounds) {
-    // So little memory that an atlas holds 256 x 256 cells: four tiles, a round each.
+    // So little memory that an atlas has 256 x 256 cells: four tiles, one per tile batch.
     Settings settings;
     settings.memory_limit = 12U << 20U;
     Context context = make(settings);
@@ -250,7 +251,7 @@ TEST_F(Strategies, FindOneSampleAndNone) {
         IntersectionKind kind;
         std::uint64_t count;
     };
-    // Volumes that share a corner of less than two cells a side; two crescents whose boxes overlap.
+    // Volumes that share a corner less than two cells wide; two crescents whose boxes overlap.
     const Case cases[] = {
         {rectangle({0.94, 0.94}, {2, 2}), IntersectionKind::volume_volume, 1},
         {{{{0.2, 1.8}, {1.8, 0.2}, {1.8, 1.8}}}, IntersectionKind::volume_volume, 0},
@@ -279,7 +280,7 @@ TEST_F(Strategies, FindOneSampleAndNone) {
 /// Tiles so large that an occlusion query decides whether they are searched at all.
 TEST_F(Strategies, SearchLargeTilesWhereverASamplePasses) {
     const Rings lower{{{0, 0}, {1, 0}, {0, 1}}};
-    // Its long side is beside A's, and a spike from it reaches A, or almost.
+    // Its long side is beside A's, and a spike from it reaches A or nearly does.
     const auto upper = [](double tip) {
         return Rings{
             {{1.05, 1.05}, {0.03, 1.05}, {0.53, 0.55}, {tip, tip}, {0.55, 0.53}, {1.05, 0.03}}};
@@ -292,7 +293,7 @@ TEST_F(Strategies, SearchLargeTilesWhereverASamplePasses) {
         const auto result = run_alone(*context_, pair.intersection(every_kind[2]));
         ASSERT_EQ(result.regions.size(), 1U);
         EXPECT_GE(result.regions[0].width * result.regions[0].height, 128U * 128U);
-        // A tip of about d inside may lie between samples: check() said whether it does.
+        // A tip about d inside may lie between samples: check() has verified whether it does.
         if (tip > 0.499 || tip < 0.495) {
             EXPECT_EQ(result.count == 0, tip > 0.499) << result.count;
         }
@@ -318,7 +319,7 @@ TEST_F(MissingStrategies, AreRefusedByNameAndTheRestAnswered) {
     EXPECT_TRUE(results[before].status.ok());
     EXPECT_TRUE(results[after].status.ok());
     EXPECT_EQ(results[before].count, results[after].count);
-    // What a strategy needs of the device, it needs for drawing.
+    // The strategy's device requirements apply to drawing only.
     query.strategy = IntersectionStrategy::logic_op;
     query.technique = Technique::compute;
     const IntersectionResult computed = run_alone(context(), query);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t seed = 1944;
 
 std::vector<TileReport> list_tiles(const Context& context) {
-    std::vector<TileReport> tiles(3);  // what was in it is replaced
+    std::vector<TileReport> tiles(3);  // its contents are replaced
     const Status status = context.list_tiles(tiles);
     EXPECT_TRUE(status.ok()) << status.text();
     return tiles;
@@ -37,7 +37,7 @@ protected:
         });
     }
 
-    /// What holds of all tiles, whatever they were made for.
+    /// Properties of all tiles, whatever their purpose.
     static void check(const std::vector<TileReport>& tiles, const Results& results) {
         for (const TileReport& tile : tiles) {
             ASSERT_LT(tile.query, results.results.size());
@@ -136,7 +136,7 @@ TEST_F(Tiles, ThereAreNoneWhereNothingIsDrawn) {
     EXPECT_FALSE(list_tiles(*fresh).empty());
     ASSERT_TRUE(run_alone(*fresh, by_cpu.penetration()).status.ok());
     EXPECT_TRUE(list_tiles(*fresh).empty());
-    // Those of the last batch, of several in flight.
+    // The tiles of the last of several batches in flight.
     Batch first;
     first.add(drawn.penetration());
     Batch second;

@@ -9,7 +9,7 @@ namespace {
 
 using oracle::ShapeOracle;
 
-/// Never late, and never closer than certified.
+/// Contact must not be later than the true one, and distances not below the certified one.
 void check_until_contact(const MovingPair& moving, const TimeOfImpactResult& result, int moments) {
     if (result.state == ImpactState::intersecting_at_start) {
         return;
@@ -23,7 +23,7 @@ void check_until_contact(const MovingPair& moving, const TimeOfImpactResult& res
             << "late: they meet at " << time << " and are said to be apart until " << result.time;
         EXPECT_GE(apart, moving.contact_distance - result.error_bound)
             << "late: they touch at " << time << " and are said to be apart until " << result.time;
-        EXPECT_GE(distance, result.least_distance) << "at " << time;
+        EXPECT_GE(distance, result.min_distance) << "at " << time;
     }
 }
 
@@ -75,11 +75,11 @@ void check_start(const MovingPair& moving, const TimeOfImpactResult& result) {
 }  // namespace
 
 TimeOfImpactResult TimeOfImpactTest::ask(const MovingPair& moving, double time_bound,
-                                         std::uint32_t most_steps) {
+                                         std::uint32_t max_steps) {
     const PlacedPair placed(context(), moving.pair, Technique::cpu);
     return run_alone(context(), TimeOfImpactQuery{placed.instance_a(), placed.instance_b(),
                                                   moving.end_a, moving.end_b, moving.pair.tolerance,
-                                                  time_bound, most_steps, moving.contact_distance});
+                                                  time_bound, max_steps, moving.contact_distance});
 }
 
 TimeOfImpactResult TimeOfImpactTest::check(const MovingPair& moving, int moments,

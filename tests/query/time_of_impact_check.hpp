@@ -8,9 +8,9 @@ namespace nearfield::test {
 class TimeOfImpactTest : public QueryTest {
 protected:
     static TimeOfImpactResult ask(const MovingPair& moving, double time_bound = 1.0,
-                                  std::uint32_t most_steps = TimeOfImpactQuery().most_steps);
+                                  std::uint32_t max_steps = TimeOfImpactQuery().max_steps);
 
-    /// What every answer promises, held against the oracle at `moments` times.
+    /// Checks the guarantees of every answer against the oracle at `moments` times.
     static TimeOfImpactResult check(const MovingPair& moving, int moments = 60,
                                     double time_bound = 1.0);
 };

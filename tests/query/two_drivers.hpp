@@ -11,15 +11,14 @@
 
 namespace nearfield::test {
 
-/// A context on each of two Vulkan drivers in one process, validated, with the feature logicOp
-/// where there is one. A third one is on the driver with the finer sub-pixel grid, told that it has
-/// the coarser one: vertices on the coarser grid's lines are on the finer one's too, so the raster
-/// draws them as they are, and both drivers can be given the same plan. One at a time, as with
-/// FakeLoader.
+/// A context on each of two Vulkan drivers in one process, validated, with the feature logicOp if
+/// available. A third context is on the driver with the finer sub-pixel grid but assumes the
+/// coarser one: vertices on the coarser grid are on the finer one too, so the raster draws them
+/// exactly, and both drivers can have the same plan. One at a time, as with FakeLoader.
 class TwoDrivers {
 public:
-    /// The drivers are those of two manifests (VK_DRIVER_FILES). Throws std::runtime_error where
-    /// one has no device that can be used.
+    /// The drivers of two manifests (VK_DRIVER_FILES). Throws std::runtime_error if one has no
+    /// usable device.
     TwoDrivers(const std::string& first, const std::string& second);
 
     enum Which { finer, coarser, finer_on_coarser_grid };
@@ -30,7 +29,7 @@ public:
         return hosts_[which == coarser ? 1U : 0U]->device();
     }
 
-    /// Takes everything down. What the validation layers said, of each of them.
+    /// Destroys everything. Returns the messages of the validation layers for each driver.
     [[nodiscard]] std::vector<std::string> close();
 
 private:

@@ -11,7 +11,7 @@ namespace {
 
 using test_support::ShaderFolder;
 
-/// A context that answers by shaders of a folder of our own; on whatever device there is.
+/// A context that uses the shaders of a test folder, on any available device.
 class ShaderReload : public ::testing::Test {
 protected:
     ShaderReload() {
@@ -29,8 +29,8 @@ protected:
         shape_ = context_->add_shape({{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}}).value();
     }
 
-    /// How many samples two squares share that overlap by a quarter, by the compute technique: one
-    /// shader draws the masks of both, another counts what these have in common.
+    /// The number of common samples of two squares that overlap by a quarter, by the compute
+    /// technique: one shader draws the masks of both, another counts the intersection.
     std::uint64_t count() {
         Batch batch;
         const auto query = batch.add(IntersectionQuery{{shape_, {}},
@@ -45,7 +45,7 @@ protected:
         EXPECT_TRUE(status.ok() && results[query].status.ok()) << status.text();
         return results[query].count;
     }
-    /// How many shaders changed.
+    /// Returns how many shaders changed.
     std::uint32_t reload() {
         const Expected<std::uint32_t> changed = context_->reload_shaders(folder_.path().c_str());
         EXPECT_TRUE(changed.ok()) << changed.status().text();
@@ -73,7 +73,7 @@ TEST_F(ShaderReload, ChangesWhatLaterBatchesAnswerAndBack) {
     EXPECT_EQ(reload(), 1U);
     EXPECT_EQ(count(), count_as_built);
 
-    // What several shaders include.
+    // A file that several shaders include.
     folder_.replace("masks.glsl", "high_ab > high_cd", "high_ab < high_cd");
     EXPECT_GT(reload(), 1U);
     EXPECT_NE(count(), count_as_built);

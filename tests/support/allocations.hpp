@@ -4,14 +4,14 @@
 
 namespace nearfield::test_support {
 
-/// Heap allocations of this program so far, on all threads. A program that asks gets counting
-/// operators new in place of the ordinary ones.
+/// The number of heap allocations of this program so far, on all threads. A program that calls this
+/// links counting replacements of operator new.
 [[nodiscard]] std::uint64_t allocation_count() noexcept;
-/// The same of the calling thread alone.
+/// The same for the calling thread only.
 [[nodiscard]] std::uint64_t allocation_count_of_this_thread() noexcept;
 
-/// While it lives, this thread's heap allocations succeed so many times, and all after them fail.
-/// One at a time.
+/// During its lifetime, a given number of this thread's heap allocations succeed, and all later
+/// ones fail. One at a time.
 class FailingAllocations {
 public:
     explicit FailingAllocations(std::uint64_t successes) noexcept;
@@ -19,12 +19,12 @@ public:
     FailingAllocations(const FailingAllocations&) = delete;
     FailingAllocations& operator=(const FailingAllocations&) = delete;
 
-    /// At least one has failed, not counting those that may (std::nothrow).
+    /// True if at least one has failed, not counting those that may fail (std::nothrow).
     [[nodiscard]] static bool has_failed() noexcept;
 };
 
-/// While it lives, nothing that this thread allocates is counted or fails: for what stands below
-/// the code that is watched.
+/// During its lifetime, this thread's allocations are neither counted nor made to fail: for code
+/// below the code under test.
 class UnwatchedAllocations {
 public:
     UnwatchedAllocations() noexcept;

@@ -7,7 +7,7 @@ namespace {
 
 using Errors = std::vector<VkResult>;
 
-// What nearly every call may say.
+// Errors that nearly every call may return.
 const Errors memory{VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY};
 const Errors device_memory{VK_ERROR_OUT_OF_DEVICE_MEMORY};
 const Errors memory_or_loss{VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY,
@@ -19,7 +19,7 @@ Errors memory_and(VkResult error) {
     return errors;
 }
 
-// A row for each entry point that can fail, in alphabetical order.
+// One row for each entry point that can fail, in alphabetical order.
 const std::map<std::string_view, Errors> table{
     {"vkAllocateCommandBuffers", memory},
     {"vkAllocateDescriptorSets",

@@ -7,11 +7,11 @@
 
 namespace nearfield::test_support {
 
-/// The errors that the Vulkan 1.1 specification allows an entry point to return; empty for one that
-/// has no row in the table (entry points that return nothing need none).
+/// The errors that the Vulkan 1.1 specification allows an entry point to return; empty if the table
+/// has no row for it (entry points without a result need none).
 [[nodiscard]] const std::vector<VkResult>& errors_of(std::string_view call);
 
-/// An error as the specification spells it.
+/// The name of an error in the specification.
 [[nodiscard]] const char* name_of(VkResult error);
 
 }  // namespace nearfield::test_support

@@ -5,8 +5,8 @@
 
 namespace nearfield::test_support {
 
-/// Sets an environment variable for as long as it lives. No other thread may look at the
-/// environment meanwhile.
+/// Sets an environment variable during its lifetime. No other thread may access the environment
+/// meanwhile.
 class Environment {
 public:
     Environment(std::string name, const std::string& value);
@@ -19,8 +19,8 @@ private:
     std::optional<std::string> former_;
 };
 
-/// While it lives, Vulkan instances are made of the drivers with these manifests alone (as the
-/// loader wants several: separated by colons). With a file that does not exist there is no driver.
+/// During its lifetime, Vulkan instances use only the drivers with these manifests (several are
+/// separated by colons, as the loader expects). A file that does not exist means no driver.
 class OnlyDrivers {
 public:
     explicit OnlyDrivers(const std::string& manifests)

@@ -9,18 +9,18 @@
 
 namespace nearfield::test_support {
 
-/// What a fake vkGetInstanceProcAddr changes in what the true driver says.
+/// The changes that a fake vkGetInstanceProcAddr makes to the driver's replies.
 struct Lies {
     std::function<void(VkPhysicalDeviceProperties&)> properties;
     std::function<void(VkPhysicalDeviceMemoryProperties&)> memory;
     std::function<void(VkFormat, VkFormatProperties&)> format;
     std::function<void(std::vector<VkQueueFamilyProperties>&)> queue_families;
-    /// Entry points, of instance or device, to give out instead; null for one that is missing.
+    /// Replacements for entry points of instance or device; null for a missing one.
     std::map<std::string, PFN_vkVoidFunction> entry_points;
 };
 
-/// While it lives, host() answers with the lies laid over the truth of the host it was made from.
-/// One at a time: entry points carry no user data, so the lies are global.
+/// During its lifetime, host() returns the original host with the lies applied. One at a time:
+/// entry points carry no user data, so the lies are global.
 class FakeLoader {
 public:
     FakeLoader(const HostDevice& truth, Lies lies);
@@ -34,7 +34,7 @@ private:
     HostDevice host_;
 };
 
-/// The true entry point of the device behind the FakeLoader that lives.
+/// The original entry point of the device behind the current FakeLoader.
 [[nodiscard]] PFN_vkVoidFunction true_device_function(const char* name);
 
 }  // namespace nearfield::test_support

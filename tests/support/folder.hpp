@@ -6,7 +6,7 @@
 
 namespace nearfield::test_support {
 
-/// A fresh folder with a space in its name, removed with all that is in it.
+/// A new folder with a space in its name, removed with its contents.
 class Folder {
 public:
     Folder();
@@ -24,7 +24,7 @@ public:
     /// The bytes of a file.
     [[nodiscard]] std::string read(const std::string& name) const;
 
-    /// Every file's name and bytes: what a refused command must leave as they were.
+    /// The name and contents of every file, to check that a rejected command left them unchanged.
     [[nodiscard]] std::map<std::string, std::string> contents() const;
 
 private:

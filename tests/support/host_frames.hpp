@@ -13,21 +13,21 @@ template <class Function>
     return reinterpret_cast<Function>(host.get_instance_proc_addr(host.instance, name));
 }
 
-/// The frames of a host: a command buffer and a fence each, which take turns. Frame number n uses
-/// the ones of frame n - count again. Throws std::runtime_error where Vulkan fails.
+/// The frames of a host: command buffers with fences, used in turn. Frame number n reuses those of
+/// frame n - count. Throws std::runtime_error if Vulkan fails.
 class HostFrames {
 public:
     HostFrames(const HostDevice& host, std::uint32_t count);
-    /// Waits for what is in flight.
+    /// Waits for the frames in flight.
     ~HostFrames();
     HostFrames(const HostFrames&) = delete;
     HostFrames& operator=(const HostFrames&) = delete;
 
-    /// Waits for the frame that used the same command buffer, and begins it anew.
+    /// Waits for the frame that used the same command buffer, then begins recording.
     VkCommandBuffer begin(std::uint64_t frame);
-    /// Ends and submits it.
+    /// Ends the command buffer and submits it.
     void submit(std::uint64_t frame);
-    /// Ends it and leaves it at that.
+    /// Ends the command buffer without submitting it.
     void abandon(std::uint64_t frame);
     void wait(std::uint64_t frame);
 

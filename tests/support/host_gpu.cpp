@@ -195,8 +195,8 @@ std::vector<std::uint32_t> HostGpu::read(VkBuffer buffer, VkDeviceSize offset, V
                              0, nullptr, 0, nullptr);
         const VkBufferCopy region{offset, 0, size};
         vkCmdCopyBuffer(commands, buffer, target.buffer, 1, &region);
-        // What comes after, the library's next write among it, waits for the copy by what it waits
-        // for anyway: the stages of the hand-over.
+        // Later accesses, such as the library's next write, wait for the copy through the stages
+        // that they wait for anyway: those of the resident output.
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, state.stages, 0, 0, nullptr,
                              0, nullptr, 0, nullptr);
         show_to_host(*this, commands);

@@ -61,8 +61,8 @@
 
 namespace nearfield::test_support {
 
-/// A host's own side of its device, as far as tests draw and read back: entry points, one command
-/// buffer, objects that live until the end. Throws std::runtime_error where a call fails.
+/// The host's side of its device, as far as tests draw and read back: entry points, one command
+/// buffer, objects that live until the end. Throws std::runtime_error if a call fails.
 class HostGpu {
 public:
     explicit HostGpu(const HostDevice& host);
@@ -78,18 +78,18 @@ public:
         VkImage image = VK_NULL_HANDLE;
         VkImageView view = VK_NULL_HANDLE;
     };
-    /// For copies of the device's, mapped.
+    /// A mapped buffer for copies from the device.
     [[nodiscard]] Buffer make_buffer(std::uint64_t bytes);
     [[nodiscard]] Image make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
-    /// Destroys what `destroy` does when this ends, last made first.
+    /// Registers a destruction for the end of the lifetime; they run in reverse order.
     void at_end(std::function<void()> destroy) { at_end_.push_back(std::move(destroy)); }
 
     /// Records and submits to the host's queue; finish() waits for it. One at a time.
     void submit(const std::function<void(VkCommandBuffer)>& record);
     void finish();
 
-    /// What a resident image or buffer holds: by a copy in the queue, with the barriers that a host
-    /// needs for another use than the one it was handed over for.
+    /// The contents of a resident image or buffer: copies it in the queue, with the barriers that a
+    /// host needs for a use other than the declared one.
     [[nodiscard]] std::vector<std::uint32_t> read(const ResidentImage& image, VkExtent2D extent,
                                                   const HandedOver& state);
     [[nodiscard]] std::vector<std::uint32_t> read(VkBuffer buffer, VkDeviceSize offset,
@@ -113,7 +113,7 @@ private:
     std::vector<std::function<void()>> at_end_;
 };
 
-/// Throws std::runtime_error, naming the call, unless the result is a success.
+/// Throws std::runtime_error with the name of the call unless the result is a success.
 void require(VkResult result, const char* call);
 
 }  // namespace nearfield::test_support

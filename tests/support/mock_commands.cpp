@@ -55,7 +55,8 @@ void perform(Tag_vkCmdBindDescriptorSets tag, VkCommandBuffer commands, VkPipeli
         if (set == nullptr) {
             continue;
         }
-        // No rule of the specification unless a shader uses the binding, but lavapipe looks at all.
+        // The specification requires this only if a shader uses the binding, but lavapipe always
+        // reads it.
         for (const auto& [binding, needed] : set->needs) {
             if (!driver().objects.contains(needed)) {
                 driver().breach(tag.name, "binding " + std::to_string(binding) +
@@ -86,8 +87,7 @@ void perform(Tag_vkCmdPipelineBarrier tag, VkCommandBuffer commands, VkPipelineS
 
 namespace {
 
-/// Notes what is to be written when the commands are executed; a breach where the words are not
-/// there.
+/// Records a write for the execution of the commands; a breach if the range does not exist.
 void note(std::string_view call, VkCommandBuffer commands, const MockWrite& write) {
     const auto outside = [](Number buffer, std::uint64_t first, std::uint64_t words) {
         return (first + words) * sizeof(std::uint32_t) > driver().objects[buffer].bytes;

@@ -25,7 +25,7 @@ void* VKAPI_CALL host_allocate(void* user, std::size_t bytes, std::size_t,
     return block;
 }
 
-/// Which no driver of this kind asks for.
+/// No driver of this kind requests a reallocation.
 void* VKAPI_CALL host_reallocate(void* user, void*, std::size_t, std::size_t,
                                  VkSystemAllocationScope) {
     state_of(user).breach("vkReallocation", "memory that the driver wants larger");

@@ -10,7 +10,7 @@
 
 namespace nearfield::test_support {
 
-/// An entry point that the library fetches, as engine/gpu/functions.hpp lists them.
+/// An entry point that the library fetches, as listed in engine/gpu/functions.hpp.
 struct EntryPoint {
     std::string_view name;
     bool returns_result = false;  ///< a VkResult, so it can fail
@@ -18,19 +18,19 @@ struct EntryPoint {
 };
 [[nodiscard]] const std::vector<EntryPoint>& entry_points();
 
-/// A Vulkan driver with nothing below: handles are counters, memory is the host's, commands do
-/// nothing and submissions are done at once, though the library may not know before it has asked.
-/// Counts every object and says which rules of the specification about them were broken: unknown,
-/// destroyed or foreign handles, memory and objects given back while a submission uses them,
-/// buffers without memory, command buffers and fences in a wrong state. Can be told to fail. One at
-/// a time: entry points carry no user data. For one thread.
+/// A Vulkan driver without a device: handles are counters, memory is the host's, commands do
+/// nothing and submissions complete at once, although the library cannot know before it asks. It
+/// tracks every object and reports violations of the specification: unknown, destroyed or foreign
+/// handles, memory and objects freed while a submission uses them, buffers without memory, command
+/// buffers and fences in a wrong state. It fails on request. One at a time, because entry points
+/// carry no user data; for one thread.
 class MockDriver {
 public:
-    /// What memory that is not mapped is full of: to the library each word says that edge 1 is
-    /// nearest, and that the point or cell lies inside; as a number it is tiny.
+    /// The initial contents of device-local memory: to the library each word means that edge 1 is
+    /// nearest and that the point or cell is inside; as a number it is tiny.
     static constexpr std::uint32_t resident_word = 0xA0000001;
-    /// What mapped memory is full of, and what submissions write there, unless they copy: the same
-    /// of edge 2.
+    /// The initial contents of mapped memory, and the value that submissions write there unless
+    /// they copy: the same for edge 2.
     static constexpr std::uint32_t device_word = 0xA0000002;
 
     MockDriver();
@@ -39,37 +39,37 @@ public:
     MockDriver& operator=(const MockDriver&) = delete;
 
     /// A device of this driver, with debug utils, the feature logicOp and allocation callbacks that
-    /// every call has to pass on.
+    /// every call must pass on.
     [[nodiscard]] HostDevice host() const;
 
-    /// From now on there is no host whose allocation callbacks would be used.
+    /// From now on there is no host whose allocation callbacks must be used.
     void go_without_host();
 
-    // What a host does with the driver, without the library.
+    // Driver calls that a host makes without the library.
 
     /// A binary semaphore.
     [[nodiscard]] VkSemaphore make_semaphore(bool signalled);
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
-    /// What host() says of timeline semaphores from now on.
+    /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
     [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);
     [[nodiscard]] std::uint64_t value_of(VkSemaphore semaphore) const;
-    /// A command buffer that is being recorded.
+    /// A command buffer in the recording state.
     [[nodiscard]] VkCommandBuffer begin_commands();
-    /// Ends it and submits it.
+    /// Ends and submits the command buffer.
     void submit(VkCommandBuffer commands);
-    /// Waits for all that the host submitted.
+    /// Waits for all submissions of the host.
     void finish_submissions();
 
     /// The entry points called since the last forget_calls(), in order.
     [[nodiscard]] const std::vector<std::string_view>& calls() const;
     void forget_calls();
 
-    /// What came with a vkQueueSubmit that succeeded.
+    /// The semaphores of a successful vkQueueSubmit.
     struct Submitted {
         struct Semaphore {
             VkSemaphore semaphore = VK_NULL_HANDLE;
-            std::uint64_t value = 0;          ///< as handed over, if at all
+            std::uint64_t value = 0;          ///< as submitted, if at all
             VkPipelineStageFlags stages = 0;  ///< that wait
 
             friend bool operator==(const Semaphore&, const Semaphore&) = default;
@@ -80,8 +80,8 @@ public:
     };
     [[nodiscard]] const std::vector<Submitted>& submissions() const;
 
-    /// What shaders find from now on: where a descriptor at `binding` stands for words of which the
-    /// host set the first to 0, that becomes `count`, and what follows 0.
+    /// The simulated results of shaders: if a descriptor at `binding` refers to words of which the
+    /// host set the first to 0, the first becomes `count`, and the following words become 0.
     struct Finding {
         std::uint32_t binding = 0;
         std::uint32_t count = 0;
@@ -93,22 +93,22 @@ public:
         once,
         from_then_on,  ///< until work_again()
     };
-    /// From now on `call` succeeds so many times and then fails. A device that is lost stays so:
-    /// whatever can say so does, work_again() or not.
+    /// From now on `call` succeeds a number of times and then fails. A lost device stays lost:
+    /// every call that can report it does so, even after work_again().
     void fail(std::string_view call, std::size_t successes, VkResult result, Failing failing);
     void work_again();
-    /// Makes an entry point unknown, until the next one is hidden; empty: none.
+    /// Makes an entry point unavailable until the next one is hidden; empty: none.
     void hide(std::string_view call);
-    /// A fail() has come true.
+    /// True if a failure requested by fail() has occurred.
     [[nodiscard]] bool has_failed() const;
 
-    /// What the library made and did not destroy: the entry point that made it, for each object,
-    /// and a line for each block of memory that the host's allocator did not get back. A mapping of
-    /// memory goes with the memory.
+    /// The objects that the library created and did not destroy: for each object the entry point
+    /// that created it, and a line for each block of memory not returned to the host's allocator. A
+    /// mapping of memory ends with the memory.
     [[nodiscard]] std::vector<std::string> alive() const;
-    /// Every rule that was broken, in words.
+    /// All violations of rules, as text.
     [[nodiscard]] const std::vector<std::string>& breaches() const;
-    /// Calls after the device was lost, but for those that destroy, free or wait.
+    /// Calls after the device was lost, except those that destroy, free or wait.
     [[nodiscard]] const std::vector<std::string>& work_after_loss() const;
 
     struct State;

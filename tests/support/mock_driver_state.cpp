@@ -11,7 +11,7 @@ bool starts_with_any(std::string_view call, std::initializer_list<std::string_vi
                        [call](std::string_view beginning) { return call.starts_with(beginning); });
 }
 
-/// Entry points that say so where the device is lost.
+/// True for entry points that report a lost device.
 bool says_loss(std::string_view call) {
     return call == "vkQueueSubmit" || call == "vkWaitForFences" || call == "vkGetFenceStatus" ||
            call == "vkGetQueryPoolResults";
@@ -74,7 +74,7 @@ MockObject* MockDriver::State::find(std::string_view call, Number wanted,
 
 void MockDriver::State::expect_unused(std::string_view call, Number wanted) {
     if (lost) {
-        return;  // nothing is at work any more
+        return;  // nothing is executing any more
     }
     for (const auto& [fence, object] : objects) {
         if (object.in_use.contains(wanted)) {
@@ -165,8 +165,8 @@ void MockDriver::State::execute(std::string_view call, Number commands, std::set
     write_results(commands, used);
 }
 
-/// What commands leave in the buffers that they write. Counts that the host set to 0 stay 0, but
-/// for what shaders are to find.
+/// Writes the results of commands to their buffers. Counts that the host set to 0 stay 0, except
+/// those that shaders are to find.
 void MockDriver::State::write_results(Number commands, const std::set<Number>& used) {
     for (const Number number_used : used) {
         const MockObject& buffer = objects[number_used];
@@ -219,7 +219,7 @@ std::span<std::uint32_t> MockDriver::State::words_of(Number buffer) {
 void MockDriver::State::write(const MockWrite& write) {
     const std::span words = words_of(write.buffer);
     if (write.first_word + write.words > words.size()) {
-        return;  // said where it was recorded
+        return;  // reported when recorded
     }
     const auto begin = words.begin() + static_cast<std::ptrdiff_t>(write.first_word);
     if (write.from == 0) {

@@ -6,10 +6,10 @@
 
 #include <type_traits>
 
-/// How the mock driver's entry points are written. What is in engine/gpu/functions.hpp is there by
-/// itself (mock_entry_points.cpp): vkCreate and vkDestroy count objects and vkCmd refers to them,
-/// as their signatures say. One that does more, or is called otherwise, has an overload of
-/// perform() of its own, in the file of what it is about, and a place in one of the lists below.
+/// Defines the mock driver's entry points. Those in engine/gpu/functions.hpp are generated
+/// (mock_entry_points.cpp): vkCreate and vkDestroy track objects and vkCmd refers to them,
+/// according to their signatures. An entry point that does more, or has another name, has its own
+/// overload of perform() in the file for its subject, and an entry in one of the lists below.
 
 // mock_physical_device.cpp
 #define NEARFIELD_MOCKED_PHYSICAL_DEVICE(X)     \
@@ -65,7 +65,7 @@
     X(vkGetFenceStatus)                \
     X(vkGetQueryPoolResults)
 
-/// What a headless context asks for besides, of loader, instance and physical device
+/// Additional functions for a headless context, of loader, instance and physical device
 /// (mock_instance.cpp).
 #define NEARFIELD_HEADLESS_FUNCTIONS(X)       \
     X(vkEnumerateInstanceExtensionProperties) \
@@ -108,7 +108,7 @@ NEARFIELD_HEADLESS_FUNCTIONS(NEARFIELD_PERFORM)
     return *mock_driver;
 }
 
-/// The memory there is: the device's own; what both see, without coherence; the host's.
+/// The memory types: device-local; visible to both and not coherent; host memory.
 inline constexpr std::uint32_t memory_types = 3;
 inline constexpr VkMemoryPropertyFlags memory_flags[memory_types]{
     VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
@@ -117,7 +117,7 @@ inline constexpr VkMemoryPropertyFlags memory_flags[memory_types]{
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
 };
 
-/// Object `index` of what another refers to has to be there, and with memory.
+/// Object `index` among those that another refers to must exist and have memory.
 template <class Handle>
 void refer(std::string_view call, MockObject& from, std::uint64_t index, Handle to) {
     const MockObject* const object = driver().find(call, to);
@@ -130,7 +130,7 @@ void refer(std::string_view call, MockObject& from, std::uint64_t index, Handle 
     from.needs[index] = number(to);
 }
 
-/// A command buffer that is being recorded refers to whatever a command names.
+/// A command buffer in the recording state refers to every object that a command names.
 template <class Type>
 void use(std::string_view call, VkCommandBuffer commands, Type used) {
     if constexpr (VulkanHandle<Type> && !std::is_same_v<Type, VkCommandBuffer>) {
@@ -141,7 +141,7 @@ void use(std::string_view call, VkCommandBuffer commands, Type used) {
     }
 }
 
-/// The entry point of that name; null for one that is not there.
+/// The entry point with that name; null if there is none.
 [[nodiscard]] PFN_vkVoidFunction find_entry_point(std::string_view name);
 
 }  // namespace nearfield::test_support::mock

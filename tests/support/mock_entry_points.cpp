@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-/// What entry points do by their signatures, and all of them by name.
+/// The behaviour of entry points according to their signatures, and the table of all by name.
 
 namespace nearfield::test_support {
 namespace mock {
@@ -42,7 +42,7 @@ auto act(First first, Rest... rest) {
     }
 }
 
-/// A failing call leaves rubbish where a new handle was to be, but where the specification wants
+/// A failing call leaves garbage in place of a new handle, except where the specification requires
 /// null handles.
 template <class Tag, class... Arguments>
 void spoil(Arguments... arguments) {
@@ -51,13 +51,13 @@ void spoil(Arguments... arguments) {
     if constexpr (makes_handle<Last>) {
         constexpr bool null = Tag::name.ends_with("Pipelines") || Tag::name.ends_with("Sets") ||
                               Tag::name.ends_with("CommandBuffers");
-        if (last != nullptr) {  // else it is only asked how many there are
+        if (last != nullptr) {  // otherwise it only queries the count
             *last = handle<std::remove_pointer_t<Last>>(null ? 0 : 0xBAD);
         }
     }
 }
 
-/// Of any argument: if it is a pointer to allocation callbacks.
+/// For any argument: handles it if it is a pointer to allocation callbacks.
 template <class Argument>
 void note_allocator(std::string_view call, Argument argument) {
     if constexpr (std::is_same_v<Argument, const VkAllocationCallbacks*>) {
@@ -99,7 +99,7 @@ Known known(bool of_device) {
             reinterpret_cast<PFN_vkVoidFunction>(&Here::call)};
 }
 
-/// What the library fetches of a host's device.
+/// The functions that the library fetches from a host's device.
 const std::vector<Known>& all_known() {
     static const std::vector<Known> all{
 #define NEARFIELD_OF_INSTANCE(function) known<Tag_##function, PFN_##function>(false),

@@ -35,7 +35,7 @@ VkResult perform(Tag_vkEnumeratePhysicalDevices tag, VkInstance instance, std::u
     return VK_SUCCESS;
 }
 
-/// Of the only instance there is.
+/// For the only instance.
 VkResult perform(Tag_vkCreateDevice tag, VkPhysicalDevice, const VkDeviceCreateInfo*,
                  const VkAllocationCallbacks*, VkDevice* device) {
     Number instance = 0;

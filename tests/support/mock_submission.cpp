@@ -29,8 +29,8 @@ namespace {
 
 using Semaphore = MockDriver::Submitted::Semaphore;
 
-/// A binary semaphore that is waited for has to be signalled, and one that is signalled must not
-/// be; a timeline semaphore has to have the value, or less than it.
+/// A binary semaphore to wait for must be signalled, and one to signal must not be; a timeline
+/// semaphore must have at least the value to wait for, and less than the value to signal.
 void pass(std::string_view call, const Semaphore& passed, bool signalled) {
     MockObject* const object = driver().find(call, passed.semaphore);
     if (object == nullptr) {
@@ -51,7 +51,7 @@ void pass(std::string_view call, const Semaphore& passed, bool signalled) {
     object->signalled = signalled;
 }
 
-/// Semaphore `i` of a list, with its value, which has to be there where it is a timeline one.
+/// Semaphore `i` of a list, with its value, which a timeline semaphore must have.
 Semaphore with_value(std::string_view call, const VkSemaphore* semaphores, std::uint32_t i,
                      std::uint32_t values, const std::uint64_t* value) {
     const MockObject* const object = driver().find(call, semaphores[i]);
@@ -61,7 +61,7 @@ Semaphore with_value(std::string_view call, const VkSemaphore* semaphores, std::
     return {semaphores[i], i < values ? value[i] : 0, 0};
 }
 
-/// What is handed over of timeline semaphores; nothing, where there is nothing.
+/// The submitted values of timeline semaphores; empty if there are none.
 VkTimelineSemaphoreSubmitInfo values_of(std::string_view call, const VkSubmitInfo& info) {
     VkTimelineSemaphoreSubmitInfo values{};
     if (info.pNext == nullptr) {

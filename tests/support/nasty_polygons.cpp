@@ -24,7 +24,7 @@ public:
     std::size_t count(std::size_t low, std::size_t high) {
         return std::uniform_int_distribution<std::size_t>(low, high)(random_);
     }
-    // In the tile scaled about its centre.
+    // A random point in the tile scaled about its centre.
     Vector point(double scale) {
         return centre() + scale * Vector(uniform(-0.5, 0.5) * width_, uniform(-0.5, 0.5) * height_);
     }
@@ -35,7 +35,7 @@ public:
         std::generate(ring.begin(), ring.end(), [&] { return point(scale); });
         return ring;
     }
-    // Radii as parts of half the tile's smaller side.
+    // Radii as fractions of half the tile's smaller side.
     Ring star(std::size_t size, double least, double most) {
         Ring ring;
         for (std::size_t i = 0; i < size; ++i) {
@@ -46,7 +46,7 @@ public:
         }
         return ring;
     }
-    // Teeth a fraction of a sub-pixel step to some cells wide, with tips of no width.
+    // Teeth from a fraction of a sub-pixel step to several cells wide, with zero-width tips.
     Ring comb() {
         Ring ring = {{0.1 * width_, 0.1 * height_}};
         double x = 0.1 * width_;
@@ -61,7 +61,7 @@ public:
         ring.emplace_back(x, 0.1 * height_);
         return ring;
     }
-    // Every vertex on a pixel centre, or only its y; with many horizontal and vertical edges.
+    // Every vertex, or only its y, on a pixel centre; with many horizontal and vertical edges.
     Ring on_centres(bool x_too) {
         Ring ring = {point(1.2)};
         for (std::size_t i = count(3, 40); i > 0; --i) {
@@ -75,7 +75,7 @@ public:
         }
         return ring;
     }
-    // A star with vertices said twice, runs of collinear vertices, spikes out and back.
+    // A star with repeated vertices, runs of collinear vertices, and spikes out and back.
     Ring disturbed() {
         Ring ring;
         const Ring plain = star(count(4, 20), 0.2, 1.0);
@@ -116,7 +116,7 @@ public:
         }
         return ring;
     }
-    // Some in the tile, some beside it, in any order; more vertices than are looked at one by one.
+    // Some in the tile, some beside it, in any order; with too many vertices for brute force.
     std::vector<Ring> islands() {
         std::vector<Ring> rings;
         for (std::size_t i = count(32, 60); i > 0; --i) {
@@ -149,8 +149,8 @@ std::vector<NastyPolygon> named(std::vector<NastyPolygon> polygons, std::uint32_
 
 }  // namespace
 
-std::vector<NastyPolygon> nasty_polygons(std::uint32_t width, std::uint32_t height,
-                                         std::uint32_t seed) {
+std::vector<NastyPolygon> degenerate_polygons(std::uint32_t width, std::uint32_t height,
+                                              std::uint32_t seed) {
     Generator make(width, height, seed);
     return named({{"soup", {make.soup(make.count(3, 40), 1.0)}},
                   {"big soup", {make.soup(make.count(3, 20), 3.0)}},

@@ -8,15 +8,16 @@
 namespace nearfield::support {
 
 struct NastyPolygon {
-    std::string name;  ///< kind, tile and seed: enough to make it again
+    std::string name;  ///< kind, tile and seed: enough to reproduce it
     Rings rings;
 };
 
-/// Polygons meant to break things, in cells of a tile of width x height: one of each kind for a
-/// seed (self-crossing, stars, combs, slivers, spikes, duplicate vertices, collinear runs, vertices
-/// on pixel centres, holes, tiny, around the tile, beside it, islands in any order).
-[[nodiscard]] std::vector<NastyPolygon> nasty_polygons(std::uint32_t width, std::uint32_t height,
-                                                       std::uint32_t seed);
+/// Degenerate polygons, in cells of a tile of width x height: one of each kind per seed
+/// (self-crossing, stars, combs, slivers, spikes, duplicate vertices, collinear runs, vertices on
+/// pixel centres, holes, tiny, around the tile, beside it, islands in any order).
+[[nodiscard]] std::vector<NastyPolygon> degenerate_polygons(std::uint32_t width,
+                                                            std::uint32_t height,
+                                                            std::uint32_t seed);
 
 /// As above, with vertices up to 10^6 cells away.
 [[nodiscard]] std::vector<NastyPolygon> huge_polygons(std::uint32_t width, std::uint32_t height,

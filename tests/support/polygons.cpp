@@ -23,7 +23,7 @@ void append(Rings& rings, const Rings& more) {
     rings.insert(rings.end(), more.begin(), more.end());
 }
 
-/// Points between a and b, b left out, displaced in proportion to the length of what is halved.
+/// Points between a and b without b, displaced in proportion to the length of the bisected segment.
 void displace(Random& random, const Vector2& a, const Vector2& b, int count, double roughness,
               Ring& ring) {
     if (count <= 1) {

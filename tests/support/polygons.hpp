@@ -7,22 +7,21 @@
 #include <string>
 #include <vector>
 
-/// \file
-/// Shapes to try things on, ordinary and nasty. Everything is a function of a seed. Unless said
-/// otherwise a shape lies about the origin and reaches about 1 from it.
+/// \file Test shapes, ordinary and degenerate. Each is determined by a seed. Unless noted, a shape
+/// is centred on the origin with a radius of about 1.
 
 namespace nearfield::test {
 
 using Rings = std::vector<Ring>;
 
-/// A seeded source of numbers that gives the same ones with every standard library.
+/// A seeded random number generator that is identical with every standard library.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
 
     /// Uniform in [low, high).
     double between(double low, double high);
-    /// Uniform in [low, high], whole.
+    /// An integer, uniform in [low, high).
     int whole(int low, int high);
     /// Uniform on a logarithmic scale; low > 0.
     double scale(double low, double high);
@@ -41,16 +40,16 @@ Rings spiral(double turns, double width, int n);
 Rings comb(int teeth);
 /// A triangle of length 2 and height `thickness`.
 Rings needle(double thickness);
-/// A star with spikes of no width: lines that go out (or in) and come back the same way.
+/// A star with zero-width spikes: lines that go out (or in) and return the same way.
 Rings spiky(Random& random, int spikes);
 /// A fractal coast line of n >= 3 vertices: midpoint displacement about a circle. It may cross
-/// itself where `roughness` (0 to 1) is high.
+/// itself if `roughness` (0 to 1) is high.
 Rings coast(Random& random, int n, double roughness);
-/// One ring of n random points, crossing itself all over.
+/// One ring of n random points with many self-crossings.
 Rings tangle(Random& random, int n);
 /// The five-pointed star drawn in one line; its middle is outside.
 Rings pentagram();
-/// Two triangles that meet in one vertex, as one ring.
+/// Two triangles that share one vertex, as one ring.
 Rings bow_tie();
 /// A star with holes; some are tiny.
 Rings with_holes(Random& random, int holes);
@@ -59,14 +58,15 @@ Rings several_parts(Random& random, int parts);
 /// Axis-aligned rectangle.
 Rings rectangle(const Vector2& low, const Vector2& high);
 
-/// Repeats a share of the vertices, up to three times each, the first or last of a ring too.
+/// Repeats a fraction of the vertices up to three times each, including the first or last of a
+/// ring.
 Rings with_repeated_vertices(Random& random, Rings rings, double share);
-/// Cuts a share of the edges into runs of up to 8 collinear pieces of uneven length.
+/// Divides a fraction of the edges into up to 8 collinear pieces of uneven length.
 Rings with_collinear_runs(Random& random, const Rings& rings, double share);
 /// Scaled about the origin, then moved.
 Rings scaled_and_moved(Rings rings, double factor, const Vector2& by);
 
-/// A shape and what it is called in a failure's message.
+/// A shape and its name in failure messages.
 struct NamedRings {
     std::string name;
     Rings rings;
@@ -74,10 +74,10 @@ struct NamedRings {
 
 /// One of each family above, the same ones for the same seed.
 std::vector<NamedRings> every_family(std::uint64_t seed);
-/// A shape of a random family and size of vertices.
+/// A shape of a random family and number of vertices.
 NamedRings any_shape(Random& random);
 
-/// Rings as WKT, for a failure's message; only the number of vertices where there are many.
+/// Rings as WKT for failure messages; only the number of vertices if there are many.
 std::string to_text(const Rings& rings);
 
 }  // namespace nearfield::test

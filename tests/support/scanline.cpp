@@ -37,7 +37,7 @@ bool is_top_or_left(const GridPoint& a, const GridPoint& b) {
     return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-// Pixels whose centre may lie between low and high: first to last, cut to `count`.
+// Pixels whose centre may lie between low and high: first to last, limited to `count`.
 std::pair<std::int64_t, std::int64_t> pixel_range(std::int64_t low, std::int64_t high,
                                                   std::uint32_t count, double steps) {
     const double first = std::ceil(static_cast<double>(low) / steps - 0.5);
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> scan_parity(const Tile& tile, const Rings& rings) {
         for (std::int64_t row = first_row; row <= last_row; ++row) {
             for (std::int64_t column = 0; column < tile.width; ++column) {
                 const GridPoint p = sample(tile.grid, column, row);
-                // Upwards in y, samples of smaller x have positive orientation.
+                // For upward edges, samples at smaller x have positive orientation.
                 if (low.y <= p.y && p.y < high.y && orientation(low, high, p) > 0) {
                     const std::size_t index = static_cast<std::size_t>(row) * tile.width +
                                               static_cast<std::size_t>(column);

@@ -34,27 +34,27 @@ struct Tile {
 using Fragment = std::function<void(std::size_t index, const std::array<double, 3>& weights)>;
 
 /// Visits every sample that the triangle covers, as a rasteriser does: positions are rounded to the
-/// tile's sub-pixel grid, coverage is exact in integers, a sample on an edge belongs to the
-/// triangle where the edge is a left or a top edge (the top-left rule). Either winding.
+/// tile's sub-pixel grid, coverage is exact in integers, and a sample on an edge belongs to the
+/// triangle if the edge is a left or a top edge (the top-left rule). Either winding.
 void rasterise(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle,
                const Fragment& visit);
 
 /// Draws the mesh with stencil INVERT: 1 where an odd number of its triangles cover the sample.
 [[nodiscard]] std::vector<std::uint8_t> draw_parity(const Tile& tile, const geometry::Mesh& mesh);
 
-/// What is left at a sample after drawing with the depth test LESS.
+/// The result at a sample after drawing with the depth test LESS.
 struct Nearest {
-    float distance = std::numeric_limits<float>::infinity();  ///< infinity: nothing covers it
+    float distance = std::numeric_limits<float>::infinity();  ///< infinity: not covered
     std::uint32_t id = 0xFFFFFFFFU;                           ///< as above: all ones
 };
 
 /// Draws the mesh with its distance as depth.
 [[nodiscard]] std::vector<Nearest> draw_nearest(const Tile& tile, const geometry::Mesh& mesh);
 
-/// 1 at the samples inside the rings by the odd-even rule, once their vertices are snapped to the
+/// 1 at the samples inside the rings by the odd-even rule, after their vertices are snapped to the
 /// tile's grid; exact in integers. A sample crosses an edge that spans its y, lower end included
-/// and upper end not, and that passes strictly on the side of larger x: what the top-left rule
-/// makes of the samples on an edge. For coordinates up to 10^6.
+/// and upper end excluded, and passes strictly on the side of larger x, in agreement with the
+/// top-left rule for samples on an edge. For coordinates up to 10^6.
 [[nodiscard]] std::vector<std::uint8_t> scan_parity(const Tile& tile, const Rings& rings);
 
 }  // namespace nearfield::support

@@ -7,17 +7,16 @@
 
 namespace nearfield::test_support {
 
-/// A copy of the library's shaders, to change; gone in the end.
+/// A copy of the library's shaders for modification; removed at the end.
 class ShaderFolder {
 public:
     ShaderFolder();
 
     [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
 
-    /// Replaces the first place of a file with that text. Throws std::logic_error where there is
-    /// none.
+    /// Replaces the first occurrence of a text in a file. Throws std::logic_error if there is none.
     void replace(const std::string& file, const std::string& text, const std::string& by) const;
-    /// The file as the library has it.
+    /// Restores the library's version of the file.
     void restore(const std::string& file) const;
 
 private:

@@ -22,10 +22,10 @@ void require(VkResult result, const char* call) {
     }
 }
 
-/// What is in both.
+/// The features in both.
 VkPhysicalDeviceFeatures common(const VkPhysicalDeviceFeatures& one,
                                 const VkPhysicalDeviceFeatures& other) {
-    // The structure is a VkBool32 for each feature and nothing else.
+    // The structure contains only a VkBool32 for each feature.
     using Flags = std::array<VkBool32, sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32)>;
     auto both = std::bit_cast<Flags>(one);
     const auto others = std::bit_cast<Flags>(other);
@@ -122,7 +122,7 @@ void VulkanHost::require_layer() const {
 }
 
 void VulkanHost::create_instance() {
-    // General messages are the loader's own, about drivers that this machine cannot use.
+    // General messages come from the loader, about drivers that this machine cannot use.
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
     messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
     messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
@@ -136,7 +136,7 @@ void VulkanHost::create_instance() {
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-    features.pNext = &messenger;  // so that creating and destroying the instance is watched too
+    features.pNext = &messenger;  // covers creation and destruction of the instance too
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
 
@@ -193,7 +193,7 @@ Enabled VulkanHost::offered() const {
     Enabled all;
     function<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(
         device_.physical_device, &all.features);
-    // Who has the extension has its feature.
+    // A device with the extension also has its feature.
     all.timeline_semaphore = has_extension(VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME);
     return all;
 }

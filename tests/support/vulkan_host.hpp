@@ -9,37 +9,37 @@
 
 namespace nearfield::test_support {
 
-/// What a device has enabled beyond the base: nothing, unless asked for.
+/// The parts of a device enabled beyond the base: none by default.
 struct Enabled {
     VkPhysicalDeviceFeatures features{};
-    bool timeline_semaphore = false;  ///< by VK_KHR_timeline_semaphore
+    bool timeline_semaphore = false;  ///< through VK_KHR_timeline_semaphore
 };
 
-/// A renderer in small: a Vulkan 1.1 device with no extension and, unless asked for, no feature
-/// enabled, under the Khronos validation layer with synchronisation validation. What the layer says
-/// is collected.
+/// A minimal renderer: a Vulkan 1.1 device with no extension and, by default, no feature enabled,
+/// under the Khronos validation layer with synchronisation validation. It collects the layer's
+/// messages.
 class VulkanHost {
 public:
-    /// Throws std::runtime_error where the loader, the layer or a device is missing, so that a test
+    /// Throws std::runtime_error if the loader, the layer or a device is missing, so that a test
     /// without validation fails rather than passes.
     VulkanHost() : VulkanHost(Enabled{}) {}
-    /// Enables what is asked for where the physical device offers it: device().logic_op and
-    /// device().timeline_semaphore say whether it did.
+    /// Enables the requested parts if the physical device offers them: device().logic_op and
+    /// device().timeline_semaphore report whether it did.
     explicit VulkanHost(const Enabled& wanted);
     ~VulkanHost();
     VulkanHost(const VulkanHost&) = delete;
     VulkanHost& operator=(const VulkanHost&) = delete;
 
     [[nodiscard]] const HostDevice& device() const { return device_; }
-    /// All that the physical device offers, by what its driver says.
+    /// Everything that the physical device offers, according to its driver.
     [[nodiscard]] Enabled offered() const;
 
     /// Every warning and error of the validation layer since the last clear, in order.
     [[nodiscard]] std::vector<std::string> messages() const;
     void clear_messages();
 
-    /// Destroys device and instance, then returns all messages, with those about objects that were
-    /// left behind. Whatever was made on the device must be gone before.
+    /// Destroys device and instance, then returns all messages, including those about leaked
+    /// objects. All objects of the device must have been destroyed before.
     std::vector<std::string> close();
 
 private:
@@ -62,7 +62,7 @@ private:
     void create_device(const Enabled& enabled);
     void destroy();
 
-    mutable std::mutex mutex_;  // the layer may speak from any thread
+    mutable std::mutex mutex_;  // the layer may report from any thread
     std::vector<std::string> messages_;
     std::unique_ptr<void, CloseLibrary> library_;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;

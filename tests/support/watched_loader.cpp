@@ -11,7 +11,7 @@ namespace {
 
 std::function<void(const WatchedCall&)> watcher;
 
-/// A handle is a pointer; what is made comes back through a pointer to one.
+/// Handles are pointers; created handles are returned through a pointer to one.
 template <class Argument>
 constexpr bool is_result =
     std::is_pointer_v<Argument>&& std::is_pointer_v<std::remove_pointer_t<Argument>> &&
@@ -30,7 +30,8 @@ void note(WatchedCall& call, Argument argument) {
     }
 }
 
-/// Stands between the library and one entry point; `Tag` tells those of one type apart.
+/// Intercepts the library's calls of one entry point; `Tag` distinguishes entry points of the same
+/// type.
 template <class Tag, class Function>
 struct Watched;
 

@@ -10,16 +10,17 @@
 
 namespace nearfield::test_support {
 
-/// A call of an entry point, as it returned.
+/// A completed call of an entry point.
 struct WatchedCall {
     std::string_view name;
     bool takes_allocator = false;
     const VkAllocationCallbacks* allocator = nullptr;
-    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< where it takes one
-    std::uint64_t made = 0;                           ///< the (first) object it made, if any
-    std::uint64_t allocations = 0;  ///< of this thread during the call: the driver's and layers'
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  ///< if it takes one
+    std::uint64_t made = 0;                           ///< the first object it created, if any
+    std::uint64_t allocations = 0;  ///< on this thread during the call: those of the driver and
+                                    ///< layers
 
-    /// It makes objects (vkCreate, vkAllocate).
+    /// True if it creates objects (vkCreate, vkAllocate).
     [[nodiscard]] bool makes() const {
         return name.starts_with("vkCreate") || name.starts_with("vkAllocate");
     }
@@ -28,8 +29,8 @@ struct WatchedCall {
     }
 };
 
-/// Lies that are none: every device entry point of the library goes to the truth, and `watch` is
-/// told of each call. One at a time, as with FakeLoader; `watch` must be thread-safe where the
+/// Lies that change nothing: every device entry point forwards to the original, and `watch`
+/// receives each call. One at a time, as with FakeLoader; `watch` must be thread-safe if the
 /// library is called from several threads.
 [[nodiscard]] Lies watched(const HostDevice& host, std::function<void(const WatchedCall&)> watch);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Job = void (*)(void* data, std::uint32_t number);
 
-/// A thread for every job.
+/// Runs every job on its own thread.
 void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
     std::vector<std::thread> threads;
     for (std::uint32_t i = 0; i < jobs; ++i) {
@@ -27,7 +27,8 @@ void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
     }
 }
 
-/// One after the other, another one first each time; says how many there were.
+/// Runs the jobs one after the other, starting with a different one each time; reports their
+/// number.
 void run_in_turn(void* user, std::uint32_t jobs, Job job, void* data) {
     auto& calls = *static_cast<std::uint32_t*>(user);
     for (std::uint32_t i = 0; i < jobs; ++i) {
@@ -42,7 +43,7 @@ void leave_one_out(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
     }
 }
 
-/// One after the other; says how many there were.
+/// Runs the jobs one after the other; reports their number.
 void count_jobs(void* user, std::uint32_t jobs, Job job, void* data) {
     *static_cast<std::uint32_t*>(user) = jobs;
     for (std::uint32_t i = 0; i < jobs; ++i) {
@@ -50,7 +51,7 @@ void count_jobs(void* user, std::uint32_t jobs, Job job, void* data) {
     }
 }
 
-/// The memory of the machine ends in the second job.
+/// Memory runs out in the second job.
 void run_out_of_memory(void* user, std::uint32_t jobs, Job job, void* data) {
     for (std::uint32_t i = 0; i < jobs; ++i) {
         std::optional<test_support::FailingAllocations> none;
@@ -62,7 +63,7 @@ void run_out_of_memory(void* user, std::uint32_t jobs, Job job, void* data) {
     }
 }
 
-/// Forty shapes side by side and a large one over them all, and every kind of query about them.
+/// Forty shapes side by side, a large one over all of them, and every kind of query on them.
 class Crowd {
 public:
     explicit Crowd(const JobSystem& jobs) {
@@ -131,7 +132,7 @@ private:
     Results results_;
 };
 
-/// What a thread alone finds.
+/// The results of a single thread.
 std::vector<double> found_alone() {
     Crowd crowd({});
     const Status status = crowd.run();
@@ -168,8 +169,8 @@ TEST(Jobs, AllocateNothingInTheLongRunWhoeverDoesThem) {
     EXPECT_EQ(test_support::allocation_count(), before);
 }
 
-/// Into how many jobs, eight at the most, four pairs of squares are divided whose boundaries have
-/// so many samples each; 0 where none are asked for.
+/// The number of jobs, at most eight, for four pairs of squares whose boundaries have `samples`
+/// samples each; 0 if no jobs are used.
 std::uint32_t jobs_for(double samples, std::uint64_t memory) {
     std::uint32_t jobs = 0;
     Settings settings;
@@ -231,7 +232,7 @@ TEST(Jobs, ThatCannotBeUsedAreRefused) {
     };
     EXPECT_EQ(code({nullptr, 2, nullptr}), StatusCode::invalid_settings);
     EXPECT_EQ(code({nullptr, 0, run_on_threads}), StatusCode::invalid_settings);
-    EXPECT_EQ(code({nullptr, most_jobs + 1, run_on_threads}), StatusCode::invalid_settings);
+    EXPECT_EQ(code({nullptr, max_jobs + 1, run_on_threads}), StatusCode::invalid_settings);
 }
 
 }  // namespace

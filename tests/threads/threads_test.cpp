@@ -17,13 +17,13 @@ constexpr int threads = 3;
 const std::vector<Vector2> ring_a{{0, 0}, {3, 0}, {3, 2}, {2, 1}, {1, 2}, {0, 2}};
 const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5, 1}};
 
-/// What a thread asks of a context of its own: shapes added and changed, pairs found, batches run,
-/// and others in flight two at a time.
+/// A thread's work on its own context: shapes added and changed, pairs found, batches run, and
+/// others in flight two at a time.
 class Simulation {
 public:
     explicit Simulation(Context context) : context_(std::move(context)) {}
 
-    /// All depths and distances that came back; an error in words where there was one.
+    /// All depths and distances of the results; the text of an error if there was one.
     std::vector<double> run() {
         const Expected<ShapeHandle> a = context_.add_shape({{ring_a}});
         const Expected<ShapeHandle> b = context_.add_shape({{ring_b}});
@@ -109,7 +109,7 @@ private:
     std::string error_;
 };
 
-/// Runs a simulation on each of several threads; `make` is called there. All have to find the same.
+/// Runs a simulation on each of several threads, which call `make`. All must give the same results.
 template <class Make>
 void expect_same_on_threads(const Make& make) {
     std::vector<std::vector<double>> found(threads);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <tests/support/nasty_polygons.hpp>
-#include <tools/picture/canvas.hpp>
-#include <tools/render/page.hpp>
+#include <tools/drawing/canvas.hpp>
+#include <tools/rendering/page.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace {
 constexpr int side = 240;
 constexpr tools::Color ink = tools::rgb(0x204080);
 
-/// One painter for all tests: as little as it takes to make it, it adds up.
+/// One painter for all tests, because creating one takes time.
 class Painter : public testing::Test {
 protected:
     static tools::FrameImage paint(const tools::Drawing& drawing) {
@@ -34,25 +34,26 @@ protected:
         return most;
     }
 
-    /// Four samples of a pixel say to a quarter, and a little, what of it is covered. Cairo says it
-    /// nearly exactly; thin slivers can lie between samples.
+    /// Four samples per pixel give the coverage to slightly more than a quarter. Cairo's is nearly
+    /// exact; thin slivers can lie between samples.
     static void expect_alike(const tools::FrameImage& painted, const tools::Canvas& canvas,
-                             const std::string& what, std::size_t most_slivers = 0) {
+                             const std::string& what, std::size_t max_slivers = 0) {
         const std::vector<std::uint32_t> expected = canvas.pixels();
         ASSERT_EQ(painted.pixels.size(), expected.size());
-        constexpr int contrast = 0xF5 - 0x20;  // of the panel's red and the ink's
+        constexpr int contrast = 0xF5 - 0x20;  // between the panel's red and the ink's
         std::size_t far_off = 0;
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const int off = difference(painted.pixels[i], expected[i]);
             far_off += off > contrast * 2 / 5 ? 1U : 0U;
         }
-        EXPECT_LE(far_off, most_slivers) << what;
+        EXPECT_LE(far_off, max_slivers) << what;
     }
 };
 
 TEST_F(Painter, FillsNastyRingsByTheOddEvenRule) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        for (const support::NastyPolygon& polygon : support::nasty_polygons(side, side, seed)) {
+        for (const support::NastyPolygon& polygon :
+             support::degenerate_polygons(side, side, seed)) {
             std::vector<Ring> rings;
             for (const auto& ring : polygon.rings) {
                 Ring& copy = rings.emplace_back();
@@ -70,7 +71,7 @@ TEST_F(Painter, FillsNastyRingsByTheOddEvenRule) {
 }
 
 TEST_F(Painter, AFillHasNoSeams) {
-    // Translucent, so that what is painted twice or not at all shows.
+    // Translucent, so that anything painted twice or not at all is visible.
     const Ring star{{120.3, 7.0},   {150.1, 90.7}, {232.9, 91.3}, {167.2, 141.1}, {190.6, 229.8},
                     {121.1, 177.7}, {49.2, 230.3}, {73.8, 142.9}, {8.1, 90.2},    {91.7, 91.9}};
     tools::Drawing drawing;

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 #include <tests/hosts/example_program.hpp>
 #include <tests/hosts/picture_file.hpp>
-#include <tools/dynamics/plane.hpp>
-#include <tools/picture/view.hpp>
-#include <tools/scenes/scenes.hpp>
+#include <tools/drawing/view.hpp>
+#include <tools/simulation/plane.hpp>
+#include <tools/simulation/scenes.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 namespace nearfield::test {
 namespace {
 
-// As the viewer has them.
+// As in the viewer.
 constexpr int width = 1280;
 constexpr int height = 760;
 constexpr int panel = 330;
@@ -27,7 +27,7 @@ std::string to_words(const Vector2& from, const Vector2& to) {
 
 class Viewer : public testing::Test {
 protected:
-    /// The last frame; nothing was said on the way, by the viewer or by the validation layers.
+    /// Takes the last frame; expects no messages from the viewer or the validation layers.
     [[nodiscard]] Pixels take_picture(std::vector<std::string> arguments) const {
         const std::filesystem::path file = folder_.path() / "picture.png";
         arguments.push_back("--screenshot=" + file.string());
@@ -39,7 +39,7 @@ protected:
         return read_picture(file);
     }
 
-    /// Pixels of the scene, beside the panel, that are not the same.
+    /// The number of different pixels of the scene, beside the panel.
     [[nodiscard]] static int differences(const Pixels& a, const Pixels& b) {
         int count = 0;
         for (int y = 0; y < height; ++y) {
@@ -51,7 +51,7 @@ protected:
     }
 
     [[nodiscard]] static const examples::Color& pixel(const Pixels& picture,
-                                                      const dynamics::Scene& scene,
+                                                      const simulation::Scene& scene,
                                                       const Vector2& place) {
         const tools::View view(scene.view, {{double{panel}, 0.0}, {double{width}, double{height}}});
         const Vector2 at = view.to_page(place);
@@ -62,9 +62,9 @@ protected:
 };
 
 TEST_F(Viewer, ABodyFollowsTheMouse) {
-    const dynamics::Scene scene = scenes::map_scene();
+    const simulation::Scene scene = simulation::map_scene();
     const Vector2 from = scene.bodies[0]->center();
-    const Vector2 to{4.4, 3.4};  // a corner where nothing goes on its own
+    const Vector2 to{4.4, 3.4};  // a corner without other motion
     const std::vector<std::string> quiet{"map", "--frames=30", "--show=none"};
     const Pixels before = take_picture({"map", "--frames=1", "--show=none"});
     const Pixels alone = take_picture(quiet);
@@ -75,7 +75,7 @@ TEST_F(Viewer, ABodyFollowsTheMouse) {
     const examples::Color of_body = pixel(before, scene, from);
     const examples::Color background = pixel(before, scene, to);
     ASSERT_NE(of_body, background);
-    // Beside what holds the body, which is drawn over it.
+    // Beside the mark of the drag, which is drawn over the body.
     const Vector2 beside{to.x - 0.15, to.y - 0.1};
     EXPECT_EQ(pixel(alone, scene, beside), background);
     EXPECT_EQ(pixel(dragged, scene, beside), of_body);
@@ -83,7 +83,7 @@ TEST_F(Viewer, ABodyFollowsTheMouse) {
 }
 
 TEST_F(Viewer, ADeformableBodyIsPulledOut) {
-    const dynamics::Scene scene = scenes::wavy_scene();
+    const simulation::Scene scene = simulation::wavy_scene();
     // The free side of the left bar, half-way up.
     const Ring& ring = scene.bodies[0]->rings().front();
     Vector2 from = ring.front();
@@ -130,14 +130,14 @@ TEST_F(Viewer, FitsAWindowThatIsResized) {
     const Pixels picture = take_picture({"overlap", "--frames=6", "--resize=900,620"});
     ASSERT_EQ(picture.width, 900);
     ASSERT_EQ(picture.height, 620);
-    // Bodies in the middle of what the panel leaves, background in the last corner.
+    // Bodies in the middle of the area beside the panel, background in the last corner.
     const examples::Color& background = picture.at(899, 619);
     EXPECT_NE(picture.at((panel + 900) / 2, 310), background);
     EXPECT_EQ(picture.at(panel + 1, 1), background);
     EXPECT_NE(picture.at(1, 1), background);
 }
 
-/// A run that cannot work says why and leaves with a status, not by a signal.
+/// A run that cannot work prints a reason and exits with a status, not through a signal.
 void expect_viewer_refused(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment, int status,
                            const std::string& reason) {

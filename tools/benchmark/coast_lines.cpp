@@ -2,7 +2,7 @@
 #include <embedded/ireland_10m.hpp>
 #include <tools/benchmark/coast_lines.hpp>
 #include <tools/benchmark/objects.hpp>
-#include <tools/input/geojson.hpp>
+#include <tools/io/geojson.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,8 @@ std::vector<Edge> edges_of(const std::vector<Ring>& rings) {
     return edges;
 }
 
-/// Where an edge is at the height of a point, less where the point is; nothing where it passes
-/// above or below.
+/// The signed distance along x from the point to the edge at the point's height; `nothing` if the
+/// edge does not span that height.
 double ahead_of(Vector2 point, const Edge& edge, double nothing) {
     if (point.y < std::min(edge.from.y, edge.to.y) || point.y > std::max(edge.from.y, edge.to.y)) {
         return nothing;
@@ -75,7 +75,7 @@ std::vector<Ring> ireland() {
 
 double gap_along_x(const std::vector<Ring>& a, const std::vector<Ring>& b) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    // The least distance is at a vertex of one of them.
+    // The smallest gap is attained at a vertex of one of the two outlines.
     double gap = infinity;
     const std::vector<Edge> edges_a = edges_of(a);
     const std::vector<Edge> edges_b = edges_of(b);
@@ -92,7 +92,7 @@ tools::Scene coast_lines_scene(double overlap) {
     const std::vector<Ring> a = iceland();
     std::vector<Ring> b = ireland();
     const double width = width_of(a);
-    // Right of all of A to begin with, so that the first touch is the one that counts.
+    // B starts to the right of all of A, so that the first touch is the relevant one.
     const double start = width + width_of(b);
     for (Ring& ring : b) {
         for (Vector2& vertex : ring) {

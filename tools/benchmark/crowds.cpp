@@ -16,7 +16,7 @@ double any_angle(Random& random) {
 }
 
 void add_star(tools::Scene& scene, Random& random, Vector2 place) {
-    Ring ring = star(random, star_vertices);  // before the angle, whatever the compiler
+    Ring ring = star(random, star_vertices);  // fixes the evaluation order: before the angle
     add_object(scene, {std::move(ring)}, {place, any_angle(random)});
 }
 

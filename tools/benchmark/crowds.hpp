@@ -1,18 +1,17 @@
 #pragma once
 
-#include <tools/input/scene.hpp>
+#include <tools/io/scene.hpp>
 
 #include <cstddef>
 
-/// \file
-/// Many small objects; shapes and where they are, no queries.
+/// \file Scenes of many small objects: shapes and poses, no queries.
 
 namespace nearfield::benchmark {
 
-/// 1,000 stars of 50 vertices side by side, about 2,400 pairs of which have boxes that meet.
+/// 1,000 stars of 50 vertices side by side; the boxes of about 2,400 pairs overlap.
 [[nodiscard]] tools::Scene crowd_scene();
 
-/// Pairs of stars of 50 vertices that overlap, no pair near another: objects 2 i and 2 i + 1.
+/// Overlapping pairs of 50-vertex stars, objects 2 i and 2 i + 1; no pair is near another.
 [[nodiscard]] tools::Scene small_pairs_scene(std::size_t pairs);
 
 }  // namespace nearfield::benchmark

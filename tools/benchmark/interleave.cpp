@@ -15,27 +15,27 @@ double spent(const Contender& contender) {
 bool has_enough(const Contender& contender, const Budget& budget) {
     const std::size_t frames = contender.frames_ms.size();
     return frames >= budget.fewest_frames &&
-           (frames >= budget.most_frames || spent(contender) >= budget.milliseconds);
+           (frames >= budget.max_frames || spent(contender) >= budget.milliseconds);
 }
 
 void warm_up(const Contender& contender, double milliseconds) {
-    constexpr int most_frames = 10;
+    constexpr int max_frames = 10;
     double taken = 0.0;
-    for (int frame = 0; frame < most_frames && taken <= milliseconds; ++frame) {
+    for (int frame = 0; frame < max_frames && taken <= milliseconds; ++frame) {
         taken += contender.frame();
     }
 }
 
-/// One turn. True where there is more to measure.
+/// Runs one turn. Returns true if there is more to measure.
 bool take_turn(Contender& contender, const Budget& budget) {
     if (has_enough(contender, budget)) {
         return false;
     }
-    // From rest: a driver's threads have come to an end, and a scheduler that favours who has
-    // slept, as one that waits for a device has, favours all alike.
+    // Let the driver's threads go idle first. Schedulers favour threads that have slept (such as
+    // one waiting for a device); after a pause they favour all contenders alike.
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     double taken = 0.0;
-    while (taken < budget.turn && contender.frames_ms.size() < budget.most_frames) {
+    while (taken < budget.turn && contender.frames_ms.size() < budget.max_frames) {
         contender.frames_ms.push_back(contender.frame());
         taken += contender.frames_ms.back();
     }

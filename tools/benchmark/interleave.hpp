@@ -7,28 +7,28 @@
 
 namespace nearfield::benchmark {
 
-/// One of several ways to do the same work, and what it took so far.
+/// One of several ways to do the same work, with its measurements so far.
 struct Contender {
-    /// Does the work once; returns its milliseconds.
+    /// Does the work once; returns the time in milliseconds.
     std::function<double()> frame;
     std::vector<double> frames_ms;
 };
 
-/// How long each contender of a row is measured.
+/// How long each contender in a row is measured.
 struct Budget {
-    /// Until its frames took this many milliseconds together ...
+    /// A contender is done when its frames add up to this many milliseconds ...
     double milliseconds = 250.0;
-    /// ... or there are this many of them; but for
-    std::size_t most_frames = 2000;
-    /// this many there is always time.
+    /// ... or when it has run this many frames,
+    std::size_t max_frames = 2000;
+    /// but it always runs at least this many.
     std::size_t fewest_frames = 2;
-    /// A contender's turn, milliseconds: long enough for its memory to be in the caches again.
+    /// Length of a turn in milliseconds: long enough to warm the caches.
     double turn = 20.0;
 };
 
-/// Measures contenders turn by turn, to and fro, so that what else the machine does, and what one
-/// leaves behind for the next, falls on all alike. Before, each does its work once, or more often
-/// where that is quick, unmeasured.
+/// Measures the contenders in alternating turns, so that other load on the machine and side effects
+/// of one contender affect all of them equally. Each contender first does its work once unmeasured,
+/// or several times if that is quick.
 void measure(std::span<Contender> contenders, const Budget& budget);
 
 }  // namespace nearfield::benchmark

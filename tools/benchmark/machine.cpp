@@ -3,7 +3,7 @@
 #include <embedded/commit.hpp>
 #include <sched.h>
 #include <tools/benchmark/machine.hpp>
-#include <tools/commands/library_error.hpp>
+#include <tools/common/library_error.hpp>
 
 #include <ctime>
 #include <fstream>

@@ -4,17 +4,17 @@
 
 namespace nearfield::benchmark {
 
-/// Where and of what something is measured, for those who read the figures later.
+/// Where a measurement was taken, for later readers of the figures.
 struct Machine {
     std::string commit;     ///< of the sources, or their version outside a repository
-    std::string processor;  ///< its name as the system gives it
-    unsigned cores = 0;     ///< that this process may use
+    std::string processor;  ///< the name the system reports
+    unsigned cores = 0;     ///< available to this process
     std::string date;       ///< "2026-11-21"
 };
 
 [[nodiscard]] Machine this_machine();
 
-/// The driver of the device of this name; empty where it is not found.
+/// The driver of the device with this name; empty if there is none.
 [[nodiscard]] std::string driver_of(const std::string& device);
 
 }  // namespace nearfield::benchmark

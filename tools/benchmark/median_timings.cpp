@@ -7,7 +7,7 @@
 namespace nearfield::benchmark {
 namespace {
 
-/// The median over all frames of what `get` picks from each.
+/// The median over all frames of the value that `get` returns for each.
 template <class Get>
 double median_of(const std::vector<Timings>& frames, Get get) {
     std::vector<double> values;

@@ -6,8 +6,8 @@
 
 namespace nearfield::benchmark {
 
-/// Medians over frames of the same queries, stage by stage and pass by pass. Precondition: there is
-/// a frame, and every frame has the passes of the first.
+/// Medians over frames of the same queries, by stage and by pass. Precondition: at least one frame,
+/// and every frame has the same passes as the first.
 [[nodiscard]] Timings median_timings(const std::vector<Timings>& frames);
 
 }  // namespace nearfield::benchmark

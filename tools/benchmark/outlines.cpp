@@ -18,7 +18,7 @@ double share(std::size_t part, std::size_t whole) {
     return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Piecewise linear around the circle between random heights, at a share of the full turn.
+/// Periodic piecewise linear interpolation of random heights at a fraction of a full turn.
 double noise_at(const std::vector<double>& heights, double turn) {
     const double place = turn * static_cast<double>(heights.size());
     const auto before = static_cast<std::size_t>(place) % heights.size();
@@ -26,7 +26,7 @@ double noise_at(const std::vector<double>& heights, double turn) {
     return std::lerp(heights[before], heights[(before + 1) % heights.size()], t);
 }
 
-/// The centre line of a link at t in [0, 1], moved to its left by `side`.
+/// The centre line of a link at t in [0, 1], offset to its left by `side`.
 Vector2 link_point(double t, double side) {
     constexpr double arc = 200.0 / 360.0 * full_turn;
     if (t < 0.5) {  // the left hook, clockwise over the top: its left is outward

@@ -1,7 +1,7 @@
 #include <tools/benchmark/objects.hpp>
 #include <tools/benchmark/outlines.hpp>
 #include <tools/benchmark/paper_scenes.hpp>
-#include <tools/input/values.hpp>
+#include <tools/io/values.hpp>
 
 namespace nearfield::benchmark {
 

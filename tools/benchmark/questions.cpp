@@ -58,7 +58,7 @@ tools::QueryRequest square_field(Vector2 middle, double side, std::size_t cells)
 
 tools::Scene asked(tools::Scene scene, const tools::QueryRequest& request, Pairs pairs) {
     if (pairs == Pairs::all) {
-        // Objects farther apart than this are of no interest to a simulation.
+        // A simulation does not need pairs farther apart than this.
         constexpr double reach_in_tolerances = 20.0;
         const double reach = request.type == tools::QueryType::separation
                                  ? reach_in_tolerances * request.tolerance

@@ -5,8 +5,8 @@
 
 namespace nearfield::benchmark {
 
-/// A seeded source of numbers that gives the same ones with every standard library, so that a row
-/// of the table is the same work everywhere.
+/// A seeded random number generator that is identical with every standard library, so that a row of
+/// the table is the same work everywhere.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -6,7 +6,7 @@
 namespace nearfield::benchmark {
 namespace {
 
-/// Of sorted measurements, the value that `share` of them stay below.
+/// The quantile of sorted measurements at `share` (0 to 1).
 double quantile(const std::vector<double>& sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(place);

@@ -5,7 +5,7 @@
 
 namespace nearfield::benchmark {
 
-/// Where a list of measurements lies.
+/// The distribution of a list of measurements.
 struct Spread {
     double least = 0.0;
     double lower_quartile = 0.0;
@@ -14,7 +14,7 @@ struct Spread {
     std::size_t count = 0;
 };
 
-/// Quartiles between two measurements are interpolated. Precondition: there is one measurement.
+/// Quartiles are interpolated between measurements. Precondition: the list is not empty.
 [[nodiscard]] Spread spread_of(std::vector<double> measurements);
 
 }  // namespace nearfield::benchmark

@@ -15,7 +15,8 @@ namespace {
 using MakeScene = std::function<tools::Scene()>;
 using MakeRequest = tools::QueryRequest (*)(double tolerance);
 
-/// d of scenes whose objects have a radius of about 1, and of the coast lines in kilometres.
+/// The tolerance d for scenes with objects of radius about 1, and for the coast lines in
+/// kilometres.
 constexpr double scene_tolerance = 0.01;
 constexpr double coast_tolerance = 0.8;
 
@@ -30,7 +31,7 @@ constexpr Question questions[] = {
     {"intersection", intersection},   {"test", intersection_test},
 };
 
-/// Every question, asked between all pairs that come near each other.
+/// Adds every kind of query between all nearby pairs.
 void add_questions(std::vector<Row>& rows, const std::string& name, const MakeScene& scene,
                    double tolerance, Pairs pairs) {
     for (const Question& question : questions) {
@@ -79,7 +80,7 @@ tools::Scene alone(std::vector<Ring> rings) {
 }
 
 void add_fields_by_cells(std::vector<Row>& rows) {
-    constexpr double window = 600.0;  // all of Iceland
+    constexpr double window = 600.0;  // covers Iceland
     for (const std::size_t cells : {64U, 128U, 256U, 512U, 1024U, 2048U}) {
         const std::string size = std::to_string(cells) + " x " + std::to_string(cells);
         rows.push_back({"field " + size + ", Iceland", [=] {
@@ -91,7 +92,7 @@ void add_fields_by_cells(std::vector<Row>& rows) {
                     }});
 }
 
-/// The same window and the same d: work follows the tolerance, not the vertices.
+/// The window and d are fixed: the work depends on the tolerance, not on the vertices.
 void add_fields_by_vertices(std::vector<Row>& rows) {
     constexpr std::size_t cells = 256;
     constexpr double window = 3.0;
@@ -111,7 +112,7 @@ void add_fields_by_vertices(std::vector<Row>& rows) {
 
 void add_crowds(std::vector<Row>& rows) {
     add_questions(rows, "crowd of 1000", crowd_scene, scene_tolerance, Pairs::all);
-    // The part that two of these stars have in common has a box of about 32 x 32 such cells.
+    // The box of the intersection of two stars is about 32 x 32 cells of this size.
     constexpr double pair_tolerance = 0.03;
     add_questions(
         rows, "1000 small pairs", [] { return small_pairs_scene(1000); }, pair_tolerance,
@@ -132,7 +133,7 @@ void add_crowds(std::vector<Row>& rows) {
                     }});
 }
 
-/// The paper's Table 3.
+/// Table 3 of the paper.
 void add_tolerances(std::vector<Row>& rows) {
     struct Tolerance {
         const char* name;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tools/input/scene.hpp>
+#include <tools/io/scene.hpp>
 
 #include <functional>
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace nearfield::benchmark {
 
-/// A row of the standard table: work that is done once a frame.
+/// A row of the standard table: work done once per frame.
 struct Row {
     std::string name;                     ///< "gears x10, contacts"
-    std::function<tools::Scene()> scene;  ///< made when the row's turn comes
+    std::function<tools::Scene()> scene;  ///< called when the row is measured
 };
 
-/// All rows, in the order of the table. Names are unique.
+/// All rows in table order. Names are unique.
 [[nodiscard]] std::vector<Row> standard_table();
 
 }  // namespace nearfield::benchmark

@@ -1,5 +1,5 @@
-#include <tools/output/answer.hpp>
-#include <tools/output/summary.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/summary.hpp>
 #include <tools/peers/agreement.hpp>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace nearfield::peers {
 namespace {
 
-/// Compares the answers to one query after the other.
+/// Compares the answers to the queries one by one.
 class Comparison {
 public:
     Comparison(Peer& peer, std::span<const PlacedShape> shapes, Agreement& agreement)
@@ -32,7 +32,7 @@ public:
         expect_near("distance", result.distance, answer.number, 0.0);
     }
     void compare(const IntersectionResult& result, const Answer& answer) {
-        // Either side of the boundary, and around the ends of what lies in the box.
+        // The band on both sides of the boundary and around the ends of the parts in the box.
         const double bound = result.error_bound;
         const double length = length_near(query_->a, query_->b) + length_near(query_->b, query_->a);
         expect_near("area", result.area, answer.number, 2.0 * bound * (length + 4.0 * bound));
@@ -81,7 +81,7 @@ void Comparison::compare(const PenetrationResult& result, const Answer& answer) 
         expect_near("depth", depth, answer.number, 0.0);
         return;
     }
-    // Both have sampled: each may miss what is deepest by the bound.
+    // Both sides are sampled: each may miss the deepest point by the bound.
     expect_near("depth", depth, answer.number, result.error_bound);
     for (const PenetrationRecord& record : result.records) {
         if (!peer_.is_inside(query_->b, record.point)) {
@@ -104,7 +104,7 @@ void Comparison::compare(const DistanceFieldResult& result, const Answer& answer
     }
 }
 
-/// The length of the boundary of one shape in the other's box.
+/// The length of one shape's boundary within the other's box.
 double Comparison::length_near(std::size_t of, std::size_t other) const {
     const double spacing = query_->request.tolerance;
     std::vector<Vector2> points;

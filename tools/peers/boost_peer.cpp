@@ -19,7 +19,7 @@ BoostPoint boost_point(Vector2 point) {
     return {point.x, point.y};
 }
 
-/// Boost.Geometry by its algorithms alone: no index of the caller's.
+/// Boost.Geometry's algorithms alone, without an index built by the caller.
 class Boost final : public Peer {
 public:
     [[nodiscard]] std::string name() const override { return "Boost"; }

@@ -15,7 +15,7 @@ using TreeSegment = bg::model::segment<TreePoint>;
 using TreeBox = bg::model::box<TreePoint>;
 using SegmentTree = bgi::rtree<TreeSegment, bgi::rstar<16>>;
 
-/// The edge goes past a ray from the point to the right.
+/// True if the edge crosses a ray from the point to the right.
 bool crosses_ray(const TreeSegment& edge, Vector2 point) {
     const TreePoint& from = edge.first;
     const TreePoint& to = edge.second;
@@ -25,7 +25,7 @@ bool crosses_ray(const TreeSegment& edge, Vector2 point) {
     return point.x < from.x() + (point.y - from.y()) / (to.y() - from.y()) * (to.x() - from.x());
 }
 
-/// Boost.Geometry with a packed R-tree of B's edges: what a caller would add for many points.
+/// Boost.Geometry with a packed R-tree of B's edges, as a caller would add for many points.
 class BoostTree final : public Peer {
 public:
     [[nodiscard]] std::string name() const override { return "Boost R-tree"; }

@@ -21,7 +21,7 @@ Kernel::Point_3 in_plane(Vector2 point) {
     return {point.x, point.y, 0.0};
 }
 
-/// CGAL's tree of boxes knows space only, in this version: edges lie in the plane z = 0.
+/// CGAL's AABB tree is three-dimensional only in this version, so edges lie in the plane z = 0.
 class Cgal final : public Peer {
 public:
     [[nodiscard]] std::string name() const override { return "CGAL"; }
@@ -43,9 +43,9 @@ private:
     };
 
     [[nodiscard]] bool boundaries_meet(const Shape& a, const Shape& b) const;
-    [[nodiscard]] double least_from_vertices(const Shape& a, const Shape& b) const;
+    [[nodiscard]] double min_from_vertices(const Shape& a, const Shape& b) const;
 
-    std::vector<std::unique_ptr<Shape>> shapes_;  // a tree points into its edges
+    std::vector<std::unique_ptr<Shape>> shapes_;  // trees point into their edges
 };
 
 std::string Cgal::how(Task task) const {
@@ -101,7 +101,7 @@ bool Cgal::boundaries_meet(const Shape& a, const Shape& b) const {
                        [&](const Kernel::Segment_3& edge) { return b.tree.do_intersect(edge); });
 }
 
-double Cgal::least_from_vertices(const Shape& a, const Shape& b) const {
+double Cgal::min_from_vertices(const Shape& a, const Shape& b) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Kernel::Segment_3& edge : a.edges) {
         least = std::min(least, b.tree.squared_distance(edge.source()));
@@ -126,8 +126,7 @@ double Cgal::separation(std::size_t a, std::size_t b) {
     }
     const Shape& first = *shapes_[a];
     const Shape& second = *shapes_[b];
-    return std::sqrt(
-        std::min(least_from_vertices(first, second), least_from_vertices(second, first)));
+    return std::sqrt(std::min(min_from_vertices(first, second), min_from_vertices(second, first)));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace nearfield::peers {
 namespace {
 
-/// Clipper counts in whole numbers: this many to a unit.
+/// Clipper uses integer coordinates: this many per unit.
 constexpr double clipper_scale = 1e6;
 
 class Clipper final : public Peer {

@@ -6,7 +6,7 @@
 namespace nearfield::peers {
 namespace {
 
-/// GEOS by its C interface, which is the one that is promised to stay.
+/// GEOS through its C interface, the one with a stability promise.
 class Geos final : public Peer {
 public:
     Geos() : context_(GEOS_init_r()) {}

@@ -1,6 +1,6 @@
-// nearfield beside libraries that answer some of the same questions: the same pairs, the same
-// process, the same core, turn by turn. First all answers are compared; where they differ by more
-// than nearfield's stated bounds the program ends.
+// Compares nearfield with libraries that answer some of the same queries: the same pairs, process
+// and core, in alternating turns. All answers are compared first; if they differ by more than
+// nearfield's stated bounds, the program ends.
 //   bench_peers [--filter TEXT] [--json FILE|-]
 
 #include <nearfield/context.hpp>
@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <sched.h>
 #include <tools/benchmark/machine.hpp>
-#include <tools/commands/library_error.hpp>
-#include <tools/output/report_target.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/io/report_target.hpp>
 #include <tools/peers/race.hpp>
 #include <tools/peers/report.hpp>
 #include <unistd.h>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace nearfield;
 
-/// Before any thread is made, so that those of a driver stay there too.
+/// Call before any thread is made, so that a driver's threads stay on that core too.
 void pin_to_one_core() {
     cpu_set_t core;
     CPU_ZERO(&core);

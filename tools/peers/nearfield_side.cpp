@@ -21,7 +21,7 @@ Answer answer_of(const DistanceFieldResult& result) {
     return {0, 0.0, result.values};
 }
 
-/// No problem asks for others.
+/// No problem contains other queries.
 Answer answer_of(const ResultSummary& /*result*/) {
     return {};
 }

@@ -2,7 +2,7 @@
 
 #include <nearfield/context.hpp>
 
-#include <tools/commands/scene_runner.hpp>
+#include <tools/common/scene_runner.hpp>
 #include <tools/peers/problem.hpp>
 
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace nearfield::peers {
 
-/// nearfield on a problem: Technique::automatic, whole frames, everything handed over anew.
+/// nearfield on a problem: Technique::automatic, whole frames, everything submitted anew each
+/// frame.
 class NearfieldSide {
 public:
     /// Both must outlive it.
     NearfieldSide(const Problem& problem, Context& context);
 
-    /// One frame. Throws where anything is refused.
+    /// Runs one frame. Throws if anything is rejected.
     double run_frame();
 
-    /// What the last frame found.
+    /// The answers of the last frame.
     [[nodiscard]] std::vector<Answer> answers() const;
     /// The results of the last frame, in the order of the queries.
     [[nodiscard]] std::vector<const AnyResult*> results() const;

@@ -7,8 +7,8 @@
 namespace nearfield::peers {
 namespace {
 
-/// OpenCV knows pixels: it fills the shape and finds how far each pixel is from the nearest one on
-/// the other side, so the boundary is known to about half a pixel.
+/// OpenCV works on pixels: it fills the shape and computes each pixel's distance to the nearest
+/// pixel on the other side, so the boundary is known to about half a pixel.
 class OpenCv final : public Peer {
 public:
     OpenCv() { cv::setNumThreads(1); }
@@ -45,7 +45,7 @@ void OpenCv::fill(const std::vector<Ring>& rings, const Grid& grid) {
     for (const Ring& ring : rings) {
         std::vector<cv::Point>& polygon = polygons_.emplace_back();
         for (const Vector2& vertex : ring) {
-            // Pixel centres are whole numbers.
+            // Pixel centres have integer coordinates.
             const double x = (vertex.x - grid.origin.x) / grid.cell - 0.5;
             const double y = (vertex.y - grid.origin.y) / grid.cell - 0.5;
             polygon.emplace_back(static_cast<int>(std::lround(x * steps)),

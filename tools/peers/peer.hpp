@@ -10,8 +10,8 @@
 
 namespace nearfield::peers {
 
-/// A library that answers some of the tasks. Shapes are named by their place among those that it
-/// was built from. What a peer does not answer (how() is empty) is not asked of it.
+/// A library that answers some of the tasks. Shapes are identified by their index among those
+/// passed to build(). Only tasks with a non-empty how() are run.
 class Peer {
 public:
     Peer() = default;
@@ -20,19 +20,19 @@ public:
     Peer& operator=(const Peer&) = delete;
 
     [[nodiscard]] virtual std::string name() const = 0;
-    /// By which of its functions it answers a task, and how that differs from what nearfield
-    /// answers; empty: it does not.
+    /// The functions that answer a task, and how the answer differs from nearfield's; empty if the
+    /// task is not supported.
     [[nodiscard]] virtual std::string how(Task task) const = 0;
-    /// False where an answer is an approximation without a bound.
+    /// False if an answer is an approximation without a bound.
     [[nodiscard]] virtual bool exact() const { return true; }
-    /// False where a field has no sign.
+    /// False if a field has no sign.
     [[nodiscard]] virtual bool signed_field() const { return true; }
 
-    /// Makes geometries of its own and what indices the task can use. Indices that a library makes
-    /// when they are first asked are made then.
+    /// Makes the peer's own geometries and the indices that the task can use, including indices
+    /// that the library would otherwise make on first use.
     virtual void build(std::span<const PlacedShape> shapes, Task task) = 0;
 
-    /// Of vertex_penetration, boundary_penetration and, unless field() is another, field.
+    /// For vertex_penetration, boundary_penetration and, unless field() is overridden, field.
     [[nodiscard]] virtual bool is_inside(std::size_t shape, Vector2 point);
     [[nodiscard]] virtual double distance_to_boundary(std::size_t shape, Vector2 point);
     [[nodiscard]] virtual double separation(std::size_t a, std::size_t b);
@@ -41,7 +41,7 @@ public:
     virtual void field(std::size_t shape, const Grid& grid, std::vector<float>& values);
 };
 
-/// Has a peer answer all queries of a problem.
+/// Runs all queries of a problem on a peer.
 void answer(Peer& peer, const Problem& problem, std::span<const PlacedShape> shapes,
             std::vector<Answer>& answers);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tools/input/scene.hpp>
+#include <tools/io/scene.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,25 +9,26 @@
 
 namespace nearfield::peers {
 
-/// What is asked of nearfield and its peers.
+/// The tasks that nearfield and its peers perform.
 enum class Task {
-    vertex_penetration,    ///< which vertices of A lie in B, how deep the deepest
-    boundary_penetration,  ///< the same of samples along A's boundary, at most a cell apart
-    separation,            ///< the least distance of two shapes
-    intersection_test,     ///< whether two shapes have a point in common
-    common_area,           ///< the area of what two shapes have in common
+    vertex_penetration,    ///< which vertices of A are inside B, and the greatest depth
+    boundary_penetration,  ///< the same for samples along A's boundary, at most a cell apart
+    separation,            ///< the distance between two shapes
+    intersection_test,     ///< whether two shapes share a point
+    common_area,           ///< the area of the intersection of two shapes
     field,                 ///< signed distances at the centres of a grid
 };
 
-/// A row: a task asked of pairs (of a field: single shapes), the queries of the scene, none of
-/// which is about all pairs. The first ring of a shape is its outer boundary, the others are holes.
+/// A row: a task for pairs of shapes (for a field: single shapes), given by the scene's queries,
+/// none of which is for all pairs. The first ring of a shape is its outer boundary, the others are
+/// holes.
 struct Problem {
     std::string name;
     Task task{};
     tools::Scene scene;
 };
 
-/// Where a field is sampled.
+/// The sample positions of a field.
 struct Grid {
     Vector2 origin;
     double cell = 0.0;
@@ -40,28 +41,28 @@ struct Grid {
     }
 };
 
-/// The grid of a query for a field over a square.
+/// The grid of a query for a square field.
 [[nodiscard]] Grid grid_of(const tools::QueryRequest& request);
 
-/// A shape where it stands in the world, and its bounding box.
+/// A shape in world coordinates and its bounding box.
 struct PlacedShape {
     std::vector<Ring> rings;
     Rectangle box;
 };
 
-/// Places all instances, as a program has to before it hands them to a library without poses.
-/// Keeps the memory of what was there.
+/// Transforms all instances to world coordinates, as a program must for a library without poses.
+/// Reuses the memory of `placed`.
 void place(const tools::Scene& scene, std::vector<PlacedShape>& placed);
 
-/// The points of `a` that a penetration query with this spacing looks at and that lie in `box`:
-/// vertices where it is 0, else samples along the edges from each vertex on, no farther apart.
+/// The points of `a` in `box` that a penetration query with this spacing tests: vertices if it is
+/// 0, else samples along the edges from each vertex on, no farther apart.
 void points_in(const PlacedShape& a, double spacing, const Rectangle& box,
                std::vector<Vector2>& points);
 
-/// What was found about one query; what a task does not ask for stays as it is here.
+/// The answer to one query; members that a task does not need keep their defaults.
 struct Answer {
     std::uint64_t count = 0;
-    double number = 0.0;        ///< greatest depth, separation, area; 1 where shapes intersect
+    double number = 0.0;        ///< greatest depth, separation, area; or 1 if the shapes intersect
     std::vector<float> values;  ///< row by row from the lowest
 };
 

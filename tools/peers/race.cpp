@@ -21,7 +21,7 @@ double milliseconds_of(Action action) {
         .count();
 }
 
-/// A peer at work on a problem, twice: one that is built anew each frame and one that is kept.
+/// A peer at work on a problem, in two copies: one rebuilt each frame and one kept.
 struct Entry {
     Entry(const Problem& of, std::unique_ptr<Peer> anew, std::unique_ptr<Peer> once)
         : problem(of), built(std::move(anew)), kept(std::move(once)) {

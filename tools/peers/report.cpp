@@ -1,4 +1,4 @@
-#include <tools/output/json_writer.hpp>
+#include <tools/io/json_writer.hpp>
 #include <tools/peers/report.hpp>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string digits(double number) {
     return text;
 }
 
-/// How many times as long as nearfield; below 1 nearfield is behind.
+/// The peer's time as a multiple of nearfield's; below 1, nearfield is slower.
 std::string times_as_long(const std::optional<double>& peer, const benchmark::Spread& ours) {
     return peer ? digits(*peer / ours.median) : "";
 }

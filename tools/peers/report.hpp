@@ -9,16 +9,16 @@
 
 namespace nearfield::peers {
 
-/// Writes what stands above the rows of the table.
+/// Writes the lines above the rows of the table.
 void write_head(std::ostream& stream, const benchmark::Machine& machine, const std::string& device);
 
-/// Writes a row, in Markdown.
+/// Writes a row in Markdown.
 void write_row(std::ostream& stream, const ProblemTimes& times);
 
-/// Writes which question each peer answered, as far as there are rows.
+/// Writes which task each peer answered and how, for the rows in the table.
 void write_notes(std::ostream& stream, std::span<const ProblemTimes> table);
 
-/// Writes all of it as JSON, with a line feed at its end.
+/// Writes everything as JSON with a final line feed.
 void write_json(std::ostream& stream, std::span<const ProblemTimes> table,
                 const benchmark::Machine& machine, const std::string& device);
 

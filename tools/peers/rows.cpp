@@ -20,7 +20,7 @@ struct NamedTask {
     const char* name;
     Task task;
     tools::QueryRequest (*request)(double tolerance);
-    double reach_in_tolerances;  ///< of boxes, for a pair to be asked about
+    double reach_in_tolerances;  ///< the reach of boxes within which a pair is queried
 };
 
 constexpr NamedTask pair_tasks[] = {
@@ -36,7 +36,7 @@ bool near_each_other(const Rectangle& a, const Rectangle& b, double reach) {
            b.min.y - reach <= a.max.y;
 }
 
-/// Every pair whose boxes come within reach, once: all are given the same list, so that no broad
+/// Lists every pair whose boxes are within reach once. All libraries get the same list, so no broad
 /// phase is measured.
 tools::Scene asked_of_pairs(tools::Scene scene, const tools::QueryRequest& request, double reach) {
     std::vector<PlacedShape> placed;
@@ -51,7 +51,7 @@ tools::Scene asked_of_pairs(tools::Scene scene, const tools::QueryRequest& reque
     return scene;
 }
 
-/// The two coast lines are one pair, near or not.
+/// The two coast lines are one pair, whatever their distance.
 tools::Scene asked_of(const NamedScene& named, const NamedTask& task) {
     const tools::QueryRequest request = task.request(named.tolerance);
     return named.scene.instances.size() == 2
@@ -59,7 +59,7 @@ tools::Scene asked_of(const NamedScene& named, const NamedTask& task) {
                : asked_of_pairs(named.scene, request, task.reach_in_tolerances * named.tolerance);
 }
 
-/// A field about every object.
+/// A field around every object.
 Problem field_of_each(std::string name, tools::Scene scene, double side, std::size_t cells) {
     for (std::size_t b = 0; b < scene.instances.size(); ++b) {
         scene.queries.push_back(

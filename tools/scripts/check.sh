@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Sets up and checks what tests do not: the reference, the libraries' symbols, format, clang-tidy, and
-# the sanitizers. Stops at the first check that fails.
+# Sets up and runs the checks that the tests do not cover: the reference, the libraries' symbols,
+# format, clang-tidy, and the sanitizers. Stops at the first check that fails.
 #   check.sh [--no-setup]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 jobs=$(nproc)
 
-# sources PATTERN...: the project's own C++ files with such names, zero-terminated.
+# sources PATTERN...: the project's own C++ files with matching names, zero-terminated.
 sources() {
     local names=(-false)
     for pattern in "$@"; do
@@ -20,43 +20,45 @@ check_format() {
     sources '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
 }
 
-# clang-tidy reads each room of the product as one file, so that Eigen and the standard library are
-# read once a room and not once a file.
+# clang-tidy reads each module as one file, so that Eigen and the standard library are parsed once
+# per module and not once per file.
 check_tidy() {
     configure tidy >/dev/null
-    build tidy --target nearfield_engine_spirv nearfield_render_spirv nearfield_examples_spirv \
+    build tidy --target nearfield_passes_spirv nearfield_rendering_spirv nearfield_examples_spirv \
         nearfield_embedded >/dev/null
     find "$root/build/tidy" -path '*/Unity/*.cxx' -print0 |
         xargs -0 -P "$jobs" -n 1 clang-tidy -p "$root/build/tidy" --quiet --extra-arg=-w
 }
 
-# The rooms that need no driver, and whole queries on a mock one, with every memory access, leak and
-# undefined operation watched. What runs graphs on a device is left out: drivers leak on their own
-# account.
+# Runs the modules that need no driver, and whole queries on a mock driver, with checks of every
+# memory access, leak and undefined operation. Tests that run graphs on a device are left out,
+# because drivers leak.
 check_sanitized() {
-    # A program and the tests it runs, a line each, side by side; the longest first.
+    # A program and its tests per line; they run in parallel, the longest first.
     local runs=(
         'driver/test_driver HostMemory.*' 'driver/test_driver -HostMemory.*'
-        'test_geometry *' 'test_localize *' 'test_exact *' 'test_graph -GraphExecute.*'
+        'test_geometry *' 'test_localize *' 'test_simd *' 'test_narrowphase *' 'test_grid *'
+        'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*'
     )
     configure sanitize >/dev/null
-    build sanitize --target test_driver test_geometry test_localize test_exact test_graph test_reload
+    build sanitize --target test_driver test_geometry test_localize test_simd test_narrowphase \
+        test_grid test_cpu test_plan test_graph test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
-    # Shaders that are reloaded, which debug builds alone can; on a device, so without its leaks.
+    # Shader reload, which only debug builds have. It runs on a device, so without leak detection.
     ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/reload/test_reload" --gtest_brief=1
 }
 
-# Contexts on several threads, with every access to memory that two of them share watched.
+# Runs contexts on several threads, with a check of every shared memory access.
 check_threads() {
     configure threads >/dev/null
     build threads --target test_threads
-    # TSAN_OPTIONS cannot have a path with a space.
+    # TSAN_OPTIONS cannot contain a path with a space.
     (cd "$root" && TSAN_OPTIONS="suppressions=tests/threads/suppressions.txt halt_on_error=1" \
         build/threads/tests/threads/test_threads --gtest_brief=1)
 }
 
-# expect_none WHAT LINES: fails where there are lines, and shows them.
+# expect_none WHAT LINES: fails and shows the lines if there are any.
 expect_none() {
     [[ -z $2 ]] || {
         printf '%s:\n%s\n' "$1" "$2"
@@ -64,7 +66,7 @@ expect_none() {
     }
 }
 
-# The functions of the public interface that the library has code for, as the reference has them.
+# The functions of the public interface that the library has code for, according to the reference.
 public_functions() {
     awk '/<memberdef /{wanted = /kind="function".* inline="no"/}
         /<templateparamlist>/{wanted = 0}
@@ -72,9 +74,9 @@ public_functions() {
         /<argsstring>/ && wanted && !/=(default|delete)/{print name}' "$root"/build/reference/xml/*.xml
 }
 
-# A host gives the Vulkan entry points at run time: the libraries define none and ask for none. The
-# shared one exports the public interface, all of it and nothing else, nor anything that can be there
-# only once in a process (u), which would keep it from being unloaded.
+# A host supplies the Vulkan entry points at run time: the libraries neither define nor import them.
+# The shared library exports exactly the public interface, and no symbol that must be unique in a
+# process (u), which would prevent unloading it.
 check_symbols() {
     local archive="$root/build/release/libnearfield.a" shared="$root/build/release/libnearfield.so"
     local exported
@@ -95,8 +97,8 @@ check_symbols() {
         "$(grep 'nearfield::[a-z_]*::\|Implementation::' <<<"$exported" || true)"
 }
 
-# The reference is made without a warning, so every public item is documented; what Doxygen does not
-# look at, enumerators, is looked for in what it wrote.
+# The reference builds without a warning, so every public item is documented. Doxygen does not check
+# enumerators, so they are looked up in its output.
 check_reference() {
     local undocumented
     rm -rf "$root/build/reference"
@@ -115,6 +117,7 @@ step "Configure" configure release
 step "Build" build release --target nearfield_static nearfield_shared
 step "Reference" check_reference
 step "Symbols of the libraries" check_symbols
+step "Includes" "$root/tools/scripts/check_includes.py"
 step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized

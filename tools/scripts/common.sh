@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What the scripts of this folder share; sourced, never run.
+# Shared by the scripts of this folder; sourced, never run.
 
-# The top of the project, wherever the caller stands.
+# The root of the project, whatever the current directory.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." >/dev/null && pwd)
 readonly root
 
@@ -10,8 +10,8 @@ die() {
     exit 1
 }
 
-# step NAME COMMAND...: says what is being done, does it, and says how long it took. The command
-# stands alone, not in an `if` or a `||`, so that the first failure inside it ends the script.
+# step NAME COMMAND...: announces and runs the command, then reports how long it took. The command
+# is not part of an `if` or a `||`, so that the first failure inside it ends the script.
 step() {
     local start=$SECONDS
     current_step=$1
@@ -24,7 +24,7 @@ step() {
 current_step=
 trap '[[ -z $current_step ]] || printf "\n** FAILED: %s\n" "$current_step" >&2' EXIT
 
-# wants_setup ARGUMENT...: whether the arguments leave the set-up in; refuses what it does not know.
+# wants_setup ARGUMENT...: whether the arguments ask for the set-up; rejects unknown ones.
 wants_setup() {
     case "$*" in
         '') return 0 ;;
@@ -33,7 +33,7 @@ wants_setup() {
     esac
 }
 
-# configure PRESET OPTION...: makes build/PRESET.
+# configure PRESET OPTION...: configures build/PRESET.
 configure() {
     cmake -S "$root" --preset "$1" "${@:2}"
 }
@@ -43,10 +43,10 @@ build() {
     cmake --build "$root/build/$1" "${@:2}"
 }
 
-# Where test.sh leaves the counts of its last run.
+# Where test.sh stores the counts of its last run.
 readonly test_counts="$root/build/release/test_counts.txt"
 
-# The counts of the last run of the tests, where there was one.
+# Prints the counts of the last test run, if there was one.
 print_test_counts() {
     [[ ! -f $test_counts ]] || { printf '\n== The tests\n' && cat "$test_counts"; }
 }

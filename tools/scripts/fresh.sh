@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Runs the README's commands as a newcomer would: in an empty Debian 12, in the order of the README,
-# on a clone of the last commit in a folder whose name has a space.
+# on a clone of the last commit in a folder whose name contains a space.
 #   fresh.sh [--keep FOLDER] [NAME...]
-# NAME: run, view, test or check, for those commands alone. The empty system lives in memory and in a
-# mount namespace of its own, so nothing of it is left afterwards. --keep puts it into a new folder
-# instead, which stays. Needs root rights, debootstrap, for the viewer Xvfb, and the machine's own
-# package sources, which the empty system takes over.
+# NAME: run, view, test or check, for those commands only. The empty system lives in memory and in
+# its own mount namespace, so nothing of it remains afterwards. --keep puts it into a new folder
+# instead, which remains. Needs root privileges, debootstrap, Xvfb for the viewer, and the machine's
+# own package sources, which the empty system uses too.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -14,12 +14,13 @@ readonly needed_megabytes=12000  # packages, three builds, and the compilers at 
 readonly clone="/root/near field"
 readonly usage="usage: fresh.sh [--keep FOLDER] [run|view|test|check...]"
 
-# The README's commands, one a line, as they stand there.
+# The README's commands, one per line, as written there.
 readme_commands() {
     sed -n 's|^\(tools/scripts/[a-z]*\.sh\) *#.*|\1|p' "$root/README.md"
 }
 
-# wanted_commands NAME...: those of them with these names, in the README's order; all without names.
+# wanted_commands NAME...: the commands with these names, in the README's order; all if there are no
+# names.
 wanted_commands() {
     local name command
     for name in "$@"; do
@@ -43,7 +44,7 @@ require_means() {
         echo "not committed, so not part of this: $(git -C "$root" status --porcelain | wc -l) files"
 }
 
-# The machine's own source of Debian packages.
+# The machine's own Debian package source.
 mirror() {
     local site
     site=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' |
@@ -52,8 +53,8 @@ mirror() {
     printf '%s\n' "$site"
 }
 
-# make_place FOLDER: where the system goes. An empty word: into memory, over a folder that is there
-# on every system.
+# make_place FOLDER: creates the place for the system. If the argument is empty: in memory, mounted
+# over a folder that exists on every system.
 make_place() {
     if [[ -n $1 ]]; then
         system=$1
@@ -92,7 +93,7 @@ clone_project() {
         "$(find "$system/var/lib/dpkg/info" -name '*.list' | wc -l) packages"
 }
 
-# An X server outside the system, as a desktop would have.
+# Starts an X server outside the system, as on a desktop.
 start_display() {
     mkdir -p /tmp/.X11-unix "$system/tmp/.X11-unix"
     mount --bind /tmp/.X11-unix "$system/tmp/.X11-unix"
@@ -102,7 +103,7 @@ start_display() {
     display=:$number
 }
 
-# in_system COMMAND: runs it there as a login would, in the clone.
+# in_system COMMAND: runs it there like a login shell, in the clone.
 in_system() {
     chroot "$system" /usr/bin/env -i HOME=/root USER=root LANG=C.UTF-8 TERM="${TERM:-dumb}" \
         ${display:+DISPLAY=$display} PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
@@ -112,7 +113,7 @@ in_system() {
 run_commands() {
     local command
     while read -r command; do
-        # Nobody is there to close the viewer's window.
+        # Nobody can close the viewer's window.
         [[ $command != */view.sh ]] || command+=" --frames 120"
         step "In the empty system: $command" in_system "$command" </dev/null
     done <<<"$commands"
@@ -139,7 +140,7 @@ step "An empty Debian 12" make_system
 step "A clone of the last commit" clone_project
 [[ $commands != *view.sh* ]] || start_display
 run_commands
-# What the tests counted stands last, after whatever came after them.
+# The test counts come last, after all other output.
 ! [[ -f $system$clone/build/release/test_counts.txt ]] || {
     printf '\n== The tests of the empty system\n'
     cat "$system$clone/build/release/test_counts.txt"

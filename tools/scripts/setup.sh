@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing.
-#   setup.sh run    what building and running the command line needs
-#   setup.sh view   what building and running the live viewer needs, and videos of simulations
-#   setup.sh test   all that, and what the tests and checks need
-#   setup.sh bench  what building and running the benchmark beside other libraries needs
+# Installs the missing Debian packages.
+#   setup.sh run    to build and run the command line
+#   setup.sh view   to build and run the live viewer, and for videos of simulations
+#   setup.sh test   all of these, and for the tests and checks
+#   setup.sh bench  to build and run the benchmark against other libraries
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -18,7 +18,7 @@ test_packages=(
     libgtest-dev libgeos-dev vulkan-validationlayers chromium-common clang clang-format clang-tidy
     doxygen dpkg-dev file gdb python3
 )
-# What the examples stand on, and an X server for all windows.
+# The libraries that the examples use, and an X server for all windows.
 test_packages+=(
     qt6-base-dev qt6-base-private-dev qt6-declarative-dev qml6-module-qtquick
     qml6-module-qtquick-window qml6-module-qtqml-workerscript xvfb xauth

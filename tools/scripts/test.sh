@@ -6,12 +6,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 report="$root/build/release/ctest.xml"
 
-# The count of ctest's report with the given name.
+# The count in ctest's report with the given name.
 reported() {
     sed -n "s/^\t$1=\"\([0-9]*\)\".*/\1/p" "$report" | head -n 1
 }
 
-# What ctest counted, in the words that every runner of tests ends with.
+# Prints ctest's counts in the form that test runners use.
 print_counts() {
     local failed skipped
     failed=$(reported failures)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Sets up, builds and starts the live viewer of simulations.
 #   view.sh [--no-setup] [NAME] [OPTION...]
-# NAME and what follows go to nearfield_viewer: map, gears, links, cars, wavy, overlap or pour.
+# NAME and everything after it are passed to nearfield_viewer: map, gears, links, cars, wavy,
+# overlap or pour.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -1,4 +1,4 @@
-#include <tools/dynamics/plane.hpp>
+#include <tools/simulation/plane.hpp>
 #include <tools/viewer/drag.hpp>
 
 #include <cmath>
@@ -7,20 +7,21 @@
 namespace nearfield::viewer {
 namespace {
 
-using dynamics::operator+;
-using dynamics::operator-;
-using dynamics::operator*;
-using dynamics::operator+=;
+using simulation::operator+;
+using simulation::operator-;
+using simulation::operator*;
+using simulation::operator+=;
 
-/// Own frequency of what hangs on the spring, radians a second: as stiff as steps of a few
-/// milliseconds allow. What is held of a deformable body is light, its springs pull back.
+/// The natural frequency of the dragged part on the spring, radians per second: as stiff as steps
+/// of a few milliseconds allow. The held part of a deformable body is light, and its springs pull
+/// back.
 constexpr double rigid_frequency = 16.0;
 constexpr double deformable_frequency = 60.0;
-/// A deformable body is held by so much of its boundary, on either side.
+/// The fraction of a deformable body's boundary that is held, on each side of the point.
 constexpr double held_fraction = 0.05;
 
 Vector2 into_body(const Pose& pose, Vector2 point) {
-    return dynamics::rotated(point - pose.translation, -pose.angle);
+    return simulation::rotated(point - pose.translation, -pose.angle);
 }
 
 bool is_inside(const std::vector<Ring>& rings, Vector2 point) {
@@ -40,11 +41,11 @@ bool is_inside(const std::vector<Ring>& rings, Vector2 point) {
 
 }  // namespace
 
-bool Drag::grab(const dynamics::Scene& scene, Vector2 point) {
+bool Drag::grab(const simulation::Scene& scene, Vector2 point) {
     release();
     target_ = point;
     for (std::size_t i = scene.bodies.size(); i-- > 0;) {
-        const dynamics::Body& body = *scene.bodies[i];
+        const simulation::Body& body = *scene.bodies[i];
         const Vector2 own_place = into_body(body.pose(), point);
         if (!is_inside(body.rings(), own_place)) {
             continue;
@@ -56,7 +57,7 @@ bool Drag::grab(const dynamics::Scene& scene, Vector2 point) {
             const auto reach = static_cast<std::size_t>(held_fraction * double(count)) + 1;
             const double width = static_cast<double>(reach);
             for (std::size_t k = 0; k < 2 * reach + 1; ++k) {
-                // Parts of a raised cosine add up to 1.
+                // The values of a raised cosine add up to 1.
                 const double along = static_cast<double>(k) - width;
                 const double part = (1.0 + std::cos(std::numbers::pi * along / (width + 1.0))) /
                                     (2.0 * width + 2.0);
@@ -70,21 +71,21 @@ bool Drag::grab(const dynamics::Scene& scene, Vector2 point) {
     return false;
 }
 
-std::vector<Drag::WeightedGrip> Drag::grips(const dynamics::Body& body) const {
+std::vector<Drag::WeightedGrip> Drag::grips(const simulation::Body& body) const {
     std::vector<WeightedGrip> grips;
     if (held_->shares.empty()) {
-        grips.push_back({body.grip(dynamics::placed(body.pose(), held_->own_place)), 1.0});
+        grips.push_back({body.grip(simulation::placed(body.pose(), held_->own_place)), 1.0});
     }
     for (const Share& share : held_->shares) {
-        dynamics::Grip grip;
-        grip.point = dynamics::placed(body.pose(), body.rings().front()[share.vertex]);
+        simulation::Grip grip;
+        grip.point = simulation::placed(body.pose(), body.rings().front()[share.vertex]);
         grip.edge = share.vertex;
         grips.push_back({grip, share.part});
     }
     return grips;
 }
 
-Vector2 Drag::point(const dynamics::Body& body) const {
+Vector2 Drag::point(const simulation::Body& body) const {
     Vector2 sum = held_->offset;
     for (const WeightedGrip& each : grips(body)) {
         sum += each.part * each.grip.point;
@@ -92,13 +93,13 @@ Vector2 Drag::point(const dynamics::Body& body) const {
     return sum;
 }
 
-void Drag::pull(const dynamics::Scene& scene) const {
+void Drag::pull(const simulation::Scene& scene) const {
     if (!held_) {
         return;
     }
-    dynamics::Body& body = *scene.bodies[held_->body];
+    simulation::Body& body = *scene.bodies[held_->body];
     const Vector2 way = target_ - point(body);
-    const double distance = dynamics::length(way);
+    const double distance = simulation::length(way);
     const Vector2 direction = distance > 0.0 ? (1.0 / distance) * way : Vector2{1.0, 0.0};
     const std::vector<WeightedGrip> held = grips(body);
     Vector2 velocity;
@@ -119,14 +120,14 @@ void Drag::pull(const dynamics::Scene& scene) const {
     }
 }
 
-std::optional<Drag::Line> Drag::line(const dynamics::Scene& scene) const {
+std::optional<Drag::Line> Drag::line(const simulation::Scene& scene) const {
     if (!held_) {
         return std::nullopt;
     }
     return Line{point(*scene.bodies[held_->body]), target_};
 }
 
-bool Drag::in_vain(const dynamics::Scene& scene) const {
+bool Drag::in_vain(const simulation::Scene& scene) const {
     return held_ && !scene.bodies[held_->body]->movable();
 }
 

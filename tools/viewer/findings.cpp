@@ -1,6 +1,6 @@
-#include <tools/commands/library_error.hpp>
-#include <tools/dynamics/plane.hpp>
-#include <tools/picture/color.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/drawing/color.hpp>
+#include <tools/simulation/plane.hpp>
 #include <tools/viewer/findings.hpp>
 
 #include <type_traits>
@@ -9,17 +9,18 @@
 namespace nearfield::viewer {
 namespace {
 
-using dynamics::operator+;
-using dynamics::operator-;
+using simulation::operator+;
+using simulation::operator-;
 
 constexpr tools::Color region_color = tools::rgb(0x0B5CAD);
 constexpr tools::Color tile_color = tools::palette::tile;
 constexpr tools::Color sample_color = tools::rgb(0x7B3FA0);
 constexpr tools::Color drag_color = tools::rgb(0xD9480F);
 
-/// Beside the pairs' penetrations, which are in the batch already.
+/// Adds the queries of the overlays to those for the pairs' penetrations, which are in the batch
+/// already.
 void add_queries(Batch& batch, Simulation& simulation, const Overlays& overlays) {
-    dynamics::Proximity& proximity = simulation.world().proximity();
+    simulation::Proximity& proximity = simulation.world().proximity();
     const double tolerance = simulation.scene().tolerance;
     const Technique technique = simulation.choices().technique;
     if (overlays.samples) {
@@ -27,7 +28,7 @@ void add_queries(Batch& batch, Simulation& simulation, const Overlays& overlays)
         query.tolerance = tolerance;
         query.strategy = overlays.strategy;
         query.technique = technique;
-        for (const InstancePair& pair : proximity.near_pairs(0.0)) {
+        for (const InstancePair& pair : proximity.vertex_edge_pairs(0.0)) {
             query.a = proximity.instances()[pair.first];
             query.b = proximity.instances()[pair.second];
             batch.add(query);
@@ -38,7 +39,7 @@ void add_queries(Batch& batch, Simulation& simulation, const Overlays& overlays)
         query.tolerance = tolerance;
         query.contact_distance = 2.0 * tolerance;
         query.technique = technique;
-        for (const InstancePair& pair : proximity.near_pairs(query.contact_distance)) {
+        for (const InstancePair& pair : proximity.vertex_edge_pairs(query.contact_distance)) {
             query.a = proximity.instances()[pair.first];
             query.b = proximity.instances()[pair.second];
             batch.add(query);
@@ -51,7 +52,7 @@ void append(std::vector<Record>& to, const std::vector<Record>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-/// Around a region or a tile.
+/// Draws the outline of a region or a tile.
 template <class Box>
 void draw_rectangle(tools::Drawing& drawing, const tools::View& view, const Box& box,
                     const tools::Color& color) {
@@ -67,14 +68,14 @@ void draw_tile(tools::Drawing& drawing, const tools::View& view, const TileRepor
     draw_rectangle(drawing, view, tile, tile_color);
 }
 
-/// The cells of a region's grid, where they are large enough to be told apart.
+/// Draws the grid of a region if its cells are large enough to distinguish.
 void draw_grid(tools::Drawing& drawing, const tools::View& view, const Region& region) {
-    constexpr double least_pixels = 4.0;
+    constexpr double min_pixels = 4.0;
     const Vector2 low = view.to_page(region.min);
     const Vector2 high = view.to_page(region.max);
     const double w = (high.x - low.x) / region.width;
     const double h = (high.y - low.y) / region.height;
-    if (w < least_pixels) {
+    if (w < min_pixels) {
         return;
     }
     const tools::Color color = region_color.with_alpha(0.3);

@@ -2,7 +2,7 @@
 
 #include <nearfield/context.hpp>
 
-#include <tools/render/scene_picture.hpp>
+#include <tools/rendering/scene_picture.hpp>
 #include <tools/viewer/simulation.hpp>
 
 #include <string>
@@ -10,34 +10,34 @@
 
 namespace nearfield::viewer {
 
-/// What is drawn over, and under, the bodies.
+/// The layers over and under the bodies.
 struct Overlays {
     tools::FieldLayer field = tools::FieldLayer::none;
     bool contacts = true;
     bool depths = true;
     bool regions = false;
     bool tiles = false;
-    bool samples = false;  ///< of what both bodies of a pair cover
-    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< how these are found
+    bool samples = false;  ///< in the intersection of the bodies of a pair
+    IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< how the samples are found
 
     friend bool operator==(const Overlays&, const Overlays&) = default;
 };
 
-/// What the library says about a scene as it stands.
+/// The results of the queries on a scene's current state.
 struct Findings {
     tools::Observations observations;
     std::vector<Region> regions;
-    std::vector<TileReport> tiles;  ///< where the overlays show them
+    std::vector<TileReport> tiles;  ///< if the overlays show them
     std::vector<IntersectionSample> samples;
     double sample_cell = 0.0;
-    Timings timings;      ///< of the one batch that all of it is
-    std::string refusal;  ///< the library's reason, where it refused some of it
+    Timings timings;      ///< of the single batch for all findings
+    std::string refusal;  ///< the library's reason if it rejected a query
 };
 
-/// Asks all that the overlays show in one batch.
+/// Runs all queries that the overlays need in one batch.
 [[nodiscard]] Findings find(Simulation& simulation, const Overlays& overlays);
 
-/// Everything but the panel.
+/// Draws everything except the panel.
 void draw(tools::Drawing& drawing, Simulation& simulation, const Overlays& overlays,
           const Findings& findings, const tools::View& view);
 

@@ -10,7 +10,7 @@
 namespace nearfield::viewer {
 namespace {
 
-// Both libraries have the same notion of a corner, so that none is copied twice.
+// Both libraries use the same vertex layout, so vertices are copied only once.
 static_assert(sizeof(ImDrawVert) == sizeof(tools::MeshVertex));
 static_assert(offsetof(ImDrawVert, uv) == offsetof(tools::MeshVertex, u));
 static_assert(offsetof(ImDrawVert, col) == offsetof(tools::MeshVertex, color));
@@ -20,7 +20,7 @@ tools::MeshVertex converted(const ImDrawVert& vertex) {
     return {vertex.pos.x, vertex.pos.y, vertex.uv.x, vertex.uv.y, vertex.col};
 }
 
-/// The whole pixels of a clip rectangle that are on the page.
+/// The part of a clip rectangle on the page, in whole pixels.
 tools::MeshPart part_of(const ImDrawCmd& command, const tools::Mesh& mesh) {
     const auto whole = [](float value, std::uint32_t most) {
         return static_cast<std::uint32_t>(std::clamp(value, 0.0F, static_cast<float>(most)));
@@ -42,10 +42,10 @@ tools::MeshPart part_of(const ImDrawCmd& command, const tools::Mesh& mesh) {
 Gui::Gui(SDL_Window* window) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // nothing is written to the folder it is started in
+    io.IniFilename = nullptr;  // writes nothing to the working folder
     io.BackendRendererName = "nearfield";
     ImGui::StyleColorsLight();
-    ImGui::GetStyle().Colors[ImGuiCol_PopupBg].w = 1.0F;  // lists lie over other text
+    ImGui::GetStyle().Colors[ImGuiCol_PopupBg].w = 1.0F;  // lists cover other text
     ImGui_ImplSDL2_InitForVulkan(window);
 }
 

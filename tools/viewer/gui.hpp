@@ -1,12 +1,12 @@
 #pragma once
 
 #include <SDL.h>
-#include <tools/render/mesh.hpp>
-#include <tools/render/vulkan_painter.hpp>
+#include <tools/rendering/mesh.hpp>
+#include <tools/rendering/vulkan_painter.hpp>
 
 namespace nearfield::viewer {
 
-/// Dear ImGui with SDL's events, drawn by our painter.
+/// Dear ImGui with SDL's events, drawn by the tools' painter.
 class Gui {
 public:
     explicit Gui(SDL_Window* window);
@@ -14,14 +14,14 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Its letters, for the painter.
+    /// The glyph image for the painter.
     [[nodiscard]] static tools::Letters letters();
     static void handle(const SDL_Event& event);
-    /// The mouse, or the keys, are for a widget.
+    /// True if a widget uses the mouse or the keyboard.
     [[nodiscard]] static bool wants_mouse();
     [[nodiscard]] static bool wants_keys();
 
-    /// Widgets are added after this and before add_to().
+    /// Widgets are added between this call and add_to().
     static void begin();
     static void add_to(tools::Mesh& mesh);
 };

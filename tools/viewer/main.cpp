@@ -1,14 +1,14 @@
 #include <nearfield/version.hpp>
 
 #include <CLI/CLI.hpp>
-#include <tools/commands/library_error.hpp>
-#include <tools/commands/parsed_option.hpp>
-#include <tools/commands/scene_runner.hpp>
-#include <tools/commands/simulation_choice.hpp>
-#include <tools/input/input_error.hpp>
-#include <tools/input/query_request.hpp>
-#include <tools/input/values.hpp>
-#include <tools/output/output_file.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/common/parsed_option.hpp>
+#include <tools/common/scene_runner.hpp>
+#include <tools/io/input_error.hpp>
+#include <tools/io/output_file.hpp>
+#include <tools/io/query_request.hpp>
+#include <tools/io/values.hpp>
+#include <tools/simulation/simulation_choice.hpp>
 #include <tools/viewer/viewer.hpp>
 
 #include <array>
@@ -114,8 +114,8 @@ void parse_show(const std::vector<std::string>& names, viewer::Overlays& overlay
 viewer::Wishes parse_wishes(const Arguments& arguments) {
     viewer::Wishes wishes;
     wishes.choices.scene = arguments.scene;
-    // Refuses a scene or a tolerance that cannot be, before there is a window.
-    const dynamics::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
+    // Rejects an invalid scene or tolerance before a window opens.
+    const simulation::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
     wishes.choices.tolerance = arguments.tolerance ? scene.tolerance : 0.0;
     wishes.choices.response = tools::parse_response(arguments.response);
     wishes.choices.technique =

@@ -1,5 +1,5 @@
 #include <imgui.h>
-#include <tools/scenes/scenes.hpp>
+#include <tools/simulation/scenes.hpp>
 #include <tools/viewer/panel.hpp>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace nearfield::viewer {
 namespace {
 
-/// A value and its name in a list to choose from.
+/// A value and its name in a selection list.
 template <class Value>
 struct Named {
     Value value;
@@ -20,8 +20,8 @@ struct Named {
 };
 
 constexpr std::array responses{
-    Named<dynamics::Response>{dynamics::Response::penalty, "penalty"},
-    Named<dynamics::Response>{dynamics::Response::backtracking, "backtracking"}};
+    Named<simulation::Response>{simulation::Response::penalty, "penalty"},
+    Named<simulation::Response>{simulation::Response::backtracking, "backtracking"}};
 constexpr std::array fields{Named<tools::FieldLayer>{tools::FieldLayer::none, "none"},
                             Named<tools::FieldLayer>{tools::FieldLayer::distance, "distance"},
                             Named<tools::FieldLayer>{tools::FieldLayer::features, "Voronoi ids"},
@@ -53,7 +53,7 @@ void choose(const char* label, Value& value, std::span<const Named<Value>> from)
 
 void choose_scene(Choices& choices) {
     if (ImGui::BeginCombo("scene", choices.scene.c_str())) {
-        for (const scenes::NamedScene& each : scenes::all_scenes()) {
+        for (const simulation::NamedScene& each : simulation::all_scenes()) {
             if (ImGui::Selectable(each.name, choices.scene == each.name)) {
                 choices.scene = each.name;
                 choices.tolerance = 0.0;
@@ -79,12 +79,12 @@ void add_controls(Wishes& wishes, const Reading& reading) {
     ImGui::TextDisabled("keys space, n, r; the mouse drags bodies");
     Choices& choices = wishes.choices;
     choose_scene(choices);
-    choose<dynamics::Response>("response", choices.response, responses);
+    choose<simulation::Response>("response", choices.response, responses);
     static const auto techniques =
         named({Technique::automatic, Technique::raster, Technique::compute, Technique::cpu});
     choose<Technique>("technique", choices.technique, techniques);
     double tolerance = reading.tolerance;
-    // Takes effect when it is typed to its end, so that nothing on the way is tried.
+    // Takes effect when the input is complete, so that no intermediate value is tried.
     if (ImGui::InputDouble("tolerance d", &tolerance, 0.0, 0.0, "%.4g",
                            ImGuiInputTextFlags_EnterReturnsTrue) &&
         tolerance > 0.0) {
@@ -115,7 +115,7 @@ void add_overlays(Overlays& overlays) {
     ImGui::EndDisabled();
 }
 
-/// A table of names and numbers.
+/// Begins a table of names and numbers.
 bool begin_numbers(const char* id) {
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_RowBg)) {
         return false;
@@ -137,7 +137,7 @@ void add_frame(const Reading& reading) {
     ImGui::Separator();
     ImGui::TextWrapped("%s", reading.device.c_str());
     if (begin_numbers("frame")) {
-        const dynamics::FrameReport& frame = reading.frame;
+        const simulation::FrameReport& frame = reading.frame;
         add_row("objects", double(reading.objects), "%.0f");
         add_row("lines", double(reading.lines), "%.0f");
         add_row("time, s", reading.time, "%.3f");
@@ -171,8 +171,7 @@ void add_times(const Timings& timings) {
     }
 }
 
-/// Where the tiles of the first filling of the atlas stand in the image, and how many more there
-/// are.
+/// Shows where the tiles of the first atlas are in the image, and how many more there are.
 void add_atlas(const std::vector<TileReport>& tiles) {
     constexpr float side = 110.0F;
     std::uint32_t width = 0;

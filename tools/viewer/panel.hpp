@@ -7,32 +7,32 @@
 
 namespace nearfield::viewer {
 
-/// What the user asks of the viewer.
+/// The user's settings in the viewer.
 struct Wishes {
     Choices choices;
     Overlays overlays;
     bool running = true;
-    bool step = false;     ///< one frame
-    bool restart = false;  ///< the scene, from its beginning
+    bool step = false;     ///< runs one frame
+    bool restart = false;  ///< restarts the scene from its beginning
 };
 
-/// What the panel tells.
+/// The values that the panel shows.
 struct Reading {
     std::string device;
     double time = 0.0;       ///< of the scene, in seconds
-    double tolerance = 0.0;  ///< d as it is
+    double tolerance = 0.0;  ///< the current d
     std::size_t objects = 0;
     std::size_t lines = 0;
-    dynamics::FrameReport frame;  ///< the last one
+    simulation::FrameReport frame;  ///< the last report
     Findings findings;
-    std::string notice;  ///< why something did not happen; empty otherwise
+    std::string notice;  ///< why something did not happen; otherwise empty
 };
 
-/// How much of the window's left side the panel takes, pixels.
+/// The width that the panel takes at the left of the window, pixels.
 inline constexpr float panel_width = 330.0F;
 
-/// Adds the panel to the Gui's frame, for a window so many pixels high, and changes the wishes as
-/// the user does.
+/// Adds the panel to the Gui's frame, for a window of this height in pixels, and updates the wishes
+/// from the user's input.
 void add_panel(Wishes& wishes, const Reading& reading, float height);
 
 }  // namespace nearfield::viewer

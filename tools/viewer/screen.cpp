@@ -5,7 +5,7 @@
 namespace nearfield::viewer {
 namespace {
 
-/// Any whose bytes are colours as they are.
+/// Selects a format whose bytes are displayed without conversion.
 vk::SurfaceFormatKHR choose_format(const tools::Gpu& gpu, vk::SurfaceKHR surface) {
     const auto offered = gpu.physical_device().getSurfaceFormatsKHR(surface);
     for (const vk::SurfaceFormatKHR& each : offered) {
@@ -35,7 +35,7 @@ Screen::Screen(const tools::Gpu& gpu, vk::SurfaceKHR surface, vk::Extent2D exten
                const tools::Letters& letters)
     : gpu_(gpu),
       surface_(surface),
-      painter_(gpu, letters, frames_in_flight),
+      painter_(gpu, letters, batches_in_flight),
       frames_{Frame(gpu), Frame(gpu)} {
     fit(extent);
 }
@@ -92,7 +92,7 @@ bool Screen::show(const tools::Mesh& mesh) {
     }
     record(frame.commands.begin(), image, mesh);
     frame.commands.submit(*frame.available, *painted_.at(image));
-    slot_ = (slot_ + 1) % frames_in_flight;
+    slot_ = (slot_ + 1) % batches_in_flight;
     if (!present(image)) {
         fit(extent);
     }
@@ -103,7 +103,7 @@ void Screen::record(const vk::raii::CommandBuffer& commands, std::uint32_t image
                     const tools::Mesh& mesh) {
     painter_.paint(commands, slot_, mesh, tools::palette::panel, *page_);
     const vk::Image target = images_.at(image);
-    // From the stage on at which the submission waits for the image.
+    // Starts at the stage in which the submission waits for the image.
     const tools::ImageUse copied{vk::ImageLayout::eTransferDstOptimal,
                                  vk::PipelineStageFlagBits::eTransfer,
                                  vk::AccessFlagBits::eTransferWrite};

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <tools/render/page.hpp>
+#include <tools/rendering/page.hpp>
 
 #include <array>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace nearfield::viewer {
 
-/// Paints a window: a page, copied to the images of a swapchain; two frames in flight.
+/// Paints a window: a page copied to the images of a swapchain, with two frames in flight.
 class Screen {
 public:
     Screen(const tools::Gpu& gpu, vk::SurfaceKHR surface, vk::Extent2D extent,
@@ -18,14 +18,14 @@ public:
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
-    /// Paints a mesh of a window that is so large now, not zero. False where the window changed
-    /// meanwhile, and nothing was shown.
+    /// Paints a mesh to a window with the given non-zero size. Returns false if the window changed
+    /// in the meantime and nothing was shown.
     bool show(const tools::Mesh& mesh);
-    /// What was shown last.
+    /// The last picture that was shown.
     [[nodiscard]] tools::FrameImage picture();
 
 private:
-    static constexpr std::uint32_t frames_in_flight = 2;
+    static constexpr std::uint32_t batches_in_flight = 2;
 
     struct Frame {
         explicit Frame(const tools::Gpu& gpu);
@@ -45,8 +45,8 @@ private:
     vk::raii::SwapchainKHR swapchain_{nullptr};
     vk::Extent2D extent_;
     std::vector<vk::Image> images_;
-    std::vector<vk::raii::Semaphore> painted_;  // one an image
-    std::array<Frame, frames_in_flight> frames_;
+    std::vector<vk::raii::Semaphore> painted_;  // one per image
+    std::array<Frame, batches_in_flight> frames_;
     std::uint32_t slot_ = 0;
 };
 

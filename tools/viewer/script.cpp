@@ -1,4 +1,4 @@
-#include <tools/dynamics/plane.hpp>
+#include <tools/simulation/plane.hpp>
 #include <tools/viewer/script.hpp>
 
 #include <algorithm>
@@ -6,9 +6,9 @@
 
 namespace nearfield::viewer {
 
-using dynamics::operator+;
-using dynamics::operator-;
-using dynamics::operator*;
+using simulation::operator+;
+using simulation::operator-;
+using simulation::operator*;
 
 void Script::play(std::uint32_t frame, const tools::View& view) const {
     const double part = std::min(1.0, 2.0 * frame / frames);

@@ -1,6 +1,6 @@
-#include <tools/commands/library_error.hpp>
-#include <tools/commands/simulation_choice.hpp>
-#include <tools/input/input_error.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/io/input_error.hpp>
+#include <tools/simulation/simulation_choice.hpp>
 #include <tools/viewer/simulation.hpp>
 
 #include <stdexcept>
@@ -24,11 +24,11 @@ Simulation::Simulation(const HostDevice& host, const Settings& settings, const C
     restart();
 }
 
-void Simulation::begin(dynamics::Scene scene, double time) {
+void Simulation::begin(simulation::Scene scene, double time) {
     world_.reset();
     begun_at_ = time;
     scene.tolerance = choices_.tolerance > 0.0 ? choices_.tolerance : own_tolerance_;
-    // A world counts its time from 0; the scene's own goes on.
+    // A world counts its time from 0; the scene's own time continues.
     scene.act = [this](double since) {
         if (act_) {
             act_(begun_at_ + since);
@@ -40,7 +40,7 @@ void Simulation::begin(dynamics::Scene scene, double time) {
 
 void Simulation::restart() {
     drag_.release();
-    dynamics::Scene scene = tools::make_scene(choices_.scene, std::nullopt);
+    simulation::Scene scene = tools::make_scene(choices_.scene, std::nullopt);
     act_ = std::move(scene.act);
     own_tolerance_ = scene.tolerance;
     try {
@@ -58,12 +58,12 @@ void Simulation::choose(const Choices& choices) {
     if (choices.hierarchy_height != choices_.hierarchy_height) {
         other = make_context(host_, settings_, choices);
     }
-    const bool overlaps = choices.response == dynamics::Response::backtracking &&
+    const bool overlaps = choices.response == simulation::Response::backtracking &&
                           !world_->proximity().overlaps().empty();
     const bool anew = choices.scene != choices_.scene || overlaps;
     const Choices former = std::exchange(choices_, choices);
     const double time = this->time();
-    dynamics::Scene scene;
+    simulation::Scene scene;
     if (!anew) {
         scene = std::move(world_->scene());
     }

@@ -1,5 +1,5 @@
-#include <tools/commands/library_error.hpp>
-#include <tools/input/input_error.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/io/input_error.hpp>
 #include <tools/viewer/viewer.hpp>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void Viewer::handle_key(SDL_Keycode key) {
     }
 }
 
-/// For who works on the library's shaders, and builds it for that.
+/// Development aid for the library's shaders; needs a build with shader reload.
 void Viewer::reload_shaders() {
     const Expected<std::uint32_t> changed = simulation_.context().reload_shaders();
     reading_.notice = changed.ok() ? "Shaders that changed: " + std::to_string(*changed) + "."
@@ -98,7 +98,7 @@ void Viewer::handle(const SDL_Event& event) {
     }
 }
 
-/// False where the window was closed.
+/// Returns false if the window was closed.
 bool Viewer::handle_events() {
     SDL_Event event;
     while (SDL_PollEvent(&event) != 0) {
@@ -111,7 +111,7 @@ bool Viewer::handle_events() {
     return true;
 }
 
-/// The choices that worked last are made again.
+/// Restores the choices that worked last.
 void Viewer::go_back(const std::string& why) {
     reading_.notice = why;
     wishes_.choices = worked_.choices;
@@ -140,7 +140,7 @@ void Viewer::advance() {
         go_back(error.what());
     } catch (const tools::LibraryError& error) {
         if (simulation_.choices() == worked_.choices && wishes_.overlays == worked_.overlays) {
-            throw;  // there is nothing else to go back to
+            throw;  // there are no earlier choices to restore
         }
         go_back(error.what());
     }
@@ -149,12 +149,12 @@ void Viewer::advance() {
     if (simulation_.drag().in_vain(simulation_.scene())) {
         reading_.notice = "This body goes its own way, whatever pulls.";
     }
-    const dynamics::Scene& scene = simulation_.scene();
+    const simulation::Scene& scene = simulation_.scene();
     reading_.device = simulation_.context().device_name();
     reading_.time = simulation_.time();
     reading_.tolerance = scene.tolerance;
     reading_.objects = scene.bodies.size();
-    reading_.lines = dynamics::line_count(scene);
+    reading_.lines = simulation::line_count(scene);
 }
 
 bool Viewer::show() {
@@ -176,7 +176,7 @@ void Viewer::run(std::optional<std::uint32_t> frames, const std::optional<Script
             return;
         }
         while (window_.extent() == vk::Extent2D()) {
-            SDL_WaitEvent(nullptr);  // nothing to paint while it is minimised
+            SDL_WaitEvent(nullptr);  // nothing to paint while minimised
         }
         advance();
         while (!show()) {

@@ -12,12 +12,12 @@
 
 namespace nearfield::viewer {
 
-/// A window with a scene in it: events in, a frame of the simulation, its findings, a picture.
+/// A window with a scene. A frame handles events, runs the simulation and its queries, and paints.
 class Viewer {
 public:
     Viewer(const Settings& settings, const Wishes& wishes);
 
-    /// Until the window is closed, or for so many frames.
+    /// Runs until the window is closed, or for the given number of frames.
     void run(std::optional<std::uint32_t> frames, const std::optional<Script>& script);
     void resize(int width, int height);
     [[nodiscard]] tools::FrameImage picture() { return screen_.picture(); }
@@ -40,7 +40,7 @@ private:
     Screen screen_;
     Simulation simulation_;
     Wishes wishes_;
-    Wishes worked_;  // the last ones that did
+    Wishes worked_;  // the last ones that worked
     Reading reading_;
     tools::Drawing drawing_;
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <SDL.h>
-#include <tools/gpu/gpu.hpp>
+#include <tools/rendering/gpu.hpp>
 
 #include <memory>
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace nearfield::viewer {
 
-/// SDL's video, for as long as this lives.
+/// SDL's video subsystem for the lifetime of this object.
 class Video {
 public:
-    /// Throws std::runtime_error where there is no display.
+    /// Throws std::runtime_error if there is no display.
     Video();
     ~Video() { SDL_Quit(); }
     Video(const Video&) = delete;
@@ -25,10 +25,10 @@ public:
     Window(const std::string& title, int width, int height);
 
     [[nodiscard]] SDL_Window* get() const { return window_.get(); }
-    /// What a surface of this window needs of the instance.
+    /// The instance extensions that a surface of this window needs.
     [[nodiscard]] std::vector<std::string> extensions() const;
     [[nodiscard]] vk::raii::SurfaceKHR make_surface(const tools::GpuInstance& instance) const;
-    /// In pixels; zero while it is minimised.
+    /// In pixels; zero while minimised.
     [[nodiscard]] vk::Extent2D extent() const;
 
 private:

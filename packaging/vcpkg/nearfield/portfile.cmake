@@ -1,4 +1,4 @@
-# An overlay port: it takes the sources it stands in.
+# An overlay port that uses the sources it is part of.
 #   vcpkg install nearfield --overlay-ports=packaging/vcpkg
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../.." ABSOLUTE)
 vcpkg_add_to_path("${CURRENT_HOST_INSTALLED_DIR}/tools/glslang")
@@ -11,7 +11,7 @@ vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/nearfield)
 vcpkg_fixup_pkgconfig()
 
-# A triplet has one kind of library; the install has both.
+# A triplet has one kind of library, but the install step installs both.
 if(VCPKG_LIBRARY_LINKAGE STREQUAL "static")
     set(unwanted lib/libnearfield.so* share/nearfield/nearfield-shared*)
 else()

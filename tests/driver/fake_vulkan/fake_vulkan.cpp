@@ -1,6 +1,6 @@
 #include <vulkan/vulkan_core.h>
 
-/// A Vulkan loader that knows what a test has it know.
+/// A Vulkan loader with exactly the functions that a test gives it.
 
 #define NEARFIELD_SHOWN extern "C" __attribute__((visibility("default")))
 

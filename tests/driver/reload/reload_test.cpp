@@ -13,7 +13,7 @@ using test_support::MockDriver;
 using test_support::name_of;
 using test_support::ShaderFolder;
 
-/// A context that has compiled all of a folder's shaders, which are those it was built with.
+/// A context that has compiled all shaders of a folder, which are those it was built with.
 class ReloadedShaders : public ::testing::Test {
 protected:
     ReloadedShaders() {
@@ -33,7 +33,7 @@ protected:
     void change() {
         folder_.replace("collect_masks.comp", "void main() {", "void main() {\n    return;");
     }
-    /// The calls that take another shader into use, by how often they are made.
+    /// The calls that replace a shader, with how often they are made.
     std::map<std::string_view, std::size_t> calls_of_reloading() {
         change();
         driver().forget_calls();
@@ -51,7 +51,7 @@ protected:
     World world_{Technique::compute};
 };
 
-/// What a driver refuses leaves the pipelines there were, and can be asked for again.
+/// If the driver refuses a shader, the previous pipelines stay, and the reload can be repeated.
 TEST_F(ReloadedShaders, ThatTheDriverRefusesAreNamedAndLeaveThoseThereWere) {
     const auto calls = calls_of_reloading();
     EXPECT_FALSE(calls.contains("vkWaitForFences"));
@@ -86,7 +86,7 @@ TEST_F(ReloadedShaders, WaitForBatchesInFlightToBeCollected) {
     EXPECT_TRUE(world_.context().collect(*ticket, results).ok());
     change();
     EXPECT_EQ(reload().value(), 1U);
-    // Its ticket stays used, whatever was made anew.
+    // Its ticket stays used, whatever was recreated.
     EXPECT_EQ(world_.context().collect(*ticket, results).code(), StatusCode::unknown_ticket);
 }
 

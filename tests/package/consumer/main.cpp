@@ -1,5 +1,5 @@
-// A host that has nothing of nearfield but what is installed. It uses every part of the interface
-// that the library has code for, and sees an error, which must not need exceptions or RTTI here.
+// A host that uses only the installed files of nearfield. It uses every compiled part of the
+// interface, and receives an error, which must not need exceptions or RTTI here.
 #include <nearfield/nearfield.hpp>
 
 #include <cmath>

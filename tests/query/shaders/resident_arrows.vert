@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// A host's arrows for contacts, an instance a record that there is room for: those beyond the count
-// collapse into nothing, so that the host need not know how many there are.
+// A host's arrows for contacts, one instance per record of the capacity: instances beyond the count
+// are degenerate, so that the host need not know the count.
 
 #include "nearfield/nearfield.glsl"
 #include "view.glsl"
@@ -14,7 +14,7 @@ layout(std430, set = 0, binding = 2) readonly buffer Contacts {
 
 layout(location = 0) flat out uint inside;
 
-// Along the arrow and across it, in parts of its length.
+// Along the arrow and across it, as fractions of its length.
 const vec2 corners[9] = vec2[9](vec2(0.0, -0.05), vec2(0.7, -0.05), vec2(0.7, 0.05),
                                 vec2(0.0, -0.05), vec2(0.7, 0.05), vec2(0.0, 0.05),
                                 vec2(0.65, -0.2), vec2(1.0, 0.0), vec2(0.65, 0.2));

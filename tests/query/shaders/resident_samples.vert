@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// A host's dots for the samples of an intersection, an instance a sample that there is room for:
-// those beyond the count collapse into nothing, so that the host need not know how many there are.
+// A host's dots for the samples of an intersection, one instance per sample of the capacity:
+// instances beyond the count are degenerate, so that the host need not know the count.
 
 #include "nearfield/nearfield.glsl"
 #include "view.glsl"
@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 3) readonly buffer Intersection {
     NearfieldIntersectionSample samples[];
 };
 
-// Across a dot, in parts of a cell.
+// Across a dot, as fractions of a cell.
 const vec2 corners[6] = vec2[6](vec2(-0.2, -0.2), vec2(0.2, -0.2), vec2(0.2, 0.2),
                                 vec2(-0.2, -0.2), vec2(0.2, 0.2), vec2(-0.2, 0.2));
 

@@ -1,0 +1,80 @@
+# Compile options for every target of the project, and how a module becomes a target.
+
+add_library(nearfield_options INTERFACE)
+target_include_directories(nearfield_options INTERFACE
+    ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+target_compile_definitions(nearfield_options INTERFACE VK_NO_PROTOTYPES)
+target_compile_options(nearfield_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+    -Wold-style-cast -Woverloaded-virtual)
+# When several files are compiled as one, a local name may shadow another file's.
+if(NOT CMAKE_UNITY_BUILD)
+    target_compile_options(nearfield_options INTERFACE -Wshadow)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(nearfield_options INTERFACE -Wshadow=local)
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # A false alarm on string concatenation in libstdc++ 12 (GCC bug 105651).
+    target_compile_options(nearfield_options INTERFACE -Wno-restrict)
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    # By default GCC resets and copies structures of some hundred bytes with `rep stos` or `rep
+    # movs`, whose start-up costs tens of cycles: a tenth of a frame of small shapes.
+    set(few_at_once vector_loop:512:noalign,libcall:-1:noalign)
+    target_compile_options(nearfield_options INTERFACE
+        -mmemset-strategy=${few_at_once} -mmemcpy-strategy=${few_at_once})
+endif()
+if(NEARFIELD_WARNINGS_AS_ERRORS)
+    target_compile_options(nearfield_options INTERFACE -Werror)
+endif()
+if(NEARFIELD_SHADER_RELOAD)
+    target_compile_definitions(nearfield_options INTERFACE NEARFIELD_SHADER_RELOAD)
+endif()
+if(NEARFIELD_SANITIZE)
+    target_compile_options(nearfield_options INTERFACE
+        -fsanitize=${NEARFIELD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    if(NEARFIELD_SANITIZE MATCHES undefined)
+        # The address checks cover what these would find, and these take as long to compile as all
+        # others together.
+        target_compile_options(nearfield_options INTERFACE
+            -fno-sanitize=null,alignment,object-size)
+    endif()
+    target_link_options(nearfield_options INTERFACE -fsanitize=${NEARFIELD_SANITIZE})
+endif()
+
+# nearfield_module(NAME [LINK MODULE|LIBRARY...]) makes the object library nearfield_NAME from all
+# sources in engine/NAME, or in the top-level folder NAME. It links the modules directly below it. A
+# file may include files of those and of all modules below them; the tests of a module link nothing
+# else.
+set_property(GLOBAL PROPERTY NEARFIELD_MODULES "")
+function(nearfield_module name)
+    cmake_parse_arguments(PARSE_ARGV 1 module "" "" "LINK")
+    set(folder ${PROJECT_SOURCE_DIR}/engine/${name})
+    if(NOT IS_DIRECTORY ${folder})
+        set(folder ${PROJECT_SOURCE_DIR}/${name})
+    endif()
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
+    add_library(nearfield_${name} OBJECT ${sources})
+    target_link_libraries(nearfield_${name} PUBLIC nearfield_options)
+    set(below "")
+    foreach(library IN LISTS module_LINK)
+        if(TARGET nearfield_${library})
+            target_link_libraries(nearfield_${name} PUBLIC nearfield_${library})
+            get_target_property(further nearfield_${library} NEARFIELD_BELOW)
+            list(APPEND below ${library} ${further})
+        else()
+            target_link_libraries(nearfield_${name} PUBLIC ${library})
+        endif()
+    endforeach()
+    list(REMOVE_DUPLICATES below)
+    set_target_properties(nearfield_${name} PROPERTIES NEARFIELD_BELOW "${below}")
+    set_property(GLOBAL APPEND PROPERTY NEARFIELD_MODULES ${name})
+endfunction()
+
+# nearfield_link_module(TARGET MODULE) links the objects of a module and of all modules below it.
+function(nearfield_link_module target module)
+    get_target_property(below nearfield_${module} NEARFIELD_BELOW)
+    foreach(name IN ITEMS ${module} LISTS below)
+        target_link_libraries(${target} PRIVATE nearfield_${name})
+    endforeach()
+endfunction()

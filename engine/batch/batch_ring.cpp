@@ -1,0 +1,167 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/base/stopwatch.hpp>
+#include <engine/batch/batch_ring.hpp>
+#include <engine/plan/tile_reports.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace nearfield::batch {
+
+BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
+                     const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes)
+    : shapes_(&shapes), planning_(limits, costs, jobs), normals_(planning_, renderer) {
+    for (std::uint32_t i = 0; i < frames; ++i) {
+        frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, 0}));
+    }
+}
+
+BatchRing::Frame* BatchRing::find(Ticket ticket) {
+    for (const auto& frame : frames_) {
+        if (ticket.number != 0 && frame->number == ticket.number) {
+            return frame.get();
+        }
+    }
+    return nullptr;
+}
+
+BatchRing::Frame& BatchRing::require(Ticket ticket) {
+    Frame* const frame = find(ticket);
+    if (frame == nullptr) {
+        throw StatusException(
+            {StatusCode::unknown_ticket, "no batch of this context has the ticket " +
+                                             std::to_string(ticket.number) +
+                                             ", or it was collected already"});
+    }
+    return *frame;
+}
+
+BatchRing::Frame& BatchRing::free_frame() {
+    for (const auto& frame : frames_) {
+        if (frame->number == 0) {
+            return *frame;
+        }
+    }
+    throw StatusException(
+        {StatusCode::ring_full, "all " + std::to_string(frames_.size()) +
+                                    " frames are in flight; collect one of them before "
+                                    "the next batch is submitted"});
+}
+
+void BatchRing::release(Frame& frame) {
+    shapes_->release(frame.shapes);
+    frame.number = 0;
+}
+
+template <class Start>
+Ticket BatchRing::start_batch(Results* memory, const Start& start) {
+    const Stopwatch stopwatch;
+    last_ = nullptr;
+    Frame& frame = free_frame();
+    if (memory != nullptr) {
+        std::swap(*memory, frame.runner.results());
+    }
+    try {
+        start(frame,
+              [this, &frame](ShapeHandle shape) { return shapes_->hold(shape, frame.shapes); });
+    } catch (...) {
+        release(frame);
+        throw;
+    }
+    frame.number = ++last_number_;
+    last_ = &frame;
+    frame.runner.results().timings.total = stopwatch.milliseconds();
+    return {frame.number};
+}
+
+Ticket BatchRing::submit(std::span<const AnyQuery> queries, const Submission& order,
+                         Results* memory) {
+    return start_batch(memory, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.runner.submit(queries, find_shape, order);
+    });
+}
+
+Ticket BatchRing::record(std::span<const AnyQuery> queries, const Recording& recording) {
+    if (recording.commands == VK_NULL_HANDLE) {
+        throw StatusException({StatusCode::invalid_submission, "Recording::commands is null"});
+    }
+    if (is_complete(recording.frame)) {
+        throw StatusException({StatusCode::invalid_submission,
+                               "Recording::frame is " + std::to_string(recording.frame) +
+                                   ", and the host said that all frames up to " +
+                                   std::to_string(*complete_) + " are complete"});
+    }
+    if (recording.frame >= frames_.size()) {
+        complete(recording.frame - frames_.size());
+    }
+    return start_batch(nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.host_frame = recording.frame;
+        // Derived from the number that the ticket will have.
+        const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
+        frame.runner.record(queries, find_shape, recording.commands, stamp);
+    });
+}
+
+void BatchRing::complete(std::uint64_t host_frame) {
+    complete_ = std::max(complete_.value_or(0), host_frame);
+}
+
+bool BatchRing::is_ready(Frame& frame) const {
+    return frame.runner.submission_state() == render::SubmissionState::recorded
+               ? is_complete(frame.host_frame)
+               : frame.runner.is_done();
+}
+
+bool BatchRing::is_ready(Ticket ticket) {
+    Frame* const frame = find(ticket);
+    return frame == nullptr || is_ready(*frame);
+}
+
+void BatchRing::collect(Ticket ticket, Results& results) {
+    const Stopwatch start;
+    Frame& frame = require(ticket);
+    if (frame.runner.submission_state() == render::SubmissionState::recorded &&
+        !is_complete(frame.host_frame)) {
+        throw StatusException(
+            {StatusCode::not_ready,
+             "the batch was recorded for frame " + std::to_string(frame.host_frame) +
+                 ", which is not complete: Context::frame_completed() says when it is"});
+    }
+    try {
+        frame.runner.collect();
+        normals_.apply(frame.runner);
+    } catch (...) {
+        release(frame);
+        throw;
+    }
+    std::swap(results, frame.runner.results());
+    release(frame);
+    results.timings.total += start.milliseconds();
+}
+
+void BatchRing::list_tiles(std::vector<TileReport>& tiles) const {
+    tiles.clear();
+    if (last_ != nullptr) {
+        plan::report_tiles(last_->runner.plan(), tiles);
+    }
+}
+
+void BatchRing::drop(Ticket ticket) {
+    release(require(ticket));
+}
+
+#ifdef NEARFIELD_SHADER_RELOAD
+void BatchRing::require_none_in_flight(const char* call) const {
+    for (const auto& frame : frames_) {
+        if (frame->number != 0) {
+            throw StatusException(
+                {StatusCode::not_ready, std::string(call) + ": the batch of ticket " +
+                                            std::to_string(frame->number) +
+                                            " is in flight; all have to be collected first"});
+        }
+    }
+}
+#endif
+
+}  // namespace nearfield::batch

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <engine/batch/batch_runner.hpp>
+#include <engine/batch/gradient_normals.hpp>
+#include <engine/batch/shape_store.hpp>
+#include <nearfield/context.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace nearfield::batch {
+
+/// The batches in flight, a fixed number at most; each has a runner of its own and holds the shapes
+/// it was submitted with until it is collected.
+class BatchRing {
+public:
+    BatchRing(std::uint32_t frames, const plan::PlanLimits& limits, const CostModel& costs,
+              const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes);
+
+    /// Throws StatusException (ring_full) if the ring is full. After any StatusException nothing of
+    /// the batch remains. `memory`, if given, is swapped for results that the batch does not need.
+    Ticket submit(std::span<const AnyQuery> queries, const Submission& order,
+                  Results* memory = nullptr);
+    /// The same, recorded into a command buffer of the host. Implies that the device has finished
+    /// all frames that are no longer in flight by then. May also throw StatusException
+    /// (invalid_submission).
+    Ticket record(std::span<const AnyQuery> queries, const Recording& recording);
+    /// Reports that the device has finished the host's frames up to this one.
+    void complete(std::uint64_t host_frame);
+    /// Returns whether collect() would return without waiting for a submitted batch.
+    [[nodiscard]] bool is_ready(Ticket ticket);
+    /// Waits for one batch and writes its results. Throws StatusException: (unknown_ticket) if
+    /// there is no such batch, (not_ready) if its frame is not complete; after any other
+    /// StatusException the ticket is used up.
+    void collect(Ticket ticket, Results& results);
+    /// The resident output of a query of a batch in flight. Throws as collect() does, and if the
+    /// query has none.
+    template <class Query>
+    [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
+        return require(ticket).runner.resident(handle);
+    }
+    /// Lists the tiles of the batch started last.
+    void list_tiles(std::vector<TileReport>& tiles) const;
+    /// Abandons a batch of a lost device. Throws as collect() does.
+    void drop(Ticket ticket);
+#ifdef NEARFIELD_SHADER_RELOAD
+    /// Throws StatusException (not_ready) if a batch is in flight; `call`: for the message.
+    void require_none_in_flight(const char* call) const;
+    /// Continues the ticket numbers of another ring without batches in flight: its tickets stay
+    /// used.
+    void count_on_from(const BatchRing& former) {
+        last_number_ = former.last_number_;
+        complete_ = former.complete_;
+    }
+#endif
+
+private:
+    struct Frame {
+        BatchRunner runner;
+        ShapeStore::Held shapes;
+        std::uint64_t number = 0;      // of its ticket; 0: none
+        std::uint64_t host_frame = 0;  // that it was recorded for, if it was
+    };
+
+    [[nodiscard]] Frame* find(Ticket ticket);
+    [[nodiscard]] Frame& require(Ticket ticket);
+    [[nodiscard]] Frame& free_frame();
+    void release(Frame& frame);
+    [[nodiscard]] bool is_complete(std::uint64_t host_frame) const {
+        return complete_ && host_frame <= *complete_;
+    }
+    [[nodiscard]] bool is_ready(Frame& frame) const;
+    /// Calls `start(runner, find_shape)` to start a batch in a free frame.
+    template <class Start>
+    Ticket start_batch(Results* memory, const Start& start);
+
+    ShapeStore* shapes_;
+    Planning planning_;
+    GradientNormals normals_;
+    std::vector<std::unique_ptr<Frame>> frames_;
+    std::uint64_t last_number_ = 0;
+    const Frame* last_ = nullptr;            // of the batch started last; null if it failed
+    std::optional<std::uint64_t> complete_;  // the last complete frame of the host
+};
+
+}  // namespace nearfield::batch

@@ -1,0 +1,253 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/batch/batch_runner.hpp>
+#include <engine/plan/technique.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace nearfield::batch {
+namespace {
+
+std::span<const Vector2> points_of(const AnyQuery& query) {
+    const auto* const field = std::get_if<DistanceFieldQuery>(&query);
+    return field == nullptr ? std::span<const Vector2>() : field->points;
+}
+
+/// Index of a query's entry among those that stay on the device.
+template <class HandedOver>
+std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [query](const HandedOver& one) { return one.query == query; });
+    return static_cast<std::size_t>(found - all.begin());
+}
+
+}  // namespace
+
+BatchRunner::BatchRunner(Planning& planning, render::Renderer* renderer)
+    : planning_(&planning),
+      renderer_(renderer),
+      slot_(renderer == nullptr ? nullptr : renderer->make_resources()),
+      decoder_(renderer == nullptr ? "" : renderer->gradient_format(), planning.answers) {}
+
+void BatchRunner::copy(std::span<const AnyQuery> queries) {
+    queries_.clear();
+    std::size_t count = 0;
+    for (const AnyQuery& query : queries) {
+        count += points_of(queries_.emplace_back(query)).size();
+    }
+    points_.resize(count);
+    if (count == 0) {
+        return;
+    }
+    std::size_t next = 0;
+    for (AnyQuery& query : queries_) {
+        if (auto* const field = std::get_if<DistanceFieldQuery>(&query)) {
+            const std::span copied = std::span(points_).subspan(next, field->points.size());
+            std::copy(field->points.begin(), field->points.end(), copied.begin());
+            field->points = copied;
+            next += copied.size();
+        }
+    }
+}
+
+void BatchRunner::begin_timings() {
+    Timings& timings = results_.timings;
+    timings.localize = timings.plan = timings.record = timings.device = 0.0;
+    timings.decode = timings.total = 0.0;
+    // Names stay, so that a frame like the one before allocates nothing; passes that have not run
+    // are dropped at the end.
+    for (PassTime& pass : timings.passes) {
+        pass.milliseconds = -1.0;
+    }
+}
+
+void BatchRunner::make_tile_batches() {
+    plan::TileBatchBuilder& builder = planning_->builder;
+    builder.begin_batch();
+    tile_batches_.resize(std::max<std::size_t>(tile_batches_.size(), plan_.tile_batches));
+    for (std::uint32_t number = 0; number < plan_.tile_batches; ++number) {
+        builder.build(plan_, number, tile_batches_[number]);
+    }
+    resident_outputs_builder_.build(plan_, std::span(tile_batches_).first(plan_.tile_batches),
+                                    results_.results, resident_);
+}
+
+/// Moves queries to the CPU that cannot be recorded as they are, if they allow it.
+void BatchRunner::keep_off_the_device() {
+    for (AnyQuery& query : queries_) {
+        std::visit(
+            [](auto& one) {
+                if (one.technique == Technique::automatic && plan::takes_a_second_submission(one)) {
+                    one.technique = Technique::cpu;
+                }
+            },
+            query);
+    }
+}
+
+/// Everything up to the recording of tile batches.
+void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                        plan::Submissions submissions) {
+    if (submission_state() == render::SubmissionState::submitted) {
+        slot_->wait();  // for a batch that failed half-way
+    }
+    late_failure_ = nullptr;
+    Timings& timings = results_.timings;
+    const Stopwatch start;
+    begin_timings();
+    copy(queries);
+    if (submissions == plan::Submissions::one) {
+        keep_off_the_device();
+    }
+    plan::find_shapes(queries_, find_shape, shapes_);
+    planning_->selector.choose(queries_, shapes_);
+    plan::Planner& planner = planning_->planner;
+    planner.plan(queries_, shapes_, plan_, results_.results, submissions);
+    timings.localize += planner.localize_milliseconds();
+    decoder_.begin_batch(plan_);
+    make_tile_batches();
+    timings.plan += start.milliseconds() - planner.localize_milliseconds();
+    if (has_device_work()) {
+        const render::SampleRoom room = submissions == plan::Submissions::one
+                                            ? render::SampleRoom::all
+                                            : render::SampleRoom::likely;
+        renderer_->prepare(std::span(tile_batches_).first(plan_.tile_batches), resident_,
+                           plan_.extent, room, *slot_, timings);
+    }
+}
+
+/// Resident records need the device even without tile batches: to state that there are none.
+bool BatchRunner::has_device_work() const {
+    return plan_.tile_batches > 0 || !resident_.empty();
+}
+
+void BatchRunner::answer_on_cpu() {
+    const Stopwatch start;
+    decoder_.answer_on_cpu(plan_, results_.results);
+    results_.timings.decode += start.milliseconds();
+}
+
+void BatchRunner::submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                         const Submission& order) {
+    begin(queries, find_shape, plan::Submissions::any);
+    if (has_device_work()) {
+        renderer_->submit(*slot_, order, results_.timings);
+        submitted_ = {};
+        device_milliseconds_.reset();
+    } else if (slot_ != nullptr) {
+        slot_->submit_semaphores(order);
+    }
+    // A failure after the submission must still be reported to the host, since semaphores will be
+    // signalled.
+    try {
+        answer_on_cpu();
+    } catch (...) {
+        late_failure_ = std::current_exception();
+    }
+}
+
+void BatchRunner::record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                         VkCommandBuffer commands, std::uint32_t stamp) {
+    begin(queries, find_shape, plan::Submissions::one);
+    answer_on_cpu();
+    if (has_device_work()) {
+        renderer_->record(*slot_, commands, stamp, results_.timings);
+        device_milliseconds_ = 0.0;  // only the host knows
+    }
+}
+
+template <class Query>
+void BatchRunner::require_resident(QueryHandle<Query> handle) const {
+    const auto refuse = [&](const std::string& why) {
+        throw StatusException({StatusCode::invalid_query,
+                               "resident: query " + std::to_string(handle.index) + " " + why});
+    };
+    if (handle.index >= queries_.size()) {
+        refuse("is none of the batch, which has " + std::to_string(queries_.size()));
+    }
+    const auto* const query = std::get_if<Query>(&queries_[handle.index]);
+    if (query == nullptr) {
+        refuse("is of another kind than its handle says");
+    } else if (!query->resident) {
+        refuse("did not ask for results that stay on the device (resident)");
+    }
+    const Status& status =
+        std::visit([](const auto& result) -> const Status& { return result.status; },
+                   results_.results[handle.index]);
+    if (!status.ok()) {
+        throw StatusException(status);
+    }
+}
+
+template void BatchRunner::require_resident(QueryHandle<PenetrationQuery>) const;
+template void BatchRunner::require_resident(QueryHandle<ContactQuery>) const;
+
+ResidentField BatchRunner::resident(QueryHandle<DistanceFieldQuery> handle) const {
+    require_resident(handle);
+    return slot_->resident().field(place_of(resident_.fields, handle.index));
+}
+
+ResidentSamples BatchRunner::resident(QueryHandle<IntersectionQuery> handle) const {
+    require_resident(handle);
+    return slot_->resident().samples(place_of(resident_.samples, handle.index));
+}
+
+ResidentRecords BatchRunner::resident_records(std::uint32_t query) const {
+    return slot_->resident().records(place_of(resident_.records, query));
+}
+
+bool BatchRunner::is_done() {
+    if (slot_ != nullptr && !slot_->is_done()) {
+        return false;
+    }
+    if (submission_state() == render::SubmissionState::submitted && !device_milliseconds_) {
+        device_milliseconds_ = submitted_.milliseconds();
+    }
+    return true;
+}
+
+void BatchRunner::wait() {
+    Timings& timings = results_.timings;
+    renderer_->wait(*slot_, timings);
+    timings.device += device_milliseconds_.value_or(submitted_.milliseconds());
+}
+
+void BatchRunner::collect() {
+    Timings& timings = results_.timings;
+    while (submission_state() != render::SubmissionState::none) {
+        wait();
+        const Stopwatch start;
+        for (const std::uint32_t number : slot_->running()) {
+            if (slot_->round(number).had_room()) {
+                decode(number);
+            }
+        }
+        timings.decode += start.milliseconds();
+        if (renderer_->submit_those_without_room(*slot_, timings)) {
+            submitted_ = {};
+            device_milliseconds_.reset();
+        }
+    }
+    if (slot_ != nullptr) {
+        slot_->release();
+    }
+    if (late_failure_) {
+        std::rethrow_exception(std::exchange(late_failure_, nullptr));
+    }
+    const Stopwatch start;
+    decoder_.finish(plan_, results_.results);
+    timings.decode += start.milliseconds();
+    std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
+}
+
+void BatchRunner::decode(std::uint32_t number) {
+    const plan::TileBatch& round = tile_batches_[number];
+    std::vector<AnyResult>& results = results_.results;
+    decoder_.add_points(round, slot_->points(number));
+    decoder_.add_field(plan_, round, slot_->field_words(number), results);
+    results::ResultDecoder::add_summaries(plan_, round, slot_->summaries(number), results);
+    decoder_.add_samples(plan_, round, slot_->samples(number));
+}
+
+}  // namespace nearfield::batch

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <engine/base/stopwatch.hpp>
+#include <engine/plan/planner.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <engine/plan/tile_batch.hpp>
+#include <engine/render/renderer.hpp>
+#include <engine/resident/resident_outputs_builder.hpp>
+#include <engine/results/answer_jobs.hpp>
+#include <engine/results/results.hpp>
+#include <engine/select/technique_selector.hpp>
+#include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace nearfield::batch {
+
+/// Turns queries into tile batches, and writes answers. Its scratch memory serves one batch after
+/// the other: none of it is needed once a batch is submitted or its answers are written.
+struct Planning {
+    select::TechniqueSelector selector;
+    plan::Planner planner;
+    plan::TileBatchBuilder builder;
+    results::AnswerJobs answers;
+
+    Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
+        : selector(costs, limits.techniques),
+          planner(limits),
+          builder(limits.subpixel),
+          answers(jobs) {}
+};
+
+/// Runs one batch from queries to results, in two steps: everything up to its submission, and the
+/// rest once the device is done. In between, it holds everything the batch needs, except for the
+/// polygons, which their owner has to keep unchanged. Keeps its memory from batch to batch.
+class BatchRunner {
+public:
+    /// Planning and renderer are shared with other runners and must outlive this one. Without a
+    /// renderer (null) there is no device: the planner must reject everything that needs one.
+    BatchRunner(Planning& planning, render::Renderer* renderer);
+
+    /// Copies the queries, selects their techniques, plans them and submits their tile batches with
+    /// the semaphores of `order`; if nothing is rendered, only the semaphores, if any. Then answers
+    /// the CPU's queries while the device is working; errors there are reported by collect(). Does
+    /// not wait, except for a batch that an exception left on the device.
+    void submit(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                const Submission& order = {});
+    /// The same, but records the tile batches into a command buffer of the host, as the last step:
+    /// if it throws, nothing was recorded. A query that needs a second submission is rejected in
+    /// its own result. `stamp`: see BatchResources::end_recording().
+    void record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                VkCommandBuffer commands, std::uint32_t stamp);
+
+    /// Who still has to finish the commands.
+    [[nodiscard]] render::SubmissionState submission_state() const {
+        return slot_ == nullptr ? render::SubmissionState::none : slot_->submission_state();
+    }
+    /// Returns whether collect() would return without waiting for a submission.
+    [[nodiscard]] bool is_done();
+    /// Waits for the device and writes the results; recorded commands have to be done. Gradient
+    /// normals of contacts are left to GradientNormals.
+    void collect();
+
+    /// The resident outputs of a query, after submit(). Throws a StatusException that names the
+    /// reason if there are none.
+    [[nodiscard]] ResidentField resident(QueryHandle<DistanceFieldQuery> handle) const;
+    [[nodiscard]] ResidentSamples resident(QueryHandle<IntersectionQuery> handle) const;
+    template <class Query>
+    [[nodiscard]] ResidentRecords resident(QueryHandle<Query> handle) const {
+        require_resident(handle);
+        return resident_records(handle.index);
+    }
+
+    /// The results of the last batch, until the next one starts: complete after collect(), except
+    /// for their total time. May be swapped for other results, whose memory is then reused.
+    [[nodiscard]] Results& results() { return results_; }
+    [[nodiscard]] const plan::Plan& plan() const { return plan_; }
+    [[nodiscard]] std::span<const std::uint32_t> point_words() const {
+        return decoder_.point_words();
+    }
+
+private:
+    void begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+               plan::Submissions submissions);
+    void keep_off_the_device();
+    [[nodiscard]] bool has_device_work() const;
+    void answer_on_cpu();
+    void copy(std::span<const AnyQuery> queries);
+    void begin_timings();
+    void make_tile_batches();
+    void wait();
+    void decode(std::uint32_t number);
+    template <class Query>
+    void require_resident(QueryHandle<Query> handle) const;
+    [[nodiscard]] ResidentRecords resident_records(std::uint32_t query) const;
+
+    Planning* planning_;
+    render::Renderer* renderer_;
+    std::unique_ptr<render::BatchResources> slot_;  // null without a renderer
+    std::vector<AnyQuery> queries_;
+    std::vector<Vector2> points_;            // of the queries
+    std::vector<plan::QueryShapes> shapes_;  // by query
+    plan::Plan plan_;
+    std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
+    resident::ResidentOutputsBuilder resident_outputs_builder_;
+    plan::ResidentOutputs resident_;
+    results::ResultDecoder decoder_;
+    Results results_;
+    Stopwatch submitted_;
+    std::optional<double> device_milliseconds_;  // from submission until completion was observed
+    std::exception_ptr late_failure_;            // of a batch that was submitted nevertheless
+};
+
+}  // namespace nearfield::batch

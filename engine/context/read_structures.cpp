@@ -1,0 +1,97 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/base/versioned.hpp>
+#include <engine/context/read_structures.hpp>
+#include <engine/geometry/number.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+[[noreturn]] void refuse_setting(const std::string& message) {
+    throw StatusException({StatusCode::invalid_settings, message});
+}
+
+void check_cost(double microseconds, const std::string& what) {
+    if (!(microseconds >= 0.0 && std::isfinite(microseconds))) {
+        refuse_setting("Settings::costs." + what + " is " + geometry::number(microseconds) +
+                       "; it must be a finite number of at least 0 (microseconds)");
+    }
+}
+
+void check_cost(const WorkCost& cost, const std::string& what) {
+    check_cost(cost.query, what + ".query");
+    check_cost(cost.edge, what + ".edge");
+    check_cost(cost.sample, what + ".sample");
+}
+
+void check_cost(const TechniqueCost& cost, const std::string& technique) {
+    check_cost(cost.submission, technique + ".submission");
+    check_cost(cost.points, technique + ".points");
+    check_cost(cost.closest, technique + ".closest");
+    check_cost(cost.intersection, technique + ".intersection");
+    check_cost(cost.field, technique + ".field");
+    check_cost(cost.features, technique + ".features");
+}
+
+void check_jobs(const JobSystem& jobs) {
+    const std::string count = "Settings::jobs.count is " + std::to_string(jobs.count);
+    if (jobs.run == nullptr && jobs.count > 0) {
+        refuse_setting(count + ", and run is null");
+    }
+    if (jobs.run != nullptr && (jobs.count < 1 || jobs.count > max_jobs)) {
+        refuse_setting(count + "; it must be at least 1 and at most " + std::to_string(max_jobs));
+    }
+}
+
+}  // namespace
+
+HostDevice read_versioned(const HostDevice& given) {
+    return read_versioned(given, "HostDevice",
+                          {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
+                           offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
+                           offsetof(HostDevice, log)});
+}
+
+HeadlessOptions read_versioned(const HeadlessOptions& given) {
+    return read_versioned(given, "HeadlessOptions",
+                          {offsetof(HeadlessOptions, device_name), offsetof(HeadlessOptions, log)});
+}
+
+Submission read_versioned(const Submission& given) {
+    return read_versioned(given, "Submission",
+                          {offsetof(Submission, waits), offsetof(Submission, signals)});
+}
+
+Recording read_versioned(const Recording& given) {
+    return read_versioned(given, "Recording",
+                          {offsetof(Recording, commands), offsetof(Recording, frame)});
+}
+
+Settings read_versioned(const Settings& given) {
+    const Settings settings = read_versioned(
+        given, "Settings",
+        {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
+         offsetof(Settings, costs), offsetof(Settings, jobs), offsetof(Settings, techniques)});
+    if (settings.batches_in_flight < 1 || settings.batches_in_flight > max_batches_in_flight) {
+        refuse_setting("frames_in_flight is " + std::to_string(settings.batches_in_flight) +
+                       "; it must be at least 1 and at most " +
+                       std::to_string(max_batches_in_flight));
+    }
+    if (settings.bounding_volume != BoundingVolume::axis_aligned &&
+        settings.bounding_volume != BoundingVolume::oriented) {
+        refuse_setting("Settings::bounding_volume is no enumerator: " +
+                       std::to_string(static_cast<int>(settings.bounding_volume)));
+    }
+    if (settings.costs) {
+        check_cost(settings.costs->raster, "raster");
+        check_cost(settings.costs->compute, "compute");
+        check_cost(settings.costs->cpu, "cpu");
+    }
+    check_jobs(settings.jobs);
+    return settings;
+}
+
+}  // namespace nearfield

@@ -1,0 +1,85 @@
+#include <engine/cpu/near_samples.hpp>
+#include <engine/plan/edge_sampler.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::cpu {
+
+using geometry::Vector;
+using simd::Extent;
+using simd::ParameterInterval;
+using simd::TransformedEdges;
+
+std::span<const std::uint32_t> NearSamples::find_edges() {
+    const simd::Extent box = geometry::extent_of(near_b_);
+    if (edges_.size() < simd::padded(a_->count)) {
+        edges_.resize(simd::padded(a_->count));
+    }
+    const std::uint32_t count =
+        is_small(*a_)
+            ? simd::kernels::find_edges_in(*a_, box, edges_.data())
+            : simd::kernels::find_edges_near(a_->tree(), box, b_->tree(), reach_, edges_.data());
+    return {edges_.data(), count};
+}
+
+std::span<const simd::ParameterInterval> NearSamples::find_intervals(std::uint32_t edge) {
+    const std::uint32_t count =
+        is_small(*b_)
+            ? simd::kernels::find_intervals_near(*a_, edge, picked_.edges(), reach_,
+                                                 intervals_.data())
+            : simd::kernels::find_intervals_near(*a_, edge, *tree_, reach_, intervals_.data());
+    if (count > 1) {
+        std::sort(intervals_.begin(), intervals_.begin() + count,
+                  [](const simd::ParameterInterval& i, const simd::ParameterInterval& j) {
+                      return i.from < j.from;
+                  });
+    }
+    return {intervals_.data(), count};
+}
+
+void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                       double distance, double spacing) {
+    a_ = &a;
+    b_ = &b;
+    // Several times the rounding of the transformed vertices: measured distances are rounded too.
+    reach_ = distance + 8.0 * (a.rounding + b.rounding);
+    near_b_ = geometry::grown(b.box, reach_);
+    points_.clear();
+    places_.clear();
+    if (is_small(b)) {
+        picked_.pick(b, geometry::extent_of(geometry::grown(a.box, reach_)));
+        if (picked_.empty()) {
+            return;
+        }
+    } else {
+        tree_.emplace(b.tree());
+    }
+    plan::EdgeSampler sampler(a.placed.polygon(), spacing);
+    for (const std::uint32_t edge : find_edges()) {
+        const double parts = sampler.parts_of(edge);
+        if (parts > 0.0) {
+            add(edge, parts);
+        }
+    }
+}
+
+void NearSamples::add(std::uint32_t edge, double parts) {
+    // If there are many intervals, one may cover all of a long edge.
+    const plan::PartRange near = plan::parts_roughly_within(a_->placed, edge, parts, near_b_);
+    auto part = static_cast<std::uint32_t>(near.first);
+    for (const simd::ParameterInterval& interval : find_intervals(edge)) {
+        part = std::max(part, static_cast<std::uint32_t>(interval.from * parts));
+        const auto end =
+            static_cast<std::uint32_t>(std::min(std::floor(interval.to * parts) + 1.0, near.end));
+        points_.reserve(points_.size() + (end - std::min(part, end)));
+        for (; part < end; ++part) {
+            const double parameter = part / parts;
+            const Vector point = a_->at(edge, parameter);
+            points_.push(point.x(), point.y());
+            places_.push_back({edge, parameter});
+        }
+    }
+}
+
+}  // namespace nearfield::cpu

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <engine/plan/boundary_points.hpp>
+#include <engine/simd/edge_subset.hpp>
+#include <engine/simd/parameter_intervals.hpp>
+#include <engine/simd/point_list.hpp>
+#include <engine/simd/transformed_edges.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace nearfield::cpu {
+
+/// Finds the samples of a polygon's boundary that are close to the boundary of another polygon:
+/// first the close intervals of its edges, then the samples within them. Reuses its memory between
+/// pairs.
+class NearSamples {
+public:
+    /// Finds all samples at most `distance` from B's boundary, and hardly any others, in order
+    /// along A's rings; consecutive samples of a boundary are at most `spacing` apart (see
+    /// plan::sample_chains). Precondition: unless both polygons are small, both are complete.
+    void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double distance,
+              double spacing);
+
+    [[nodiscard]] const simd::PointList& points() const { return points_; }
+    /// The position of sample i on A's boundary.
+    [[nodiscard]] const plan::BoundaryPoint& place(std::size_t i) const { return places_[i]; }
+
+private:
+    /// The edges of A that may come close to B.
+    [[nodiscard]] std::span<const std::uint32_t> find_edges();
+    [[nodiscard]] std::span<const simd::ParameterInterval> find_intervals(std::uint32_t edge);
+    void add(std::uint32_t edge, double parts);
+
+    const simd::TransformedEdges* a_ = nullptr;
+    const simd::TransformedEdges* b_ = nullptr;
+    double reach_ = 0.0;
+    geometry::Box near_b_;                // contains all points within reach_ of B
+    simd::EdgeSubset picked_;             // of a small B
+    std::optional<simd::AabbTree> tree_;  // of a B that is not small
+    std::vector<std::uint32_t> edges_;    // of A
+    std::array<simd::ParameterInterval, simd::max_intervals> intervals_;
+    simd::PointList points_;
+    std::vector<plan::BoundaryPoint> places_;
+};
+
+}  // namespace nearfield::cpu

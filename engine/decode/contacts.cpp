@@ -1,0 +1,53 @@
+#include <engine/decode/contacts.hpp>
+#include <engine/localize/hierarchy.hpp>
+
+namespace nearfield::decode {
+namespace {
+
+using plan::PlannedQuery;
+
+/// Calls `use(planned point, resolved point)` for each point of a query within a given distance of
+/// B.
+template <class Use>
+void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
+                   std::span<const std::uint32_t> words, double distance,
+                   records::PointResolver& resolver, const Use& use) {
+    resolver.begin(plan, query);
+    for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+        if ((words[i] & plan::point_resolved) != 0) {
+            const records::ResolvedPoint resolved = resolver.resolve(plan.points[i], words[i]);
+            if (resolved.distance <= distance) {
+                use(plan.points[i], resolved);
+            }
+        }
+    }
+}
+
+}  // namespace
+
+void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
+                          std::span<const std::uint32_t> words, double cell,
+                          records::FoundContacts& found) {
+    const PlannedQuery& reverse = plan.queries[query.reverse];
+    if (query.point_count == 0 && reverse.point_count == 0) {
+        found.begin(cell, 0.0);
+        return;
+    }
+    const geometry::TransformedPolygon a(*query.a, query.pose_a);
+    const geometry::TransformedPolygon b(*query.b, query.pose_b);
+    found.begin(
+        cell, localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box()));
+    const double near = std::get<ContactQuery>(*query.query).contact_distance;
+    for_each_near(plan, query, words, near, a_in_b_,
+                  [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
+                      found.add_of_a(planned.point, resolved, [this]() -> narrowphase::Boundary& {
+                          return a_in_b_.boundary_of_b();
+                      });
+                  });
+    for_each_near(plan, reverse, words, near, b_in_a_,
+                  [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
+                      found.add_of_b(planned.point, resolved, a_in_b_.boundary_of_b());
+                  });
+}
+
+}  // namespace nearfield::decode

@@ -1,0 +1,331 @@
+#include <engine/grid/near_edges.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+// Compiled once per instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/grid/near_edges.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::grid::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A block has 64 cells: no vector is longer.
+using Floats = hn::CappedTag<float, 16>;
+using Words = hn::RebindToUnsigned<Floats>;
+using Vector = hn::Vec<Floats>;
+
+constexpr std::size_t cells = std::size_t{block_side} * block_side;
+
+/// The vector to a point from the nearest point of an edge.
+struct Away {
+    Vector x;
+    Vector y;
+
+    [[nodiscard]] HWY_INLINE Vector squared() const { return hn::MulAdd(x, x, hn::Mul(y, y)); }
+};
+
+HWY_INLINE Away away_from(Vector to_x, Vector to_y, Vector along_x, Vector along_y,
+                          Vector inverse_x, Vector inverse_y) {
+    const Floats d;
+    Vector parameter = hn::MulAdd(to_x, inverse_x, hn::Mul(to_y, inverse_y));
+    parameter = hn::Min(hn::Max(parameter, hn::Zero(d)), hn::Set(d, 1.0F));
+    return {hn::NegMulAdd(parameter, along_x, to_x), hn::NegMulAdd(parameter, along_y, to_y)};
+}
+
+/// From one edge to several points.
+HWY_INLINE Away away_from_edge(const EdgeList& edges, std::size_t i, Vector x, Vector y) {
+    const Floats d;
+    const auto number = [&](std::size_t which) { return hn::Set(d, edges.number(which)[i]); };
+    return away_from(hn::Sub(x, number(EdgeList::start_x)), hn::Sub(y, number(EdgeList::start_y)),
+                     number(EdgeList::along_x), number(EdgeList::along_y),
+                     number(EdgeList::inverse_x), number(EdgeList::inverse_y));
+}
+
+/// Writes the squared distance of every edge from a point and returns the least.
+float squared_distances(const EdgeList& edges, float x, float y, float* squared) {
+    const Floats d;
+    const Vector infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    Vector least = infinity;
+    for (std::size_t i = 0; i < edges.size(); i += hn::Lanes(d)) {
+        const auto number = [&](std::size_t which) {
+            return hn::LoadU(d, edges.number(which) + i);
+        };
+        Vector distance = away_from(hn::Sub(hn::Set(d, x), number(EdgeList::start_x)),
+                                    hn::Sub(hn::Set(d, y), number(EdgeList::start_y)),
+                                    number(EdgeList::along_x), number(EdgeList::along_y),
+                                    number(EdgeList::inverse_x), number(EdgeList::inverse_y))
+                              .squared();
+        // Lanes beyond the last edge are arbitrary.
+        distance = hn::IfThenElse(hn::FirstN(d, edges.size() - i), distance, infinity);
+        hn::StoreU(distance, d, squared + i);
+        least = hn::Min(least, distance);
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+}
+
+float select_near(const EdgeList& from, const Disc& disc, float slack, float* squared,
+                  EdgeList& to) {
+    const Floats d;
+    const Words words;
+    const float least = std::sqrt(squared_distances(from, disc.x, disc.y, squared));
+    // The edge nearest to the centre is at most one radius farther from any point of the disc; an
+    // edge nearer than that to some point is at most one more radius farther from the centre.
+    const float reach = least + 2.0F * disc.radius + slack + least * 0x1p-17F;
+    const Vector limit = hn::Set(d, reach * reach);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < from.size(); i += hn::Lanes(d)) {
+        const auto near = hn::Le(hn::LoadU(d, squared + i), limit);
+        if (hn::AllFalse(d, near)) {
+            continue;
+        }
+        // Compress in registers: compressing into memory takes many times as long on some
+        // processors.
+        for (std::size_t number = 0; number < EdgeList::numbers; ++number) {
+            hn::StoreU(hn::Compress(hn::LoadU(d, from.number(number) + i), near), d,
+                       to.number(number) + count);
+        }
+        hn::StoreU(hn::Compress(hn::LoadU(words, from.indices() + i), hn::RebindMask(words, near)),
+                   words, to.indices() + count);
+        count += hn::CountTrue(d, near);
+    }
+    to.resize(count);
+    return least;
+}
+
+/// The columns and rows of a block's cells, row by row.
+struct Offsets {
+    alignas(64) std::array<float, cells> x{};
+    alignas(64) std::array<float, cells> y{};
+
+    constexpr Offsets() {
+        for (std::size_t i = 0; i < cells; ++i) {
+            x[i] = static_cast<float>(i % block_side);
+            const std::size_t row = i / block_side;
+            y[i] = static_cast<float>(row);
+        }
+    }
+};
+constexpr Offsets offsets;
+
+/// Writes the squared distance of each cell of a block from the nearest edge. Four vectors of cells
+/// go through the edges together, to hide latency.
+void min_squared(const EdgeList& edges, const Block& block, float* squared) {
+    const Floats d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto x_of = [&](std::size_t i) {
+        return hn::Add(hn::Set(d, block.x), hn::LoadU(d, offsets.x.data() + i));
+    };
+    const auto y_of = [&](std::size_t i) {
+        return hn::Add(hn::Set(d, block.y), hn::LoadU(d, offsets.y.data() + i));
+    };
+    for (std::size_t first = 0; first < cells; first += 4 * lanes) {
+        const Vector x0 = x_of(first);
+        const Vector x1 = x_of(first + lanes);
+        const Vector x2 = x_of(first + 2 * lanes);
+        const Vector x3 = x_of(first + 3 * lanes);
+        const Vector y0 = y_of(first);
+        const Vector y1 = y_of(first + lanes);
+        const Vector y2 = y_of(first + 2 * lanes);
+        const Vector y3 = y_of(first + 3 * lanes);
+        Vector least0 = hn::Set(d, std::numeric_limits<float>::infinity());
+        Vector least1 = least0;
+        Vector least2 = least0;
+        Vector least3 = least0;
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            least0 = hn::Min(least0, away_from_edge(edges, i, x0, y0).squared());
+            least1 = hn::Min(least1, away_from_edge(edges, i, x1, y1).squared());
+            least2 = hn::Min(least2, away_from_edge(edges, i, x2, y2).squared());
+            least3 = hn::Min(least3, away_from_edge(edges, i, x3, y3).squared());
+        }
+        hn::StoreU(least0, d, squared + first);
+        hn::StoreU(least1, d, squared + first + lanes);
+        hn::StoreU(least2, d, squared + first + 2 * lanes);
+        hn::StoreU(least3, d, squared + first + 3 * lanes);
+    }
+}
+
+/// Consecutive edges in a list are usually near each other; a run has this many.
+constexpr std::size_t edges_of_run = 8;
+
+void find_runs(const EdgeList& edges, geometry::FloatArrays<3>& runs) {
+    const hn::CappedTag<float, edges_of_run> d;
+    runs.clear();
+    for (std::size_t first = 0; first < edges.size(); first += edges_of_run) {
+        const std::size_t end = std::min(first + edges_of_run, edges.size());
+        const std::size_t middle = first + (end - first) / 2;
+        const float x = edges.number(EdgeList::start_x)[middle];
+        const float y = edges.number(EdgeList::start_y)[middle];
+        auto farthest = hn::Zero(d);
+        for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+            const auto number = [&](std::size_t which) {
+                return hn::LoadU(d, edges.number(which) + i);
+            };
+            const auto start_x = hn::Sub(number(EdgeList::start_x), hn::Set(d, x));
+            const auto start_y = hn::Sub(number(EdgeList::start_y), hn::Set(d, y));
+            const auto end_x = hn::Add(start_x, number(EdgeList::along_x));
+            const auto end_y = hn::Add(start_y, number(EdgeList::along_y));
+            const auto farther = hn::Max(hn::MulAdd(start_x, start_x, hn::Mul(start_y, start_y)),
+                                         hn::MulAdd(end_x, end_x, hn::Mul(end_y, end_y)));
+            farthest = hn::Max(farthest, hn::IfThenElseZero(hn::FirstN(d, end - i), farther));
+        }
+        runs.push({x, y, std::sqrt(hn::GetLane(hn::MaxOfLanes(d, farthest)))}, 0);
+    }
+}
+
+/// Copies into `near` the edges of the runs that can contain the edge nearest to some of the
+/// points, or one as near up to `margin` and single-precision rounding.
+void select_runs(const EdgeList& edges, const geometry::FloatArrays<3>& runs, Vector x, Vector y,
+                 float margin, EdgeList& near) {
+    const Floats d;
+    const auto squared_to = [&](std::size_t run) {
+        const Vector off_x = hn::Sub(x, hn::Set(d, runs.number(0)[run]));
+        const Vector off_y = hn::Sub(y, hn::Set(d, runs.number(1)[run]));
+        return hn::MulAdd(off_x, off_x, hn::Mul(off_y, off_y));
+    };
+    Vector least = squared_to(0);
+    for (std::size_t run = 1; run < runs.size(); ++run) {
+        least = hn::Min(least, squared_to(run));
+    }
+    // The vertex is no nearer than the nearest edge. Slightly increased for rounding.
+    const Vector distance = hn::Sqrt(least);
+    const Vector reach =
+        hn::Add(hn::MulAdd(distance, hn::Set(d, 0x1p-16F), distance), hn::Set(d, margin + 0.01F));
+    near.clear();
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+        const Vector limit = hn::Add(reach, hn::Set(d, runs.number(2)[run]));
+        if (!hn::AllFalse(d, hn::Le(squared_to(run), hn::Mul(limit, limit)))) {
+            const std::size_t first = edges_of_run * run;
+            near.append(edges, first, std::min(first + edges_of_run, edges.size()));
+        }
+    }
+}
+
+/// Also finds the edge nearest to each cell, flagged as unique if no other is as near.
+void find_nearest(const EdgeList& all, const Block& block, BlockScratch& scratch, float* squared,
+                  std::uint32_t* nearest) {
+    // From this many edges on it pays to select those that matter to a vector of cells.
+    constexpr std::size_t many_edges = 64;
+    const Floats d;
+    const Words words;
+    bool pick = all.size() >= many_edges;
+    if (pick) {
+        find_runs(all, scratch.runs);
+    }
+    for (std::size_t first = 0; first < cells; first += hn::Lanes(d)) {
+        const Vector x = hn::Add(hn::Set(d, block.x), hn::LoadU(d, offsets.x.data() + first));
+        const Vector y = hn::Add(hn::Set(d, block.y), hn::LoadU(d, offsets.y.data() + first));
+        if (pick) {
+            select_runs(all, scratch.runs, x, y, block.margin, scratch.near);
+            // Runs of spikes are long: if most of them matter, selecting costs more than it saves.
+            pick = scratch.near.size() < all.size() / 2;
+        }
+        const EdgeList& edges = pick ? scratch.near : all;
+        Vector least = hn::Set(d, std::numeric_limits<float>::infinity());
+        Away best{hn::Zero(d), hn::Zero(d)};
+        auto edge = hn::Zero(words);
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Away away = away_from_edge(edges, i, x, y);
+            const Vector distance = away.squared();
+            const auto nearer = hn::Lt(distance, least);
+            least = hn::Min(least, distance);
+            best.x = hn::IfThenElse(nearer, away.x, best.x);
+            best.y = hn::IfThenElse(nearer, away.y, best.y);
+            edge = hn::IfThenElse(hn::RebindMask(words, nearer), hn::Set(words, edges.indices()[i]),
+                                  edge);
+        }
+        // A second point as near up to the margin is a rival if it lies farther from the first than
+        // one straight wall explains (PenetrationRecord::unique); far from the boundary the margin
+        // is the resolution of single precision.
+        const Vector distance = hn::Sqrt(least);
+        const Vector margin =
+            hn::Max(hn::Set(d, block.margin), hn::Mul(distance, hn::Set(d, 0x1p-18F)));
+        const Vector limit = hn::Add(distance, margin);
+        const Vector along_wall = hn::Mul(margin, hn::Add(limit, distance));
+        const Vector max_apart = hn::Mul(hn::Set(d, 4.0F), along_wall);
+        const Vector squared_limit = hn::Mul(limit, limit);
+        auto rival = hn::Lt(least, hn::Zero(d));  // none
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            const Away away = away_from_edge(edges, i, x, y);
+            const Away apart{hn::Sub(away.x, best.x), hn::Sub(away.y, best.y)};
+            rival = hn::Or(rival, hn::And(hn::Le(away.squared(), squared_limit),
+                                          hn::Gt(apart.squared(), max_apart)));
+        }
+        const auto flag =
+            hn::IfThenZeroElse(hn::RebindMask(words, rival), hn::Set(words, nearest_unique));
+        hn::StoreU(least, d, squared + first);
+        hn::StoreU(hn::Or(edge, flag), words, nearest + first);
+    }
+}
+
+float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch) {
+    alignas(64) std::array<float, cells> squared;
+    alignas(64) std::array<std::uint32_t, cells> nearest;
+    if (block.nearest == nullptr) {
+        min_squared(edges, block, squared.data());
+    } else {
+        find_nearest(edges, block, scratch, squared.data(), nearest.data());
+        for (std::size_t row = 0; row < block.rows; ++row) {
+            for (std::size_t column = 0; column < block.columns; ++column) {
+                const std::size_t cell = row * block_side + column;
+                const bool inside = (block.inside >> cell & 1U) != 0;
+                block.nearest[row * block.stride + column] =
+                    nearest[cell] | (inside ? nearest_inside : 0U);
+            }
+        }
+    }
+    if (block.distances == nullptr) {
+        return 0.0F;
+    }
+    const Floats d;
+    const Vector scale = hn::Set(d, block.scale);
+    for (std::size_t i = 0; i < cells; i += hn::Lanes(d)) {
+        hn::StoreU(hn::Mul(hn::Sqrt(hn::LoadU(d, squared.data() + i)), scale), d,
+                   squared.data() + i);
+    }
+    float largest = 0.0F;
+    for (std::size_t row = 0; row < block.rows; ++row) {
+        for (std::size_t column = 0; column < block.columns; ++column) {
+            const std::size_t cell = row * block_side + column;
+            const float distance = squared[cell];
+            const bool inside = (block.inside >> cell & 1U) != 0;
+            largest = std::max(largest, distance);
+            block.distances[row * block.stride + column] = inside ? -distance : distance;
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+}  // namespace nearfield::grid::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::grid {
+
+HWY_EXPORT(select_near);
+HWY_EXPORT(solve_block);
+
+float select_near(const EdgeList& from, const Disc& disc, float slack, std::vector<float>& squared,
+                  EdgeList& to) {
+    to.clear();
+    to.reserve(from.size());
+    if (squared.size() < from.capacity()) {
+        squared.resize(from.capacity());
+    }
+    return HWY_DYNAMIC_DISPATCH(select_near)(from, disc, slack, squared.data(), to);
+}
+
+float solve_block(const EdgeList& edges, const Block& block, BlockScratch& scratch) {
+    return HWY_DYNAMIC_DISPATCH(solve_block)(edges, block, scratch);
+}
+
+}  // namespace nearfield::grid
+#endif

@@ -1,0 +1,266 @@
+#include <engine/mtv/separating_translation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace nearfield::mtv {
+
+using geometry::Vector;
+
+namespace {
+
+// Evenly spaced directions tried for any shapes, as long as they take at most a quarter of the
+// work.
+constexpr int even_directions = 8;
+constexpr std::uint64_t part_of_directions = 4;
+
+// Maximum number of slides of the best translation along a wall, from corner to corner.
+constexpr int max_slides = 16;
+
+// A relative gain below this does not count as shorter.
+constexpr double min_gain = 1e-6;
+
+// A translation is lengthened until the shapes test as separate, by a factor of four each time and
+// by at most this much in total: along edges that barely separate, rounding exceeds that of a
+// vertex.
+constexpr double longer_each_time = 4.0;
+constexpr int trials_of_clearance = 10;
+constexpr double max_clearances = 262144.0;  // in the last trial
+
+// Transforming an edge, inserting it into a tree and testing it costs about as much as comparing it
+// with this many others.
+constexpr std::uint64_t work_of_test = 8;
+
+Vector along(const simd::TransformedEdges& edges, std::uint32_t edge) {
+    return edges.end(edge) - edges.start(edge);
+}
+
+}  // namespace
+
+const simd::TransformedEdges& SeparatingTranslationFinder::move_a(const Vector& shift) {
+    Pose pose = pose_a_;
+    pose.translation.x += shift.x();
+    pose.translation.y += shift.y();
+    moved_.clear();
+    const std::uint32_t index = moved_.place(a_->placed.polygon(), pose);
+    moved_.complete(index);
+    return moved_[index];
+}
+
+bool SeparatingTranslationFinder::separates(const Vector& shift) {
+    work_.add(work_of_test * (a_->count + b_->count));
+    return !overlap_test_.intersect(move_a(shift), *b_);
+}
+
+bool SeparatingTranslationFinder::accept(const Vector& shift) {
+    const double length = shift.norm();
+    if (!(length < length_) || !separates(shift)) {
+        return false;
+    }
+    best_ = shift;
+    length_ = length;
+    return true;
+}
+
+bool SeparatingTranslationFinder::try_gap(const TranslationGap& gap, const Vector& direction,
+                                          double longest) {
+    const double most = max_clearances * clearance_;
+    // Shapes whose boundaries do not intersect are separate or one contains the other, throughout
+    // the gap.
+    const double within = std::min(gap.from + most, 0.5 * (gap.from + gap.to));
+    if (within < longest && !separates(within * direction)) {
+        return false;
+    }
+    double clearance = clearance_;
+    for (int trial = 0; trial < trials_of_clearance; ++trial) {
+        const double way = gap.from + clearance;
+        if (way >= std::min(longest, gap.to)) {
+            return false;
+        }
+        if (accept(way * direction)) {
+            return true;
+        }
+        clearance *= longer_each_time;
+    }
+    return false;
+}
+
+bool SeparatingTranslationFinder::try_direction(const Vector& direction, simd::EdgePair& wall) {
+    const double longest = (1.0 - min_gain) * length_;
+    const std::vector<TranslationGap>& gaps = shifts_.find(*a_, *b_, direction, longest, work_);
+    const auto shorter =
+        std::find_if(gaps.begin(), gaps.end(), [&](const TranslationGap& candidate) {
+            return !work_.is_used_up() && try_gap(candidate, direction, longest);
+        });
+    if (shorter == gaps.end()) {
+        return false;
+    }
+    wall = shorter->begins_at;
+    return true;
+}
+
+void SeparatingTranslationFinder::go_past_box() {
+    const geometry::Box& a = a_->box;
+    const geometry::Box& b = b_->box;
+    const double ways[] = {b.max().x() - a.min().x(), a.max().x() - b.min().x(),
+                           b.max().y() - a.min().y(), a.max().y() - b.min().y()};
+    const Vector directions[] = {Vector::UnitX(), -Vector::UnitX(), Vector::UnitY(),
+                                 -Vector::UnitY()};
+    const auto shortest = std::min_element(std::begin(ways), std::end(ways)) - std::begin(ways);
+    double clearance = clearance_;
+    do {
+        best_ = (ways[shortest] + clearance) * directions[shortest];
+        clearance *= longer_each_time;
+    } while (!separates(best_));
+    length_ = best_.norm();
+}
+
+void SeparatingTranslationFinder::descend(const Vector& direction) {
+    simd::EdgePair wall;
+    bool shorter = try_direction(direction, wall);
+    if (!shorter) {
+        return;
+    }
+    while (shorter && !work_.is_used_up()) {
+        const Vector edges[] = {along(*a_, wall.first), along(*b_, wall.second)};
+        shorter = false;
+        for (const Vector& edge : edges) {
+            const double length = edge.norm();
+            const Vector normal(-edge.y(), edge.x());
+            const double side = normal.dot(best_) < 0.0 ? -1.0 : 1.0;
+            shorter = (length > 0.0 && try_direction(side / length * normal, wall)) || shorter;
+        }
+    }
+    slide_into_corner(wall);
+}
+
+bool SeparatingTranslationFinder::slide(const Vector& along, simd::EdgePair& wall) {
+    const double length = along.norm();
+    if (!(length > 0.0)) {
+        return false;
+    }
+    const Vector direction = (along.dot(best_) > 0.0 ? -1.0 : 1.0) / length * along;
+    const double most = -direction.dot(best_);
+    if (most <= min_gain * length_) {
+        return false;
+    }
+    const TranslationGap gap = shifts_.find_first(move_a(best_), *b_, direction, most, work_);
+    if (gap.from > 0.0) {
+        return false;
+    }
+    const Vector from = best_;
+    double clearance = clearance_;
+    for (int trial = 0; trial < trials_of_clearance; ++trial) {
+        const double way = std::min(most, gap.to - clearance);
+        if (way <= 0.0) {
+            return false;
+        }
+        if (accept(from + way * direction)) {
+            wall = gap.ends_at;
+            return gap.to < most;
+        }
+        clearance *= longer_each_time;
+    }
+    return false;
+}
+
+void SeparatingTranslationFinder::slide_into_corner(simd::EdgePair wall) {
+    for (int i = 0; i < max_slides && !work_.is_used_up(); ++i) {
+        const simd::EdgePair from = wall;
+        if (!slide(along(*a_, from.first), wall) && !slide(along(*b_, from.second), wall)) {
+            return;
+        }
+    }
+}
+
+void SeparatingTranslationFinder::look_around() {
+    const std::uint64_t enough = work_.left() - work_.left() / part_of_directions;
+    for (int i = 0; i < even_directions && work_.left() > enough; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / even_directions;
+        descend({std::cos(angle), std::sin(angle)});
+    }
+}
+
+void SeparatingTranslationFinder::go_to_nearest(const ConvexPiece& piece) {
+    const Vector nearest = piece.nearest();
+    const Vector inwards = piece.middle() - nearest;
+    double part = clearance_ / inwards.norm();
+    for (int trial = 0; trial < trials_of_clearance && part < 1.0; ++trial) {
+        if (accept(nearest + part * inwards)) {
+            return;
+        }
+        part *= longer_each_time;
+    }
+    static_cast<void>(accept(piece.middle()));
+}
+
+double SeparatingTranslationFinder::nearest_open() {
+    double open = length_;
+    for (const ConvexPiece& piece : cover_.pieces()) {
+        const double nearest = piece.nearest().norm();
+        if (nearest >= open) {
+            continue;
+        }
+        if (work_.is_used_up()) {
+            open = nearest;  // it may separate the shapes
+        } else if (separates(piece.middle())) {
+            go_to_nearest(piece);
+            open = nearest;
+        }
+    }
+    return open;
+}
+
+double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
+    if (work_.is_used_up()) {
+        return 0.0;
+    }
+    cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, work_);
+    double open = length_;  // length of the shortest that may separate the shapes, so far
+    while (!cover_.is_empty()) {
+        const TranslationCell square = cover_.take_nearest();
+        if (square.nearest >= std::min(open, length_ - tolerance) || work_.is_used_up()) {
+            return std::min({square.nearest, open, length_});
+        }
+        const CellState word = cover_.ask(square);
+        if (word == CellState::meet) {
+            continue;
+        }
+        if (word == CellState::alike) {
+            open = std::min(open, nearest_open());
+            continue;
+        }
+        if (word == CellState::nothing && accept(cover_.rest().middle())) {
+            descend(best_.normalized());
+        }
+        cover_.cut(square);
+    }
+    return std::min(open, length_);
+}
+
+SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedEdges& a,
+                                                        const simd::TransformedEdges& b,
+                                                        const Pose& pose_a,
+                                                        const SeparatingTranslationLimits& limits) {
+    a_ = &a;
+    b_ = &b;
+    pose_a_ = pose_a;
+    clearance_ = 4.0 * (a.rounding + b.rounding);
+    best_ = Vector::Zero();
+    work_ = WorkBudget(limits.max_work);
+    SeparatingTranslation way;
+    way.intersect = overlap_test_.intersect(a, b);
+    if (!way.intersect) {
+        return way;
+    }
+    go_past_box();
+    look_around();
+    way.lower_bound = find_lower_bound(limits.tolerance);
+    way.vector = best_;
+    way.work = work_.used();
+    return way;
+}
+
+}  // namespace nearfield::mtv

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <engine/mtv/work_budget.hpp>
+#include <engine/simd/transformed_edges.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace nearfield::mtv {
+
+/// An interval of translation lengths along a direction for which two boundaries do not intersect.
+struct TranslationGap {
+    double from = 0.0;
+    double to = std::numeric_limits<double>::infinity();
+    simd::EdgePair begins_at;  ///< the edges that separate there; unset for a gap that begins at 0
+    simd::EdgePair ends_at;    ///< the edges that touch there; unset for an unbounded gap
+};
+
+/// Finds where A's boundary intersects B's as A moves along a direction: an edge of A intersects an
+/// edge of B over one interval of lengths, and the gaps lie between these intervals. Reuses its
+/// memory between pairs.
+class TranslationFinder {
+public:
+    /// Returns the gaps from 0 up to `most`, in ascending order, up to rounding; none if that would
+    /// exceed the work budget. `direction` is a unit vector.
+    [[nodiscard]] const std::vector<TranslationGap>& find(const simd::TransformedEdges& a,
+                                                          const simd::TransformedEdges& b,
+                                                          const geometry::Vector& direction,
+                                                          double most, WorkBudget& work);
+
+    /// Returns the first gap, or one that begins beyond `most` if there is none.
+    [[nodiscard]] TranslationGap find_first(const simd::TransformedEdges& a,
+                                            const simd::TransformedEdges& b,
+                                            const geometry::Vector& direction, double most,
+                                            WorkBudget& work);
+
+private:
+    /// An edge in coordinates along and across the direction, from the end that is lower across it.
+    struct Level {
+        double low = 0.0;
+        double high = 0.0;
+        double along_low = 0.0;
+        double along_high = 0.0;
+        std::uint32_t edge = 0;
+    };
+    struct Interval {
+        double from = 0.0;
+        double to = 0.0;
+        simd::EdgePair edges;
+    };
+
+    static void project(const simd::TransformedEdges& edges, const geometry::Vector& direction,
+                        std::vector<Level>& levels);
+    /// Returns false if the work budget is too small.
+    [[nodiscard]] bool add_intervals(double most, double rounding, WorkBudget& work);
+
+    std::vector<Level> of_a_;
+    std::vector<Level> of_b_;
+    std::vector<Interval> intervals_;
+    std::vector<TranslationGap> gaps_;
+};
+
+}  // namespace nearfield::mtv

@@ -1,0 +1,90 @@
+#include <engine/narrowphase/boundary.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::narrowphase {
+
+using geometry::Vector;
+
+void Boundary::set(const simd::TransformedEdges& edges) {
+    edges_ = &edges;
+    tree_.emplace(edges.tree());
+    if (near_.size() < simd::padded(edges.count)) {
+        near_.resize(simd::padded(edges.count));
+    }
+}
+
+void Boundary::set(const geometry::TransformedPolygon& polygon) {
+    own_.clear();
+    const std::uint32_t index = own_.place(polygon);
+    own_.complete(index);
+    set(own_[index]);
+}
+
+NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) const {
+    const simd::NearEdge guess{first_guess, nearest_on(first_guess, point).squared_distance};
+    const std::uint32_t edge = simd::kernels::find_nearer(*tree_, point.x(), point.y(), guess).edge;
+    return {edge, nearest_on(edge, point)};
+}
+
+std::uint32_t Boundary::keep_inside(std::uint32_t count, const simd::FoundPoints& points) const {
+    // If no edge's box intersects the box of these points, they all lie on one side. The previous
+    // point, added to the box, determines which.
+    constexpr std::uint32_t together = 8;
+    std::uint32_t kept = 0;
+    bool inside = false;
+    Vector last;
+    for (std::uint32_t first = 0; first < count; first += together) {
+        const std::uint32_t end = std::min(first + together, count);
+        geometry::Box box;
+        for (std::uint32_t i = first; i < end; ++i) {
+            box.extend(Vector(points.x[i], points.y[i]));
+        }
+        bool on_one_side = false;
+        if (first > 0) {
+            box.extend(last);
+            on_one_side = !simd::kernels::meets(*tree_, geometry::extent_of(box));
+        }
+        for (std::uint32_t i = first; i < end; ++i) {
+            last = {points.x[i], points.y[i]};
+            inside = on_one_side ? inside : contains(last);
+            points.x[kept] = last.x();
+            points.y[kept] = last.y();
+            kept += inside ? 1 : 0;
+        }
+    }
+    return kept;
+}
+
+bool Boundary::is_unique(const Vector& point, const NearestPoint& nearest, double margin) {
+    const double limit = std::sqrt(nearest.on_edge.squared_distance) + margin;
+    // Skips edges that are clearly farther away.
+    const std::uint32_t count = simd::kernels::find_edges_within(
+        *tree_, point.x(), point.y(), simd::beyond_rounding(limit), near_.data());
+    if (count <= 1) {
+        return true;  // only the nearest
+    }
+    return std::none_of(near_.begin(), near_.begin() + count, [&](std::uint32_t edge) {
+        return is_rival(nearest_on(edge, point), nearest.on_edge, limit);
+    });
+}
+
+Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
+    const Vector start = edges_->start(edge);
+    const Vector direction = edges_->end(edge) - start;
+    const double length = direction.norm();
+    if (length == 0.0) {
+        return Vector::Zero();
+    }
+    const Vector left(-direction.y() / length, direction.x() / length);
+    // The ray leaves the edge across its longer extent; the side just off the edge decides.
+    const bool upwards = std::abs(direction.y()) < std::abs(direction.x());
+    const Vector point = start + parameter * direction;
+    const bool inside_ahead = simd::kernels::crossings_of_others_are_odd(
+        *tree_, {point.x(), point.y(), upwards}, {direction.x(), direction.y(), edges_->rounding});
+    const bool left_is_ahead = left[upwards ? 1 : 0] > 0.0;
+    return inside_ahead == left_is_ahead ? Vector(-left) : left;
+}
+
+}  // namespace nearfield::narrowphase

@@ -1,0 +1,143 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/narrowphase/closest_pair.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace nearfield::narrowphase {
+namespace {
+
+using geometry::NearestOnSegment;
+using geometry::Vector;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Maximum number of pairs kept: parallel walls have very many that are equally close up to a
+/// margin.
+constexpr std::size_t max_kept = 4096;
+
+/// The square of a length increased by `by`.
+double square_longer(double squared, double by) {
+    const double longer = std::sqrt(squared) + by;
+    return longer * longer;
+}
+
+}  // namespace
+
+double ClosestPairFinder::squared_bound() const {
+    // From a vertex near the other's box to the other boundary and back: this quickly gets close.
+    const simd::TransformedEdges* from = a_;
+    const simd::TransformedEdges* to = b_;
+    std::uint32_t vertex =
+        simd::kernels::find_point_nearest_to(a_->starts(), geometry::extent_of(b_->box));
+    double least = infinity;
+    for (int turn = 0; turn < 4; ++turn) {
+        const simd::NearEdge nearest = simd::kernels::find_nearer(
+            to->tree(), from->start_x[vertex], from->start_y[vertex], {0, infinity});
+        if (nearest.squared >= least) {
+            break;
+        }
+        least = nearest.squared;
+        vertex = nearest.edge;
+        std::swap(from, to);
+    }
+    return least;
+}
+
+ClosestPair ClosestPairFinder::find(const simd::TransformedEdges& a,
+                                    const simd::TransformedEdges& b, double at_most,
+                                    double margin) {
+    a_ = &a;
+    b_ = &b;
+    // Covers the rounding of the kernels and of transforming the vertices.
+    const double rounding = a.rounding + b.rounding;
+    double least = std::min(at_most * at_most, squared_bound());
+    least = keep_near(least, 2.0 * rounding + margin, max_kept);
+    keeps_all_ = near_.size() <= max_kept;
+    if (!keeps_all_) {
+        margin = 0.0;
+        least = keep_near(least, 2.0 * rounding, std::numeric_limits<std::size_t>::max());
+    }
+    const double loose = square_longer(least, 2.0 * rounding + margin);
+    std::erase_if(near_,
+                  [loose](const simd::VertexAndEdge& found) { return found.squared > loose; });
+    // The order in which pairs arrive depends on the vector width.
+    std::sort(near_.begin(), near_.end(),
+              [](const simd::VertexAndEdge& i, const simd::VertexAndEdge& j) {
+                  return std::tie(i.vertex_of_first, i.vertex, i.edge) <
+                         std::tie(j.vertex_of_first, j.vertex, j.edge);
+              });
+    // The closest of the candidates that the kernels cannot distinguish.
+    const double close = square_longer(least, rounding);
+    ClosestPair best;
+    for (const simd::VertexAndEdge& found : near_) {
+        if (found.squared <= close) {
+            const ClosestPair pair = pair_of(found);
+            if (pair.squared_distance < best.squared_distance) {
+                best = pair;
+            }
+        }
+    }
+    return best;
+}
+
+double ClosestPairFinder::keep_near(double most, double margin, std::size_t max_pairs) {
+    struct Kept {
+        std::vector<simd::VertexAndEdge>& near;
+        std::size_t most;
+    } kept{near_, max_pairs};
+    const auto keep = [](void* user, const simd::VertexAndEdge& found) {
+        Kept& to = *static_cast<Kept*>(user);
+        to.near.push_back(found);
+        return to.near.size() <= to.most;
+    };
+    near_.clear();
+    return simd::kernels::for_closest(a_->tree(), b_->tree(), most, margin, {keep, &kept});
+}
+
+ClosestPair ClosestPairFinder::pair_of(const simd::VertexAndEdge& found) const {
+    const simd::TransformedEdges& vertices = found.vertex_of_first ? *a_ : *b_;
+    const simd::TransformedEdges& edges = found.vertex_of_first ? *b_ : *a_;
+    const Vector vertex = vertices.start(found.vertex);
+    const NearestOnSegment nearest =
+        geometry::nearest_on_segment(vertex, edges.start(found.edge), edges.end(found.edge));
+    if (found.vertex_of_first) {
+        return {found.vertex,
+                found.edge,
+                vertex,
+                nearest.point,
+                0.0,
+                nearest.parameter,
+                nearest.squared_distance};
+    }
+    return {found.edge,        found.vertex, nearest.point,           vertex,
+            nearest.parameter, 0.0,          nearest.squared_distance};
+}
+
+bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double margin,
+                                  double apart) const {
+    const double limit = square_longer(closest.squared_distance, margin);
+    const double squared_apart = apart * apart;
+    // If more than one pair is closest, another one contains a vertex: the distance of two straight
+    // edges is least at an end of one of them, and if not only there, they are parallel.
+    auto is_rival = [&](const simd::VertexAndEdge& found) {
+        const ClosestPair other = pair_of(found);
+        const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
+                               (side == Side::either &&
+                                (other.point_b - closest.point_b).squaredNorm() > squared_apart);
+        return other.squared_distance <= limit && elsewhere;
+    };
+    if (keeps_all_) {
+        return std::none_of(near_.begin(), near_.end(), is_rival);
+    }
+    const auto go_on = [](void* user, const simd::VertexAndEdge& found) {
+        return !(*static_cast<decltype(is_rival)*>(user))(found);
+    };
+    return !simd::kernels::for_within(a_->tree(), b_->tree(),
+                                      square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
+                                      {go_on, &is_rival});
+}
+
+}  // namespace nearfield::narrowphase

@@ -1,0 +1,390 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/geometry/clip.hpp>
+#include <engine/geometry/fill_mesh.hpp>
+#include <engine/geometry/offset_mesh.hpp>
+#include <engine/plan/overlap_boundary.hpp>
+#include <engine/plan/tile_batch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Mesh;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+// Minimum cells of a tile for an occlusion query, which costs about as much as searching this many
+// samples (docs/performance.md) and gains nothing if some pass.
+constexpr std::uint32_t smallest_watched = 128U * 128U;
+
+/// With stencil or depth, only samples of the intersection pass while A is drawn. Where colour
+/// decides, all of A passes, so the occlusion query says too little.
+bool worth_watching(IntersectionStrategy strategy, const Tile& tile) {
+    return (strategy == IntersectionStrategy::stencil || strategy == IntersectionStrategy::depth) &&
+           tile.width * tile.height >= smallest_watched;
+}
+
+DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
+    const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
+    const auto right = static_cast<float>(width);
+    const auto top = static_cast<float>(height);
+    const float corners[6][2] = {{0, 0}, {right, 0}, {right, top}, {0, 0}, {right, top}, {0, top}};
+    for (const auto& corner : corners) {
+        mesh.push_back({corner[0], corner[1], 1.0F, 0});
+    }
+    return range;
+}
+
+/// The part of an edge within `border` cells of a tile; far ends would only degrade the raster's
+/// precision.
+TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
+    TileEdge part = edge;
+    if (geometry::clip_to_slab(part.a, part.b, 0, -border, tile.width + border) &&
+        geometry::clip_to_slab(part.a, part.b, 1, -border, tile.height + border)) {
+        return part;
+    }
+    return edge;
+}
+
+/// Sets which part of each shape takes part, and whether samples are listed.
+void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
+                      TileBatch& round) {
+    const bool volumes = query.kind == IntersectionKind::volume_volume;
+    draw.part_a = volumes ? Part::volume : Part::boundary;
+    draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
+    draw.list = query.records;
+    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
+    if (query.resident && query.resident_samples) {
+        round.keeps_hits = true;
+        draw.first_hit = round.hit_words;
+        // The compute technique keeps hits in its masks.
+        round.hit_words += round.by_compute ? 0 : tile.width * tile.height;
+    }
+}
+
+DrawRange since(std::size_t first, const Mesh& mesh) {
+    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(mesh.size() - first)};
+}
+
+}  // namespace
+
+void TileBatch::clear() {
+    mesh.clear();
+    tiles.clear();
+    lists.clear();
+    points.clear();
+    point_index.clear();
+    distance_draws.clear();
+    for (std::vector<TileDraw>& draws : overlap_draws) {
+        draws.clear();
+    }
+    tile_index.clear();
+    runs.clear();
+    field_points.clear();
+    field_point_index.clear();
+    field_point_runs.clear();
+    field_words = 0;
+    field_read_back.clear();
+    resident = false;
+    by_compute = false;
+    compute.clear();
+    watched = 0;
+    listed_cells = 0;
+    hit_words = 0;
+    keeps_hits = false;
+}
+
+void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& round) {
+    round.clear();
+    round.by_compute = number >= plan.raster_tile_batches;
+    tile_of_plan_.resize(plan.tiles.size());
+    first_block_.resize(plan.tiles.size());
+    for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
+        const Tile& tile = plan.tiles[i];
+        TileDraw draw;
+        draw.tile = static_cast<std::uint32_t>(round.tiles.size());
+        draw.x = tile.place.x;
+        draw.y = tile.place.y;
+        draw.width = tile.width;
+        draw.height = tile.height;
+        tile_of_plan_[i] = draw.tile;
+        first_block_[i] = static_cast<std::uint32_t>(round.compute.feature_blocks.size());
+        round.tile_index.push_back(i);
+        round.resident =
+            round.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
+        TileData& data = round.tiles.emplace_back();
+        data.atlas_x = tile.place.x;
+        data.atlas_y = tile.place.y;
+        data.width = tile.width;
+        data.height = tile.height;
+        if (round.by_compute) {
+            add_compute_tile(plan.queries[tile.query], tile, draw, round);
+        } else {
+            add_drawn_tile(plan.queries[tile.query], tile, draw, round);
+        }
+    }
+    add_points(plan, number, round);
+    add_field_points(plan, number, round);
+}
+
+void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                      TileBatch& round) {
+    draw.rectangle = add_rectangle(tile.width, tile.height, round.mesh);
+    if (tile.kind == TileKind::overlap) {
+        add_overlap_tile(query, tile, draw, round);
+    } else {
+        add_distance_tile(query, tile, draw, round);
+    }
+}
+
+void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                        TileBatch& round) {
+    switch (tile.kind) {
+        case TileKind::points:
+            compute_.add_points_tile(query, tile, shapes_, round.tiles[draw.tile], round);
+            break;
+        case TileKind::field:
+            nearest_.clear();
+            add_field_output(query, tile, draw, round);
+            compute_.add_field_tile(query, tile, draw, shapes_, round);
+            round.distance_draws.push_back(draw);
+            break;
+        case TileKind::overlap:
+            describe_overlap(std::get<IntersectionQuery>(*query.query), tile, draw, round);
+            compute_.add_overlap_tile(query, tile, draw, shapes_, round);
+            break;
+    }
+}
+
+DrawRange TileBatchBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
+                                     Mesh& mesh) const {
+    const std::size_t first = mesh.size();
+    const geometry::FillMesh fill(tile.width, tile.height, grid_);
+    for (const TileEdge& edge : edges) {
+        fill.append(edge.a, edge.b, mesh);
+    }
+    return since(first, mesh);
+}
+
+const NearestEdge* TileBatchBuilder::find_nearest(std::uint32_t simplified,
+                                                  std::uint32_t hint) const {
+    if (hint > 0 && nearest_[hint - 1].edge.simplified == simplified) {
+        return &nearest_[hint - 1];
+    }
+    const auto found = std::lower_bound(
+        nearest_.begin(), nearest_.end(), simplified,
+        [](const NearestEdge& edge, std::uint32_t index) { return edge.edge.simplified < index; });
+    return found != nearest_.end() && found->edge.simplified == simplified ? &*found : nullptr;
+}
+
+DrawRange TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
+                                              const geometry::DistanceMeshOptions& options,
+                                              Mesh& mesh) {
+    const std::size_t first = mesh.size();
+    for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
+        const NearestEdge& nearest = nearest_[i];
+        const TileEdge& edge = nearest.edge;
+        const TileEdge part = part_near(edge, tile, nearest.reach() + 1.0);
+        geometry::append_tent(part.a, part.b, {nearest.reach_left, nearest.reach_right}, i, options,
+                              mesh);
+        // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
+        // are in the list, and only as far out as both can be nearest.
+        if (const NearestEdge* const before =
+                find_nearest(boundary.simplified().previous(edge.simplified), i)) {
+            const double reach = std::min(nearest.reach(), before->reach());
+            geometry::append_cone_sector(before->edge.a, edge.a, edge.b, reach, i, options, mesh);
+        }
+    }
+    return since(first, mesh);
+}
+
+void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                                        TileBatch& round) const {
+    draw.field = true;
+    draw.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+    if (draw.sign == SignEncoding::feature_bit && nearest_.size() >= max_signed_features) {
+        throw StatusException(
+            {StatusCode::too_large,
+             std::to_string(nearest_.size()) +
+                 " edges can be nearest in one tile of a distance field; an id that "
+                 "carries the sign in its top bit has room for " +
+                 std::to_string(max_signed_features)});
+    }
+    draw.blended = query.field.blended;
+    const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
+    if (query.field.values) {
+        draw.first_value = add_field_words(cells, query.field.host_values, round);
+    }
+    if (query.field.features) {
+        draw.first_feature = add_field_words(cells, query.field.host_features, round);
+    }
+    if (query.field.gradients) {
+        draw.first_gradient = add_field_words(2 * cells, true, round);
+    }
+}
+
+std::uint32_t TileBatchBuilder::add_field_words(std::uint64_t count, bool for_host,
+                                                TileBatch& round) {
+    const WordRange added{static_cast<std::uint32_t>(round.field_words),
+                          static_cast<std::uint32_t>(count)};
+    round.field_words += count;
+    if (for_host) {
+        std::vector<WordRange>& ranges = round.field_read_back;
+        if (!ranges.empty() && ranges.back().first + ranges.back().count == added.first) {
+            ranges.back().count += added.count;
+        } else {
+            ranges.push_back(added);
+        }
+    }
+    return added.first;
+}
+
+void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                                         TileBatch& round) {
+    const double cell = tile.grid.cell;
+    const ErrorBudget& budget = query.budget;
+    const TileBoundary boundary(
+        shapes_.get(*query.b, budget.simplification, longest_tile_run * cell),
+        ToCells(TransformedPolygon(*query.b, query.pose_b), tile.origin(), cell));
+    const double simplification = budget.simplification / cell;
+    double mesh_error = budget.mesh / cell;
+    if (tile.kind == TileKind::points) {
+        // The resolve pass searches from the drawn feature for the nearest one; far from the
+        // boundary a mesh as fine as near to it would have far too many triangles.
+        mesh_error = std::max(mesh_error, boundary.distance(tile.centre()) / 16.0);
+    }
+
+    crossing_.clear();
+    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
+    draw.b = add_fill(crossing_, tile, round.mesh);
+
+    finder_.find(boundary, tile.needed, simplification + mesh_error, nearest_);
+    nearest_list_.clear();
+    double largest_reach = 0.0;
+    for (const NearestEdge& nearest : nearest_) {
+        nearest_list_.push_back(nearest.edge);
+        largest_reach = std::max(largest_reach, nearest.reach());
+    }
+    draw.distance = add_distance_mesh(
+        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+        round.mesh);
+    float farthest = 1.0F;
+    for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
+        farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
+    }
+    draw.depth_scale = 1.0F / (farthest * 1.0001F);
+
+    TileData& data = round.tiles[draw.tile];
+    round.lists.begin_tile(boundary);
+    const double side = std::max(tile.width, tile.height);
+    data.nearest = round.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
+    data.crossing = round.lists.write(crossing_, side + 4.0);
+    // The cell's centre is up to half a diagonal away; simplification, the mesh and snapping change
+    // its distance and the fill; the rest is for rounding.
+    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
+                                      2.0 * grid_.largest_move() + 0.01);
+    data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
+    data.outside = query.outside ? 1 : 0;
+
+    if (tile.kind == TileKind::field) {
+        add_field_output(query, tile, draw, round);
+    }
+    round.distance_draws.push_back(draw);
+}
+
+DrawRange TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile,
+                                         double offset, bool with_runs, TileBatch& round) const {
+    const std::size_t first = round.mesh.size();
+    boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
+        const std::size_t before = round.mesh.size();
+        const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
+        if (run == max_runs) {
+            throw StatusException(
+                {StatusCode::too_large, "the boundaries of one round have more than " +
+                                            std::to_string(max_runs) +
+                                            " edges; use a larger tolerance"});
+        }
+        geometry::append_offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
+                                        tile.height, grid_, run << run_shift, round.mesh);
+        if (with_runs && round.mesh.size() > before) {
+            round.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
+        }
+    });
+    return since(first, round.mesh);
+}
+
+void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                                        TileBatch& round) {
+    const auto& asked = std::get<IntersectionQuery>(*query.query);
+    describe_overlap(asked, tile, draw, round);
+    const double cell = tile.grid.cell;
+    const double simplification = query.budget.simplification;
+    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
+                         bool with_runs) {
+        const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes_);
+        if (part == Part::boundary) {
+            return add_boundary(boundary, tile, query.budget.offset / cell, with_runs, round);
+        }
+        crossing_.clear();
+        crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);
+        return add_fill(crossing_, tile, round.mesh);
+    };
+    draw.b = add(*query.b, query.pose_b, draw.part_b, false);
+    draw.a = add(*query.a, query.pose_a, draw.part_a, true);
+    if (round.watched < max_watched && worth_watching(asked.strategy, tile)) {
+        draw.watch = round.watched++;
+    }
+    round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
+}
+
+void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& round) {
+    const PlannedQuery* query = nullptr;
+    std::optional<TransformedPolygon> a;
+    for (const std::uint32_t i : plan.points_by_batch.of(number)) {
+        const PlannedPoint& point = plan.points[i];
+        const Tile& tile = plan.tiles[point.tile];
+        if (query != &plan.queries[tile.query]) {
+            query = &plan.queries[tile.query];
+            a.emplace(*query->a, query->pose_a);
+        }
+        const Vector local = (position(*a, point.point) - tile.origin()) / tile.grid.cell;
+        round.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+                                tile_of_plan_[point.tile], 0});
+        round.point_index.push_back(i);
+    }
+}
+
+void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, TileBatch& round) {
+    for (const std::uint32_t i : plan.field_points_by_batch.of(number)) {
+        const PlannedFieldPoint& point = plan.field_points[i];
+        const Tile& tile = plan.tiles[point.tile];
+        if (round.field_point_runs.empty() || round.field_point_runs.back().query != tile.query) {
+            const PlannedQuery& query = plan.queries[tile.query];
+            FieldPointRun& run = round.field_point_runs.emplace_back();
+            run.first = static_cast<std::uint32_t>(round.field_point_index.size());
+            run.query = tile.query;
+            run.first_word = static_cast<std::uint32_t>(round.field_words);
+            run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+            run.parts = query.field;
+        }
+        if (round.by_compute) {
+            ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, round.compute);
+        } else {
+            const Vector local = (point.position - tile.origin()) / tile.grid.cell;
+            round.field_points.push_back({static_cast<float>(local.x()),
+                                          static_cast<float>(local.y()), tile_of_plan_[point.tile],
+                                          point.column | point.row << 16U});
+        }
+        round.field_point_index.push_back(i);
+        FieldPointRun& run = round.field_point_runs.back();
+        ++run.count;
+        static_cast<void>(add_field_words(run.parts.words_per_point, true, round));
+    }
+}
+
+}  // namespace nearfield::plan

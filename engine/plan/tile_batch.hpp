@@ -1,0 +1,165 @@
+#pragma once
+
+#include <engine/geometry/distance_mesh.hpp>
+#include <engine/geometry/mesh.hpp>
+#include <engine/plan/compute_batch_builder.hpp>
+#include <engine/plan/compute_work.hpp>
+#include <engine/plan/edge_lists.hpp>
+#include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/nearest_edges.hpp>
+#include <engine/plan/plan.hpp>
+#include <engine/plan/simplified_shapes.hpp>
+#include <engine/plan/tile_edges.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// Consecutive vertices of a tile batch's mesh.
+struct DrawRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Consecutive edges of a shape.
+struct EdgeRun {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// How a shape is drawn into an overlap tile.
+enum class Part : std::uint8_t { volume, boundary };
+
+/// TileDraw::watch of a tile without an occlusion query.
+inline constexpr std::uint32_t no_watch = UINT32_MAX;
+/// Maximum number of occlusion queries of a tile batch.
+inline constexpr std::uint32_t max_watched = 256;
+
+/// The draws into one tile.
+struct TileDraw {
+    std::uint32_t tile = 0;  ///< in TileBatch::tiles
+    std::uint32_t x = 0;     ///< position in the atlas
+    std::uint32_t y = 0;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    DrawRange rectangle;       ///< the whole tile, at depth 1
+    DrawRange b;               ///< fill, or offset boundary, of B
+    DrawRange a;               ///< the same of A; overlap tiles only
+    DrawRange distance;        ///< distance mesh of B; points and field tiles only
+    float depth_scale = 1.0F;  ///< from cells to depth below 1, for the distance mesh
+    Part part_a = Part::volume;
+    Part part_b = Part::volume;
+    bool list = false;               ///< overlap tiles: samples are listed, not only counted
+    std::uint32_t watch = no_watch;  ///< overlap tiles: the occlusion query around A, if any
+    /// Overlap tiles: where the hits of the cells are kept, one word per cell. The compute
+    /// technique keeps them in masks: there any number means that they are kept.
+    std::uint32_t first_hit = not_asked;
+
+    /// Overlap tiles: the hits of the cells stay on the device.
+    [[nodiscard]] bool keeps_hits() const { return first_hit != not_asked; }
+    // Field tiles only: where the requested outputs at cells start, in 32-bit words of the field's
+    // read-back.
+    bool field = false;
+    SignEncoding sign = SignEncoding::stencil;
+    bool blended = false;                      ///< the gradient image is drawn
+    std::uint32_t first_value = not_asked;     ///< one word per cell
+    std::uint32_t first_feature = not_asked;   ///< one word per cell
+    std::uint32_t first_gradient = not_asked;  ///< two words per cell
+};
+
+/// The points of one field query that a tile batch answers.
+struct FieldPointRun {
+    std::uint32_t first = 0;  ///< in TileBatch::field_points
+    std::uint32_t count = 0;
+    std::uint32_t query = 0;       ///< in Plan::queries
+    std::uint32_t first_word = 0;  ///< in the field's read-back
+    SignEncoding sign = SignEncoding::stencil;
+    FieldParts parts;
+};
+
+/// Consecutive 32-bit words.
+struct WordRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Tiles that fill the atlas once, in the form that the device takes.
+struct TileBatch {
+    geometry::Mesh mesh;
+    std::vector<TileData> tiles;
+    EdgeListWriter lists;
+    std::vector<PointData> points;
+    std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
+    std::vector<TileDraw> distance_draws;
+    std::array<std::vector<TileDraw>, intersection_strategies> overlap_draws;  ///< by strategy
+    std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
+    std::vector<EdgeRun> runs;              ///< of A's edges, which offset polygons' ids refer to
+    std::uint32_t watched = 0;              ///< overlap tiles with an occlusion query
+    std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
+    std::uint32_t hit_words = 0;            ///< for all overlap tiles whose hits are kept
+    bool keeps_hits = false;                ///< there are such tiles
+    std::vector<PointData> field_points;
+    std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
+    std::vector<FieldPointRun> field_point_runs;
+    std::uint64_t field_words = 0;           ///< for all fields together
+    std::vector<WordRange> field_read_back;  ///< those that the host reads
+    /// Results of points or fields stay on the device; points then include details (PointDetails).
+    bool resident = false;
+    /// A tile batch is either drawn or, by the compute technique, computed from this; then it has
+    /// no mesh.
+    bool by_compute = false;
+    ComputeWork compute;
+
+    void clear();
+};
+
+/// Turns the tiles of one tile batch into meshes, edge lists and points. Keeps its scratch memory.
+class TileBatchBuilder {
+public:
+    explicit TileBatchBuilder(geometry::SubpixelGrid grid) : grid_(grid), compute_(grid) {}
+
+    /// Drops simplified shapes; call first in each batch, since shapes may have changed.
+    void begin_batch() { shapes_.clear(); }
+    void build(const Plan& plan, std::uint32_t number, TileBatch& round);
+
+private:
+    void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                        TileBatch& round);
+    void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                          TileBatch& round);
+    void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                           TileBatch& round);
+    /// Reserves space in the read-back for the requested outputs at cells.
+    void add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+                          TileBatch& round) const;
+    /// Appends words to those of the fields; returns the first one.
+    static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& round);
+    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+                          TileBatch& round);
+    void add_points(const Plan& plan, std::uint32_t number, TileBatch& round);
+    void add_field_points(const Plan& plan, std::uint32_t number, TileBatch& round);
+    [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
+                                     geometry::Mesh& mesh) const;
+    [[nodiscard]] DrawRange add_boundary(const TileBoundary& boundary, const Tile& tile,
+                                         double offset, bool with_runs, TileBatch& round) const;
+    /// The entry of nearest_ for a simplified edge, or null; most likely the one before `hint`.
+    [[nodiscard]] const NearestEdge* find_nearest(std::uint32_t simplified,
+                                                  std::uint32_t hint) const;
+    [[nodiscard]] DrawRange add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
+                                              const geometry::DistanceMeshOptions& options,
+                                              geometry::Mesh& mesh);
+
+    geometry::SubpixelGrid grid_;
+    SimplifiedShapes shapes_;
+    std::vector<TileEdge> crossing_;
+    std::vector<NearestEdge> nearest_;
+    std::vector<TileEdge> nearest_list_;
+    NearestEdgeFinder finder_;
+    std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its index in the tile batch
+    std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block
+    ComputeBuilder compute_;
+};
+
+}  // namespace nearfield::plan

@@ -1,0 +1,65 @@
+#include <engine/plan/gpu_layout.hpp>
+#include <engine/records/field_features.hpp>
+#include <engine/records/nearest_feature.hpp>
+
+#include <cmath>
+
+namespace nearfield::records {
+namespace {
+
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+/// The outward unit normal of an edge at a point on it; zero for a zero-length edge.
+Vector outward_normal(const TransformedPolygon& b, std::uint32_t edge, const Vector& place,
+                      double step) {
+    const Vector along = b.vertex(b.polygon().next(edge)) - b.vertex(edge);
+    const double length = along.norm();
+    if (length == 0.0) {
+        return Vector::Zero();
+    }
+    const Vector normal(-along.y() / length, along.x() / length);
+    return geometry::contains(b, place + step * normal) ? Vector(-normal) : normal;
+}
+
+}  // namespace
+
+FieldFeature field_feature(const TransformedPolygon& b, double touching, const Vector& point,
+                           std::uint32_t word) {
+    const std::uint32_t edge = word & plan::point_edge_mask;
+    const auto nearest = nearest_on_edge(b, edge, point);
+    FieldFeature result;
+    result.feature = feature_at(b, edge, nearest.parameter);
+    result.unique = (word & plan::point_unique) != 0;
+    const Vector away = point - nearest.point;
+    const double distance = std::sqrt(nearest.squared_distance);
+    if (distance > touching) {
+        const bool inside = (word & plan::point_inside) != 0;
+        result.gradient = (inside ? -1.0 : 1.0) / distance * away;
+    } else {
+        // On the boundary the direction from the nearest point is undefined, but the edge's normal
+        // is not.
+        result.gradient = outward_normal(b, edge, nearest.point, 2.0 * touching);
+        result.unique = result.unique && !result.gradient.isZero();
+    }
+    return result;
+}
+
+void write_feature(const DistanceFieldQuery& query, const TransformedPolygon& b, double touching,
+                   std::size_t cell, std::uint32_t word, DistanceFieldResult& result) {
+    const std::size_t row = cell / result.width;
+    const Vector centre(static_cast<double>(cell % result.width) + 0.5,
+                        static_cast<double>(row) + 0.5);
+    const FieldFeature nearest =
+        field_feature(b, touching, geometry::to_vector(result.origin) + result.cell * centre, word);
+    result.unique[cell] = nearest.unique ? 1 : 0;
+    if (query.features) {
+        result.features[cell] = nearest.feature;
+    }
+    if (query.gradients && query.gradient == GradientMethod::analytic) {
+        result.gradients[2 * cell] = static_cast<float>(nearest.gradient.x());
+        result.gradients[2 * cell + 1] = static_cast<float>(nearest.gradient.y());
+    }
+}
+
+}  // namespace nearfield::records

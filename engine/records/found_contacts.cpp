@@ -1,0 +1,77 @@
+#include <engine/records/found_contacts.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::records {
+
+using geometry::Vector;
+
+void FoundContacts::begin(double cell, double rounding) {
+    touching_ = std::max(std::ldexp(cell, -15), 1024.0 * rounding);
+    of_a_.clear();
+    of_b_.clear();
+}
+
+void FoundContacts::append_points(std::vector<Vector2>& points) const {
+    for (const auto* contacts : {&of_a_, &of_b_}) {
+        for (const TransformedContact& contact : *contacts) {
+            points.push_back(contact.record.point);
+        }
+    }
+}
+
+void FoundContacts::set_normals(std::span<const Vector2> gradients) {
+    constexpr double hardly = 1e-3;
+    std::size_t i = 0;
+    for (auto* contacts : {&of_a_, &of_b_}) {
+        for (TransformedContact& contact : *contacts) {
+            const Vector gradient = geometry::to_vector(gradients[i++]);
+            const double length = gradient.norm();
+            if (length > hardly) {
+                contact.record.normal = geometry::to_public(gradient / length);
+            } else {
+                contact.record.unique = false;
+            }
+        }
+    }
+}
+
+void FoundContacts::write(const geometry::Polygon& a, const geometry::Polygon& b,
+                          const ContactQuery& query, ContactResult& result) {
+    result.count = static_cast<std::uint32_t>(of_a_.size() + of_b_.size());
+    manifold_.build(a, b, of_a_, of_b_, result.cell, result.manifold);
+    if (query.records) {
+        for (const auto* contacts : {&of_a_, &of_b_}) {
+            for (const TransformedContact& contact : *contacts) {
+                result.records.push_back(contact.record);
+            }
+        }
+    }
+}
+
+ContactRecord FoundContacts::make_record(const ResolvedPoint& resolved, Side on,
+                                         const Vector& normal) {
+    return {geometry::to_public(resolved.point),
+            geometry::to_public(normal),
+            resolved.distance,
+            geometry::to_public(resolved.nearest),
+            resolved.feature,
+            on,
+            resolved.inside,
+            resolved.unique};
+}
+
+Vector FoundContacts::growth_of_distance(const ResolvedPoint& resolved) {
+    const Vector away = (resolved.point - resolved.nearest) / resolved.distance;
+    return resolved.inside ? Vector(-away) : away;
+}
+
+Vector FoundContacts::normal_at_nearest(narrowphase::Boundary& boundary,
+                                        const ResolvedPoint& resolved) {
+    return resolved.feature.kind == Feature::Kind::edge
+               ? outward_normal(boundary, resolved.edge, resolved.parameter)
+               : outward_normal_at(boundary, {resolved.feature.index, 0.0});
+}
+
+}  // namespace nearfield::records

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <engine/narrowphase/boundary.hpp>
+#include <engine/plan/boundary_points.hpp>
+#include <engine/records/boundary_normal.hpp>
+#include <engine/records/manifold.hpp>
+#include <engine/records/point_resolver.hpp>
+#include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
+
+#include <span>
+#include <vector>
+
+namespace nearfield::records {
+
+/// Collects the contacts of two boundaries as they are found: their records, with analytic normals,
+/// and their manifold. Reuses its memory between queries.
+class FoundContacts {
+public:
+    /// Removes the previous contacts. `cell`: the side of a grid cell; `rounding`: of both shapes'
+    /// vertices.
+    void begin(double cell, double rounding);
+
+    /// Adds a sample of A's boundary that is close to B, in order along A's rings.
+    /// `boundary_of_b()` returns a narrowphase::Boundary & and is called only if the normal
+    /// requires it.
+    template <class BoundaryOfB>
+    void add_of_a(const plan::BoundaryPoint& place, const ResolvedPoint& resolved,
+                  const BoundaryOfB& boundary_of_b) {
+        const geometry::Vector normal = resolved.distance > touching_
+                                            ? growth_of_distance(resolved)
+                                            : normal_at_nearest(boundary_of_b(), resolved);
+        of_a_.push_back({make_record(resolved, Side::a, normal), place, place});
+    }
+    /// The same for a sample of B's boundary.
+    void add_of_b(const plan::BoundaryPoint& place, const ResolvedPoint& resolved,
+                  narrowphase::Boundary& boundary_of_b) {
+        of_b_.push_back({make_record(resolved, Side::b, outward_normal_at(boundary_of_b, place)),
+                         place,
+                         {resolved.edge, resolved.parameter}});
+    }
+
+    /// Appends the points of the contacts found: A's, then B's.
+    void append_points(std::vector<Vector2>& points) const;
+    /// Sets normals to the field's gradients at the points of append_points(). Where the gradient
+    /// nearly vanishes, between walls, a contact keeps its normal and is not unique.
+    void set_normals(std::span<const Vector2> gradients);
+
+    /// Writes the contacts and their manifold, with A and B in the order that the manifold uses.
+    void write(const geometry::Polygon& a, const geometry::Polygon& b, const ContactQuery& query,
+               ContactResult& result);
+
+private:
+    [[nodiscard]] static ContactRecord make_record(const ResolvedPoint& resolved, Side on,
+                                                   const geometry::Vector& normal);
+    /// The gradient of the signed distance.
+    [[nodiscard]] static geometry::Vector growth_of_distance(const ResolvedPoint& resolved);
+    [[nodiscard]] static geometry::Vector normal_at_nearest(narrowphase::Boundary& boundary,
+                                                            const ResolvedPoint& resolved);
+
+    // At distances below this, rounding would determine the direction to the nearest point.
+    double touching_ = 0.0;
+    std::vector<TransformedContact> of_a_;
+    std::vector<TransformedContact> of_b_;
+    ManifoldBuilder manifold_;
+};
+
+}  // namespace nearfield::records

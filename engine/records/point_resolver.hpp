@@ -1,0 +1,60 @@
+#pragma once
+
+#include <engine/narrowphase/boundary.hpp>
+#include <engine/plan/gpu_layout.hpp>
+#include <engine/plan/plan.hpp>
+#include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace nearfield::records {
+
+/// A point of A relative to the boundary of B, in double precision.
+struct ResolvedPoint {
+    geometry::Vector point;
+    geometry::Vector nearest;  ///< the point of B's boundary nearest to it
+    double distance = 0.0;
+    std::uint32_t edge = 0;  ///< of B: an edge that contains `nearest`
+    double parameter = 0.0;  ///< position on the edge: 0 at its first vertex, 1 at its last
+    Feature feature;         ///< of B: the feature that contains `nearest`
+    bool inside = false;     ///< inside B, and not just touching its boundary
+    bool unique = true;
+};
+
+/// Converts a penetrating point to a record of the result.
+[[nodiscard]] inline PenetrationRecord penetration_record(const ResolvedPoint& resolved) {
+    const geometry::Vector way = resolved.nearest - resolved.point;
+    return {geometry::to_public(resolved.point),
+            resolved.distance,
+            geometry::to_public(way / resolved.distance),
+            geometry::to_public(resolved.nearest),
+            resolved.feature,
+            resolved.unique};
+}
+
+/// Makes the device's answers for the points of a query, or of one direction of it, exact.
+class PointResolver {
+public:
+    void begin(const plan::Plan& plan, const plan::PlannedQuery& query);
+
+    /// Resolves the point of A at an index of Plan::points; `word` is non-zero, as written by the
+    /// device.
+    [[nodiscard]] ResolvedPoint resolve(const plan::PlannedPoint& planned, std::uint32_t word);
+
+    [[nodiscard]] const geometry::TransformedPolygon& a() const { return *a_; }
+    [[nodiscard]] const geometry::TransformedPolygon& b() const { return *b_; }
+    /// For queries that the device leaves open.
+    [[nodiscard]] narrowphase::Boundary& boundary_of_b();
+
+private:
+    const plan::Plan* plan_ = nullptr;
+    const plan::PlannedQuery* query_ = nullptr;
+    std::optional<geometry::TransformedPolygon> a_;
+    std::optional<geometry::TransformedPolygon> b_;
+    narrowphase::Boundary boundary_;
+    bool boundary_is_set_ = false;
+    double rounding_ = 0.0;  // of the points and the boundary; only for queries on the CPU
+};
+
+}  // namespace nearfield::records

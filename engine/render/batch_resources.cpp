@@ -1,0 +1,239 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/gpu/buffer_parts.hpp>
+#include <engine/render/batch_resources.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace nearfield::render {
+namespace {
+
+// All passes for points and fields, and three per strategy.
+constexpr std::uint32_t max_passes = 16 + 3 * intersection_strategies;
+
+// Passes beyond those of the tile batches: the copy to the read-back; one per resident field; three
+// per query with resident records or samples.
+std::uint32_t export_passes(const plan::ResidentOutputs& resident) {
+    return static_cast<std::uint32_t>(1 + resident.fields.size() + 3 * resident.records.size() +
+                                      3 * resident.samples.size());
+}
+
+template <class Element>
+void copy_to(std::byte* target, const std::vector<Element>& elements) {
+    if (!elements.empty()) {
+        std::memcpy(target, elements.data(), bytes_of(elements));
+    }
+}
+
+template <class Element>
+std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint64_t offset,
+                                     std::uint64_t count) {
+    return {reinterpret_cast<const Element*>(buffer.data() + offset), count};
+}
+
+}  // namespace
+
+BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout)
+    : device_(&device),
+      layout_(&layout),
+      submission_(device),
+      timestamps_(device, max_passes),
+      mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
+      read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 gpu::Direction::readback, "nearfield read-back"),
+      words_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+             gpu::Direction::none, "nearfield resident words"),
+      resident_(device, layout) {
+    make_room_for(1);
+}
+
+BatchResources::~BatchResources() {
+    if (state_ == SubmissionState::submitted) {
+        submission_.wait_to_the_end();
+    }
+}
+
+void BatchResources::make_room_for(std::size_t tile_batches) {
+    while (sets_.size() < tile_batches) {
+        sets_.emplace_back(*device_, *layout_);
+    }
+    compute_.resize(std::max(compute_.size(), tile_batches));
+    timestamps_.reserve(static_cast<std::uint32_t>(tile_batches) * max_passes);
+}
+
+std::uint64_t BatchResources::align(std::uint64_t offset) const {
+    const std::uint64_t step =
+        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
+    return (offset + step - 1) / step * step;
+}
+
+void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
+                            const plan::ResidentOutputs& resident) {
+    make_room_for(tile_batches.size());
+    has_resident_outputs_ = !resident.empty();
+    if (has_resident_outputs_) {
+        timestamps_.reserve(static_cast<std::uint32_t>(tile_batches.size()) * max_passes +
+                            export_passes(resident));
+        resident_.upload(resident);
+    }
+    tile_batches_.resize(tile_batches.size());
+    std::uint64_t mesh_end = 0;
+    std::uint64_t input_end = 0;
+    for (std::size_t i = 0; i < tile_batches.size(); ++i) {
+        passes::Frame& frame = tile_batches_[i].frame;
+        frame.round = &tile_batches[i];
+        frame.subpixel_bits = device_->limits().subPixelPrecisionBits;
+        sets_[i].hand_to(frame);
+        if (tile_batches[i].by_compute) {
+            if (compute_[i] == nullptr) {
+                compute_[i] = std::make_unique<ComputeBuffers>(*device_);
+            }
+            compute_[i]->upload(tile_batches[i]);
+            frame.scratch = compute_[i]->scratch();
+        } else {
+            lay_out_input(tile_batches_[i], input_end, mesh_end);
+        }
+    }
+    input_.reserve(input_end);
+    mesh_.reserve(mesh_end);
+    for (const TileBatchOnDevice& round : tile_batches_) {
+        if (!round.frame.round->by_compute) {
+            copy_input(round);
+        }
+    }
+    input_.flush();
+    mesh_.flush();
+}
+
+void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
+                                   std::uint64_t& mesh_end) const {
+    const plan::TileBatch& round = *on_device.frame.round;
+    const auto& geometry = round.lists.geometry();
+    require_range(*device_, bytes_of(geometry), "the edges");
+    require_range(*device_, std::max(bytes_of(round.points), bytes_of(round.field_points)),
+                  "the points");
+    InputParts& parts = on_device.input;
+    parts.tiles = align(input_end);
+    parts.geometry = align(parts.tiles + bytes_of(round.tiles));
+    parts.points = align(parts.geometry + bytes_of(geometry));
+    parts.field_points = align(parts.points + bytes_of(round.points));
+    parts.end = parts.field_points + bytes_of(round.field_points);
+    input_end = parts.end + smallest_part;
+    on_device.frame.mesh_offset = mesh_end;
+    mesh_end = align(mesh_end + bytes_of(round.mesh));
+}
+
+void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
+    const plan::TileBatch& round = *on_device.frame.round;
+    const InputParts& parts = on_device.input;
+    copy_to(input_.data() + parts.tiles, round.tiles);
+    copy_to(input_.data() + parts.geometry, round.lists.geometry());
+    copy_to(input_.data() + parts.points, round.points);
+    copy_to(input_.data() + parts.field_points, round.field_points);
+    copy_to(mesh_.data() + on_device.frame.mesh_offset, round.mesh);
+}
+
+void BatchResources::run(std::uint32_t count) {
+    running_.clear();
+    for (std::uint32_t number = 0; number < count; ++number) {
+        running_.push_back(number);
+    }
+}
+
+void BatchResources::run_those_without_room() {
+    has_resident_outputs_ = false;
+    std::erase_if(running_, [&](std::uint32_t number) { return tile_batches_[number].had_room(); });
+    for (const std::uint32_t number : running_) {
+        tile_batches_[number].frame.sample_capacity = tile_batches_[number].sample_count;
+    }
+}
+
+VkCommandBuffer BatchResources::begin() {
+    return submission_.begin();
+}
+
+void BatchResources::submit(const Submission& order) {
+    submission_.submit(order);
+    state_ = SubmissionState::submitted;
+}
+
+void BatchResources::end_recording(VkCommandBuffer commands, std::uint32_t stamp) {
+    const gpu::Functions& functions = device_->functions();
+    functions.vkCmdFillBuffer(commands, read_back_.handle(), stamp_offset_, sizeof(stamp), stamp);
+    const VkBufferMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
+                                        .pNext = nullptr,
+                                        .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+                                        .dstAccessMask = VK_ACCESS_HOST_READ_BIT,
+                                        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+                                        .buffer = read_back_.handle(),
+                                        .offset = stamp_offset_,
+                                        .size = sizeof(stamp)};
+    functions.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                   VK_PIPELINE_STAGE_HOST_BIT, 0, 0, nullptr, 1, &to_host, 0,
+                                   nullptr);
+    stamp_ = stamp;
+    state_ = SubmissionState::recorded;
+}
+
+void BatchResources::require_stamp() {
+    std::uint32_t found = 0;
+    std::memcpy(&found, read_back_.data() + stamp_offset_, sizeof(found));
+    if (found != stamp_) {
+        throw StatusException(
+            {StatusCode::not_executed,
+             "the host says that the frame of this batch is complete, but the device "
+             "did not execute the commands recorded for it; was the command buffer "
+             "submitted?"});
+    }
+}
+
+void BatchResources::wait() {
+    if (state_ == SubmissionState::submitted) {
+        submission_.wait();
+    }
+    const bool recorded = state_ == SubmissionState::recorded;
+    state_ = SubmissionState::none;
+    read_back_.invalidate();
+    if (recorded) {
+        require_stamp();
+    }
+    for (const std::uint32_t number : running_) {
+        TileBatchOnDevice& round = tile_batches_[number];
+        std::memcpy(&round.sample_count, read_back_.data() + round.output.samples,
+                    sizeof(round.sample_count));
+    }
+}
+
+void BatchResources::release() {
+    for (TileBatchOnDevice& round : tile_batches_) {
+        round.graph = nullptr;
+    }
+}
+
+std::span<const std::uint32_t> BatchResources::points(std::uint32_t number) const {
+    const TileBatchOnDevice& round = tile_batches_[number];
+    return elements_at<std::uint32_t>(read_back_, round.output.points,
+                                      round.frame.round->points.size());
+}
+
+std::span<const std::uint32_t> BatchResources::field_words(std::uint32_t number) const {
+    const TileBatchOnDevice& round = tile_batches_[number];
+    return elements_at<std::uint32_t>(read_back_, round.output.field,
+                                      round.frame.round->field_words);
+}
+
+std::span<const plan::TileSummary> BatchResources::summaries(std::uint32_t number) const {
+    const TileBatchOnDevice& round = tile_batches_[number];
+    return elements_at<plan::TileSummary>(read_back_, round.output.summaries,
+                                          round.frame.round->tiles.size());
+}
+
+std::span<const plan::SampleData> BatchResources::samples(std::uint32_t number) const {
+    const TileBatchOnDevice& round = tile_batches_[number];
+    return elements_at<plan::SampleData>(read_back_, round.output.samples + sizeof(std::uint32_t),
+                                         round.sample_count);
+}
+
+}  // namespace nearfield::render

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/submission.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <engine/plan/tile_batch.hpp>
+#include <engine/render/compiled_graph.hpp>
+#include <engine/render/compute_buffers.hpp>
+#include <engine/render/resident_buffers.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/record_context.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace nearfield::render {
+
+/// Byte offsets of a tile batch's parts in the common buffers.
+struct InputParts {
+    std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
+};
+struct OutputParts {
+    std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
+    std::uint64_t hits = 0;  ///< kept, among the words that stay on the device
+};
+
+/// How the commands reach the device.
+enum class SubmissionState {
+    none,
+    submitted,  ///< submitted by BatchResources, whose fence signals completion
+    recorded,   ///< recorded into a command buffer of the host, which reports completion
+};
+
+/// The device's side of one tile batch.
+struct TileBatchOnDevice {
+    std::shared_ptr<CompiledGraph> graph;  ///< kept for as long as the device may use its images
+    passes::Frame frame;                   ///< what its passes record from
+    InputParts input;
+    OutputParts output;
+    std::uint32_t sample_count = 0;  ///< found; only frame.sample_capacity of them were stored
+
+    [[nodiscard]] bool had_room() const { return sample_count <= frame.sample_capacity; }
+};
+
+/// The device's side of one batch in flight: everything that the host must not touch before the
+/// device is done with it. Holds all tile batches of the batch, each with descriptor sets of its
+/// own and parts of the common buffers. Pipelines, compiled graphs and their images belong to the
+/// Renderer and are shared by all batches in flight. Keeps its memory; in the steady state nothing
+/// is created.
+class BatchResources {
+public:
+    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout);
+    /// Waits for its own submission if the device is still working on it. Waiting for commands
+    /// recorded for the host is up to the host.
+    ~BatchResources();
+    BatchResources(const BatchResources&) = delete;
+    BatchResources& operator=(const BatchResources&) = delete;
+
+    /// Uploads tile batches and the tables of their resident outputs. Both have to stay unchanged
+    /// until the next upload, and no commands of this object may be in flight.
+    void upload(std::span<const plan::TileBatch> tile_batches,
+                const plan::ResidentOutputs& resident);
+    /// Selects the first `count` tile batches for the next submission.
+    void run(std::uint32_t count);
+    void run_those_without_room();
+    [[nodiscard]] std::span<const std::uint32_t> running() const { return running_; }
+    /// Lays out the outputs of the selected tile batches and points their descriptor sets to them.
+    void lay_out_output();
+
+    [[nodiscard]] TileBatchOnDevice& round(std::uint32_t number) { return tile_batches_[number]; }
+    [[nodiscard]] const TileBatchOnDevice& round(std::uint32_t number) const {
+        return tile_batches_[number];
+    }
+    /// Points a compiled graph to the buffers of a tile batch, for what is recorded next.
+    void hand_buffers_to(CompiledGraph& graph, std::uint32_t number) const;
+
+    /// The resident outputs; their commands are part of a batch's first submission.
+    [[nodiscard]] const ResidentBuffers& resident() const { return resident_; }
+    [[nodiscard]] bool has_resident_outputs() const { return has_resident_outputs_; }
+    /// The ranges of the device's words that the host reads as well.
+    struct CopyBack {
+        VkBuffer words = VK_NULL_HANDLE;
+        VkBuffer read_back = VK_NULL_HANDLE;
+        std::span<const VkBufferCopy> ranges;
+    };
+    [[nodiscard]] CopyBack copy_back() const {
+        return {words_.handle(), read_back_.handle(), copies_};
+    }
+
+    /// The command buffer, empty.
+    [[nodiscard]] VkCommandBuffer begin();
+    [[nodiscard]] gpu::Timestamps& timestamps() { return timestamps_; }
+    void submit(const Submission& order = {});
+    /// Submits the semaphores of a batch that has no commands.
+    void submit_semaphores(const Submission& order) { submission_.submit_semaphores(order); }
+    /// Ends the recording into the host's command buffer. `stamp`, never 0 and never used before,
+    /// shows later whether the commands were executed.
+    void end_recording(VkCommandBuffer commands, std::uint32_t stamp);
+    /// State of the commands until they have been waited for.
+    [[nodiscard]] SubmissionState submission_state() const { return state_; }
+    /// Returns whether wait() would return at once; for recorded commands only the host knows.
+    [[nodiscard]] bool is_done() const {
+        return state_ != SubmissionState::submitted || submission_.is_done();
+    }
+    /// Waits for submitted commands; recorded commands have to be done. Throws StatusException
+    /// (not_executed) if recorded commands were never executed.
+    void wait();
+    /// Releases the compiled graphs; not while in flight.
+    void release();
+
+    /// The results of a tile batch: by point; of all fields; by tile (overlap tiles only); and the
+    /// samples of the tiles that list theirs, in any order. Valid after wait(), until the next
+    /// upload.
+    [[nodiscard]] std::span<const std::uint32_t> points(std::uint32_t number) const;
+    [[nodiscard]] std::span<const std::uint32_t> field_words(std::uint32_t number) const;
+    [[nodiscard]] std::span<const plan::TileSummary> summaries(std::uint32_t number) const;
+    [[nodiscard]] std::span<const plan::SampleData> samples(std::uint32_t number) const;
+
+private:
+    void make_room_for(std::size_t tile_batches);
+    void lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
+                       std::uint64_t& mesh_end) const;
+    void copy_input(const TileBatchOnDevice& on_device) const;
+    void empty_output(const TileBatchOnDevice& on_device) const;
+    void find_copies(const TileBatchOnDevice& on_device);
+    void lay_out_words(std::uint64_t end);
+    [[nodiscard]] BufferPart hits_of(std::uint32_t number) const;
+    void bind_export();
+    /// The buffer into which a tile batch writes the words of its points and fields.
+    [[nodiscard]] VkBuffer words_of(const TileBatchOnDevice& on_device) const;
+    void bind(const TileBatchOnDevice& on_device) const;
+    void bind_compute(std::uint32_t number) const;
+    [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
+    void require_stamp();
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    gpu::Submission submission_;
+    gpu::Timestamps timestamps_;
+    gpu::MappedBuffer mesh_;
+    gpu::MappedBuffer input_;
+    gpu::MappedBuffer read_back_;
+    /// Laid out like the read-back, for tile batches whose results stay on the device; followed by
+    /// the hits in the cells of intersections.
+    gpu::MappedBuffer words_;
+    ResidentBuffers resident_;
+    bool has_resident_outputs_ = false;
+    std::vector<VkBufferCopy> copies_;
+    std::vector<ResidentBuffers::Words> export_words_;  // by tile batch
+    std::vector<passes::ComputeSets> sets_;             // by tile batch
+    /// By tile batch; null for those that never used the compute technique. Each has scratch memory
+    /// of its own, since no barrier separates the tile batches of a submission.
+    std::vector<std::unique_ptr<ComputeBuffers>> compute_;
+    std::vector<TileBatchOnDevice> tile_batches_;
+    std::vector<std::uint32_t> running_;
+    SubmissionState state_ = SubmissionState::none;
+    std::uint64_t stamp_offset_ = 0;  // in the read-back, which holds 0 there until execution
+    std::uint32_t stamp_ = 0;
+};
+
+}  // namespace nearfield::render

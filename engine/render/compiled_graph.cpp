@@ -1,0 +1,222 @@
+#include <engine/graph/print.hpp>
+#include <engine/render/compiled_graph.hpp>
+#include <passes/prototype.hpp>
+#include <passes/tile_renderer.hpp>
+
+#include <shaders/number_frag.hpp>
+
+namespace nearfield::render {
+using graph::Handle;
+
+namespace {
+
+/// By the pass that exports samples.
+constexpr graph::ExternalAccess read_once_more{{}, graph::Access::storage_read_in_compute};
+
+}  // namespace
+
+RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
+                                 const passes::Frame& frame)
+    : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
+                                                  device.stencil_format(), "stencil")),
+      distance_render_pass_(passes::make_prototype(device, passes::number_format,
+                                                   passes::distance_depth_format, "distance")),
+      white_render_pass_(
+          passes::make_prototype(device, passes::white_format, VK_FORMAT_UNDEFINED, "white")),
+      signed_feature_render_pass_(passes::make_prototype(
+          device, passes::signed_feature_format, passes::distance_depth_format, "signed feature")),
+      gradient_render_pass_(passes::make_prototype(device, device.gradient_format(),
+                                                   VK_FORMAT_UNDEFINED, "gradient")),
+      draw_layout_(passes::make_draw_layout(device)),
+      stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
+               "stencil"),
+      strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
+      fill(device, draw_layout_.get(), stencil_, frame),
+      color_fill(device, draw_layout_.get(), white_render_pass_.get(), frame),
+      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), frame),
+      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get(), frame),
+      gradient(device, layout, gradient_render_pass_.get(), frame),
+      early_out(device, frame),
+      intersect(device, draw_layout_.get(), strategies_, early_out, frame),
+      resolve_points(device, layout, frame, passes::ResolvePoints::Source::images),
+      resolve_field(device, layout, frame),
+      resolve_field_points(device, layout, frame),
+      collect_gradients(device, layout, frame),
+      collect(device, layout, frame) {}
+
+ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
+                                   const passes::Frame& frame)
+    : resolve_points(device, layout, frame, passes::ResolvePoints::Source::lists),
+      masks(device, layout, frame),
+      blocks(device, layout, frame) {}
+
+CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
+                             VkExtent2D extent)
+    : needs_(needs), extent_(extent) {
+    input_ = graph_.import_buffer({"input", true, false});
+    if (needs.compute != ComputeKey{}) {
+        declare_compute(*passes.compute);
+    } else {
+        declare_drawn(*passes.raster);
+    }
+    executor_ = graph::make_executor(device, graph_);
+}
+
+void CompiledGraph::declare_compute(const ComputePipelines& passes) {
+    const ComputeKey& needs = needs_.compute;
+    if (needs.points) {
+        results_ = graph_.import_buffer({"point results", false, true});
+        passes.resolve_points.declare(graph_, input_, results_);
+    }
+    if (!needs.fill && !needs.overlap) {
+        return;
+    }
+    scratch_ = graph_.import_buffer({"scratch", false, false},
+                                    needs_.keeps_hits ? read_once_more : graph::ExternalAccess{});
+    Handle scratch = passes.masks.declare_clear(graph_, scratch_);
+    if (needs.fill) {
+        scratch = passes.masks.declare_fill(graph_, input_, scratch);
+    }
+    if (needs.boundaries_b) {
+        scratch = passes.masks.declare_boundaries_b(graph_, input_, scratch);
+    }
+    if (needs.boundaries_a) {
+        scratch = passes.masks.declare_boundaries_a(graph_, input_, scratch);
+    }
+    if (needs.overlap) {
+        samples_ = graph_.import_buffer({"samples", true, true});
+        static_cast<void>(passes.masks.declare_collect(graph_, input_, scratch, samples_));
+    }
+    if (needs.field_values || needs.field_features || needs.field_points) {
+        field_ = graph_.import_buffer({"field results", false, true});
+        Handle field = field_;
+        if (needs.field_values) {
+            field = passes.blocks.declare_values(graph_, input_, scratch, field);
+        }
+        if (needs.field_features) {
+            field = passes.blocks.declare_features(graph_, input_, scratch, field);
+        }
+        if (needs.field_points) {
+            field = passes.blocks.declare_points(graph_, input_, scratch, field);
+        }
+    }
+}
+
+void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
+    mesh_ = graph_.import_buffer({"mesh", true, false});
+    declare_images(passes);
+    if (needs_.points) {
+        results_ = graph_.import_buffer({"point results", false, true});
+        const auto& [features, sign] = images_.by_encoding.front();
+        passes.resolve_points.declare(graph_, input_, results_, features, sign);
+    }
+    if (needs_.any_field()) {
+        field_ = graph_.import_buffer({"field results", false, true});
+        declare_field(passes);
+    }
+    if (needs_.overlap != GraphKey{}.overlap) {
+        samples_ = graph_.import_buffer({"samples", true, true});
+        if (needs_.keeps_hits) {
+            kept_hits_ = graph_.import_buffer({"kept hits"}, read_once_more);
+        }
+        passes::Collect::Output collected{samples_, kept_hits_};
+        for (std::size_t i = 0; i < intersection_strategies; ++i) {
+            const auto strategy = static_cast<IntersectionStrategy>(i);
+            if (needs_.overlap[i]) {
+                hits_[i] = passes.intersect.declare(graph_, mesh_, extent_, strategy);
+                if (strategy == IntersectionStrategy::stencil ||
+                    strategy == IntersectionStrategy::depth) {
+                    collected.samples =
+                        passes.early_out.declare(graph_, collected.samples, strategy);
+                }
+                collected = passes.collect.declare(graph_, input_, hits_[i], collected, strategy);
+            }
+        }
+    }
+}
+
+/// Points read the images of the first encoding, the stencil's.
+void CompiledGraph::declare_images(const RasterPipelines& passes) {
+    const bool by_stencil = needs_.points || needs_.field_by(SignEncoding::stencil);
+    const bool by_color = needs_.field_by(SignEncoding::color);
+    auto& [stencil, color, feature_bit] = images_.by_encoding;
+    if (by_stencil) {
+        stencil.sign = passes.fill.declare(graph_, mesh_, extent_);
+    }
+    if (by_color) {
+        color.sign = passes.color_fill.declare(graph_, mesh_, extent_);
+    }
+    if (by_stencil || by_color) {
+        const Handle features = passes.cone_mesh.declare(graph_, mesh_, extent_);
+        stencil.features = by_stencil ? features : Handle{};
+        color.features = by_color ? features : Handle{};
+    }
+    if (needs_.field_by(SignEncoding::feature_bit)) {
+        feature_bit.features = passes.feature_bit.declare(graph_, mesh_, extent_);
+        feature_bit.sign = feature_bit.features;
+    }
+}
+
+void CompiledGraph::declare_field(const RasterPipelines& passes) {
+    passes::FieldImages images = images_;
+    if (!needs_.field_by(SignEncoding::stencil)) {
+        images.by_encoding.front() = {};  // drawn for points of penetration
+    }
+    Handle field = field_;
+    if (needs_.field_cells) {
+        field = passes.resolve_field.declare(graph_, input_, images, field);
+    }
+    if (needs_.field_points) {
+        field = passes.resolve_field_points.declare(graph_, input_, images, field);
+    }
+    if (needs_.blended) {
+        gradients_ = passes.gradient.declare(graph_, mesh_, field, extent_);
+        field = passes.collect_gradients.declare(graph_, input_, gradients_, field);
+    }
+}
+
+void CompiledGraph::set_buffers(const Buffers& buffers) {
+    const auto set = [&](Handle handle, VkBuffer buffer) {
+        if (handle != Handle{}) {
+            executor_->set_buffer(handle, buffer);
+        }
+    };
+    set(mesh_, buffers.mesh);
+    set(input_, buffers.input);
+    set(scratch_, buffers.scratch);
+    set(results_, buffers.words);
+    set(field_, buffers.words);
+    set(samples_, buffers.read_back);
+    set(kept_hits_, buffers.hits);
+}
+
+void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
+                                const passes::Frame& frame) const {
+    using Layout = passes::ComputeLayout;
+    const auto bind_pair = [&](VkDescriptorSet set, const passes::FieldImages::Pair& images) {
+        layout.write_image(set, Layout::image, executor_->sampled_view(images.features));
+        layout.write_image(set, Layout::sign_image, executor_->sampled_view(images.sign));
+    };
+    if (needs_.points) {
+        bind_pair(frame.points, images_.by_encoding.front());
+    }
+    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+        if (needs_.field[encoding]) {
+            bind_pair(frame.field[encoding], images_.by_encoding[encoding]);
+        }
+    }
+    if (needs_.blended) {
+        layout.write_image(frame.gradients, Layout::image, executor_->sampled_view(gradients_));
+    }
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        if (needs_.overlap[i]) {
+            layout.write_image(frame.samples[i], Layout::image, executor_->sampled_view(hits_[i]));
+        }
+    }
+}
+
+std::string CompiledGraph::print(GraphFormat format) const {
+    return graph::print(graph_, executor_->baked(), format);
+}
+
+}  // namespace nearfield::render

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/plan/tile_batch.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/record_context.hpp>
+
+#include <cstdint>
+
+namespace nearfield::render {
+
+/// A part of a buffer.
+struct BufferPart {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// The memory of the compute technique beyond the read-back: its input, and scratch memory that
+/// never leaves the device. Both only grow.
+class ComputeBuffers {
+public:
+    explicit ComputeBuffers(const gpu::Device& device);
+
+    /// Uploads a tile batch. Throws StatusException (too_large) if a part exceeds what a storage
+    /// buffer of the device may hold.
+    void upload(const plan::TileBatch& round);
+
+    [[nodiscard]] VkBuffer input() const { return input_.handle(); }
+    [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
+    /// The part of the scratch memory that the last uploaded tile batch uses.
+    [[nodiscard]] BufferPart scratch_part() const { return {scratch_.handle(), 0, scratch_bytes_}; }
+
+    /// Parts of the read-back: by point, of all fields, by tile, the samples.
+    struct Output {
+        BufferPart points, field, summaries, samples;
+    };
+    /// Points the frame's descriptor sets of the compute technique to the last uploaded tile batch.
+    void bind(const passes::ComputeLayout& layout, const passes::Frame& frame,
+              const Output& output) const;
+
+private:
+    /// Copies the contents of vectors, one after the other, into the next part of the input.
+    template <class... Vectors>
+    BufferPart append(const char* what, const Vectors&... vectors);
+
+    const gpu::Device* device_;
+    gpu::MappedBuffer input_;
+    gpu::MappedBuffer scratch_;
+    std::uint64_t end_ = 0;  // of the data in the input
+    std::uint64_t scratch_bytes_ = 0;
+    BufferPart tiles_, points_, blocks_, segments_, feature_blocks_, geometry_, work_;
+};
+
+}  // namespace nearfield::render

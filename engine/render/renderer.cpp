@@ -1,0 +1,219 @@
+#include <engine/base/stopwatch.hpp>
+#include <engine/graph/format.hpp>
+#include <engine/render/renderer.hpp>
+
+#include <algorithm>
+
+namespace nearfield::render {
+namespace {
+
+// Compiled graphs that keep their images: more than the kinds of batches that alternate in
+// practice.
+constexpr std::size_t max_graphs = 8;
+
+ComputeKey compute_key_of(const plan::TileBatch& round) {
+    const plan::ComputeWork& work = round.compute;
+    ComputeKey needs;
+    needs.points = !round.points.empty();
+    needs.field_values = !work.blocks.empty();
+    needs.field_features = work.features;
+    needs.field_points = !work.points.empty();
+    needs.fill = !work.rows.empty();
+    needs.boundaries_a = !work.polygons_a.empty();
+    needs.boundaries_b = !work.polygons_b.empty();
+    needs.overlap = !work.overlaps.empty();
+    return needs;
+}
+
+GraphKey key_of(const plan::TileBatch& round) {
+    GraphKey needs;
+    needs.keeps_hits = round.keeps_hits;
+    if (round.by_compute) {
+        needs.compute = compute_key_of(round);
+        return needs;
+    }
+    needs.points = !round.points.empty();
+    needs.field_points = !round.field_point_runs.empty();
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        needs.overlap[i] = !round.overlap_draws[i].empty();
+    }
+    for (const plan::TileDraw& draw : round.distance_draws) {
+        const auto encoding = static_cast<std::size_t>(draw.sign);
+        needs.field[encoding] = needs.field[encoding] || draw.field;
+        needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
+                            draw.first_feature != plan::not_asked;
+        needs.blended = needs.blended || draw.blended;
+    }
+    return needs;
+}
+
+}  // namespace
+
+Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques)
+    : device_(&device),
+      layout_(device),
+      copy_back_(device),
+      export_field_(device, layout_),
+      export_records_(device, layout_),
+      export_samples_(device, layout_) {
+    if (techniques.raster) {
+        passes_.raster.emplace(device, layout_, frame_);
+    }
+    if (techniques.compute) {
+        passes_.compute.emplace(device, layout_, frame_);
+    }
+}
+
+const char* Renderer::gradient_format() const {
+    return graph::find_format(device_->gradient_format())->name;
+}
+
+std::unique_ptr<BatchResources> Renderer::make_resources() const {
+    return std::make_unique<BatchResources>(*device_, layout_);
+}
+
+/// Batches in flight share ownership of the graph they use, so it may be replaced here.
+std::shared_ptr<CompiledGraph> Renderer::graph_for(GraphKey needs, plan::TileSize extent) {
+    VkExtent2D atlas{plan::smallest_atlas, plan::smallest_atlas};
+    bool grows = false;
+    for (const auto& graph : graphs_) {
+        if (graph->needs() == needs) {
+            if (graph->extent().width >= extent.width && graph->extent().height >= extent.height) {
+                return graph;
+            }
+            atlas = graph->extent();
+            grows = true;
+        }
+    }
+    // Powers of two, so that an atlas that grows a little each frame is not recreated each frame.
+    while (atlas.width < extent.width) {
+        atlas.width *= 2;
+    }
+    while (atlas.height < extent.height) {
+        atlas.height *= 2;
+    }
+    device_->log(grows ? LogLevel::warning : LogLevel::information, [&] {
+        return std::string(grows ? "images grow to " : "images for a new kind of batch: ") +
+               std::to_string(atlas.width) + " x " + std::to_string(atlas.height);
+    });
+    last_graph_ = nullptr;
+    std::erase_if(graphs_, [&](const auto& graph) { return graph->needs() == needs; });
+    if (graphs_.size() == max_graphs) {
+        graphs_.erase(graphs_.begin());
+    }
+    graphs_.push_back(std::make_shared<CompiledGraph>(*device_, passes_, needs, atlas));
+    return graphs_.back();
+}
+
+std::uint32_t Renderer::sample_capacity(const plan::TileBatch& round, SampleRoom room) const {
+    if (room == SampleRoom::all) {
+        return static_cast<std::uint32_t>(round.listed_cells);
+    }
+    const std::uint64_t expected =
+        std::max<std::uint64_t>(max_samples_, 4096 + round.listed_cells / 8);
+    return static_cast<std::uint32_t>(std::min(round.listed_cells, expected));
+}
+
+void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
+                       const plan::ResidentOutputs& resident, plan::TileSize extent,
+                       SampleRoom room, BatchResources& slot, Timings& timings) {
+    const Stopwatch start;
+    slot.upload(tile_batches, resident);
+    last_had_fields_ = !resident.fields.empty();
+    last_had_records_ = !resident.records.empty();
+    last_had_samples_ = !resident.samples.empty();
+    slot.run(static_cast<std::uint32_t>(tile_batches.size()));
+    for (const std::uint32_t number : slot.running()) {
+        TileBatchOnDevice& round = slot.round(number);
+        round.graph = graph_for(key_of(tile_batches[number]), extent);
+        round.frame.sample_capacity = sample_capacity(tile_batches[number], room);
+        last_graph_ = round.graph;
+    }
+    slot.lay_out_output();
+    timings.plan += start.milliseconds();
+}
+
+void Renderer::submit(BatchResources& slot, const Submission& order, Timings& timings) {
+    const Stopwatch start;
+    record_tile_batches(slot, slot.begin());
+    timings.record += start.milliseconds();
+    slot.submit(order);
+}
+
+void Renderer::record(BatchResources& slot, VkCommandBuffer commands, std::uint32_t stamp,
+                      Timings& timings) {
+    const Stopwatch start;
+    device_->begin_label(commands, "nearfield");
+    record_tile_batches(slot, commands);
+    slot.end_recording(commands, stamp);
+    device_->end_label(commands);
+    timings.record += start.milliseconds();
+}
+
+bool Renderer::submit_those_without_room(BatchResources& slot, Timings& timings) {
+    slot.run_those_without_room();
+    if (slot.running().empty()) {
+        return false;
+    }
+    slot.lay_out_output();
+    submit(slot, {}, timings);
+    return true;
+}
+
+void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer commands) {
+    slot.timestamps().reset(commands);
+    for (const std::uint32_t number : slot.running()) {
+        const TileBatchOnDevice& round = slot.round(number);
+        frame_ = round.frame;
+        if (!frame_.round->by_compute) {
+            passes_.raster->early_out.reset(commands);
+        }
+        slot.hand_buffers_to(*round.graph, number);
+        round.graph->execute(commands, slot.timestamps());
+    }
+    record_exports(slot, commands);
+}
+
+void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
+    const BatchResources::CopyBack copies = slot.copy_back();
+    if (!copies.ranges.empty()) {
+        copy_back_.record(commands, slot.timestamps(), copies.words, copies.read_back,
+                          copies.ranges);
+    }
+    if (slot.has_resident_outputs()) {
+        const ResidentBuffers& resident = slot.resident();
+        for (std::size_t i = 0; i < resident.resident().fields.size(); ++i) {
+            export_field_.record(commands, slot.timestamps(), resident.field_item(i));
+        }
+        for (std::size_t i = 0; i < resident.resident().records.size(); ++i) {
+            export_records_.record(commands, slot.timestamps(), resident.records_item(i));
+        }
+        for (std::size_t i = 0; i < resident.resident().samples.size(); ++i) {
+            export_samples_.record(commands, slot.timestamps(), resident.samples_item(i));
+        }
+    }
+}
+
+void Renderer::wait(BatchResources& slot, Timings& timings) {
+    slot.wait();
+    slot.timestamps().collect(timings.passes);
+    for (const std::uint32_t number : slot.running()) {
+        max_samples_ = std::max(max_samples_, slot.round(number).sample_count);
+    }
+}
+
+std::string Renderer::print(GraphFormat format) const {
+    std::string text = last_graph_ == nullptr ? std::string() : last_graph_->print(format);
+    if (last_had_fields_) {
+        text += export_field_.print(format);
+    }
+    if (last_had_records_) {
+        text += export_records_.print(format);
+    }
+    if (last_had_samples_) {
+        text += export_samples_.print(format);
+    }
+    return text;
+}
+
+}  // namespace nearfield::render

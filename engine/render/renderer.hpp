@@ -1,0 +1,89 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/plan/tile_batch.hpp>
+#include <engine/render/batch_resources.hpp>
+#include <engine/render/compiled_graph.hpp>
+#include <nearfield/result.hpp>
+#include <passes/copy_back.hpp>
+#include <passes/export_field.hpp>
+#include <passes/export_records.hpp>
+#include <passes/export_samples.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nearfield::render {
+
+/// Number of samples of intersections to reserve memory for: a likely number, since tile batches
+/// that exceed it can be submitted again; or all.
+enum class SampleRoom { likely, all };
+
+/// Takes the tile batches of a batch to the device in one submission, or into a command buffer of
+/// the host. Owns what all batches in flight share: pipelines, and compiled graphs with their
+/// images, which batches and tile batches use one after the other (the graph's barriers order them,
+/// in one command buffer and from one submission to the next on the same queue). Everything
+/// specific to a batch is in its BatchResources. Compiled graphs only grow; the steady state
+/// allocates nothing and creates nothing.
+class Renderer {
+public:
+    /// Makes the pipelines of these techniques; makes none later.
+    Renderer(const gpu::Device& device, const DeviceTechniques& techniques);
+
+    /// The name of the format that gradients are blended in.
+    [[nodiscard]] const char* gradient_format() const;
+
+    /// Resources for a batch of this renderer, which must outlive them.
+    [[nodiscard]] std::unique_ptr<BatchResources> make_resources() const;
+
+    /// Uploads tile batches and their resident outputs, and reserves memory for their results; adds
+    /// to the time of planning. Both have to stay unchanged, and `slot` untouched, until the device
+    /// is done.
+    void prepare(std::span<const plan::TileBatch> tile_batches,
+                 const plan::ResidentOutputs& resident, plan::TileSize extent, SampleRoom room,
+                 BatchResources& slot, Timings& timings);
+    /// Records the prepared tile batches and submits them; adds to the time of recording.
+    void submit(BatchResources& slot, const Submission& order, Timings& timings);
+    /// Records the prepared tile batches into a command buffer of the host, followed by a stamp
+    /// (BatchResources::end_recording). Everything that can fail is done before anything is
+    /// recorded.
+    void record(BatchResources& slot, VkCommandBuffer commands, std::uint32_t stamp,
+                Timings& timings);
+    /// Waits for the submission, if any, and adds the times of the passes. The results are then in
+    /// `slot`, except for tile batches that found more samples than they had memory for.
+    void wait(BatchResources& slot, Timings& timings);
+    /// Submits those tile batches again, with memory for all samples, overwriting the results of
+    /// the others. Returns false if there are none.
+    [[nodiscard]] bool submit_those_without_room(BatchResources& slot, Timings& timings);
+
+    /// Prints the graph of the last submitted tile batch and the export graphs; empty before the
+    /// first.
+    [[nodiscard]] std::string print(GraphFormat format) const;
+
+private:
+    [[nodiscard]] std::shared_ptr<CompiledGraph> graph_for(GraphKey needs, plan::TileSize extent);
+    [[nodiscard]] std::uint32_t sample_capacity(const plan::TileBatch& round,
+                                                SampleRoom room) const;
+    void record_tile_batches(BatchResources& slot, VkCommandBuffer commands);
+    void record_exports(BatchResources& slot, VkCommandBuffer commands);
+
+    const gpu::Device* device_;
+    passes::Frame frame_;  // of the tile batch that is being recorded
+    passes::ComputeLayout layout_;
+    PipelineSet passes_;
+    passes::CopyBack copy_back_;
+    passes::ExportField export_field_;
+    passes::ExportRecords export_records_;
+    passes::ExportSamples export_samples_;
+    std::vector<std::shared_ptr<CompiledGraph>> graphs_;
+    std::shared_ptr<const CompiledGraph> last_graph_;
+    bool last_had_fields_ = false;  // among the resident outputs of the last batch
+    bool last_had_records_ = false;
+    bool last_had_samples_ = false;
+    std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
+};
+
+}  // namespace nearfield::render

@@ -1,0 +1,283 @@
+#include <engine/graph/access.hpp>
+#include <engine/render/resident_buffers.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+
+namespace nearfield::render {
+namespace {
+
+using Layout = passes::ComputeLayout;
+
+constexpr std::array<const char*, 1> set_names{"nearfield hand over set"};
+
+std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
+    return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(RecordData);
+}
+
+std::uint64_t bytes_of_samples(const plan::SamplesOutput& samples) {
+    return sizeof(IntersectionSummaryData) +
+           std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
+}
+
+std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
+    return std::uint64_t{samples.tile_count} * sizeof(plan::SampleBoxData) +
+           std::uint64_t{samples.block_count} * sizeof(std::uint32_t);
+}
+
+/// Removes the first `count` of the remaining sets and returns them.
+std::span<const VkDescriptorSet> take(std::span<const VkDescriptorSet>& sets, std::size_t count) {
+    const std::span<const VkDescriptorSet> taken = sets.first(count);
+    sets = sets.subspan(count);
+    return taken;
+}
+
+}  // namespace
+
+ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
+    : device_(&device),
+      layout_(&layout),
+      tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+              "nearfield hand over tables"),
+      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+               gpu::Direction::none, "nearfield resident records") {}
+
+void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
+    resident_ = &resident;
+    for (std::size_t i = 0; i < resident.fields.size(); ++i) {
+        if (i == images_.size()) {
+            const std::string number = std::to_string(i);
+            images_.push_back({gpu::KeptImage(*device_, VK_FORMAT_R32_SFLOAT,
+                                              "nearfield resident signed distance " + number),
+                               gpu::KeptImage(*device_, VK_FORMAT_R32_UINT,
+                                              "nearfield resident feature id " + number)});
+        }
+        const VkExtent2D extent{resident.fields[i].width, resident.fields[i].height};
+        images_[i].signed_distance.reserve(extent);
+        images_[i].feature.reserve(extent);
+    }
+    lay_out_buffer();
+    upload_tables();
+    make_sets();
+}
+
+void ResidentBuffers::lay_out_buffer() {
+    places_.clear();
+    sample_places_.clear();
+    std::uint64_t end = 0;
+    for (const plan::RecordsOutput& records : resident_->records) {
+        require_range(*device_, bytes_of_records(records), "the records");
+        places_.push_back(
+            place_at(end, bytes_of_records(records),
+                     std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData)));
+        end = places_.back().end;
+    }
+    for (const plan::SamplesOutput& samples : resident_->samples) {
+        require_range(*device_, bytes_of_samples(samples), "the samples that stay");
+        sample_places_.push_back(
+            place_at(end, bytes_of_samples(samples), bytes_of_blocks(samples)));
+        end = sample_places_.back().end;
+    }
+    if (end > 0) {
+        records_.reserve(end);
+    }
+}
+
+/// Places records and blocks of these sizes, in bytes, behind `end`.
+ResidentBuffers::Place ResidentBuffers::place_at(std::uint64_t end, std::uint64_t records,
+                                                 std::uint64_t blocks) const {
+    const std::uint64_t step =
+        std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
+    const auto align = [step](std::uint64_t offset) { return (offset + step - 1) / step * step; };
+    Place place;
+    place.records = align(end);
+    place.blocks = align(place.records + records);
+    place.end = place.blocks + std::max(blocks, smallest_part);
+    return place;
+}
+
+void ResidentBuffers::upload_tables() {
+    const std::vector<std::uint32_t>& tables = resident_->tables;
+    require_range(*device_, bytes_of(tables), "the tables of what is handed over");
+    tables_.reserve(std::max(bytes_of(tables), smallest_part));
+    if (!tables.empty()) {
+        std::memcpy(tables_.data(), tables.data(), bytes_of(tables));
+    }
+    tables_.flush();
+}
+
+void ResidentBuffers::make_sets() {
+    sets_.clear();
+    append_sets(resident_->field_parts.size(), sets_of_images_);
+    append_sets(resident_->point_runs.size() + resident_->records.size() +
+                    2 * resident_->sample_runs.size() + resident_->samples.size(),
+                sets_of_buffers_);
+}
+
+void ResidentBuffers::append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own) {
+    while (own.size() < count) {
+        own.emplace_back(*device_, *layout_, set_names);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        sets_.push_back(own[i][0]);
+    }
+}
+
+void ResidentBuffers::bind_words(VkDescriptorSet set, const BufferPart& words) const {
+    layout_->write_buffer(set, Layout::words, words.buffer, words.offset,
+                          std::max(words.bytes, smallest_part));
+    layout_->write_buffer(set, Layout::tables, tables_.handle(), 0,
+                          std::max(bytes_of(resident_->tables), smallest_part));
+}
+
+void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place) const {
+    layout_->write_buffer(set, Layout::records, records_.handle(), place.records,
+                          place.blocks - place.records);
+    layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.blocks,
+                          place.end - place.blocks);
+}
+
+void ResidentBuffers::bind(std::span<const Words> words, const BufferPart& none,
+                           VkBuffer summaries) {
+    words_ = none.buffer;
+    summaries_ = summaries;
+    std::span<const VkDescriptorSet> sets(sets_);
+    bind_fields(words, sets);
+    bind_points(words, none, sets);
+    bind_samples(words, none, sets);
+}
+
+void ResidentBuffers::bind_fields(std::span<const Words> words,
+                                  std::span<const VkDescriptorSet>& sets) const {
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
+        const plan::FieldOutputs& field = resident_->fields[i];
+        std::uint32_t part = field.first_part;
+        for (const VkDescriptorSet set : take(sets, field.part_count)) {
+            bind_words(set, words[resident_->field_parts[part++].round].field);
+            layout_->write_storage_image(set, Layout::signed_distance_image,
+                                         images_[i].signed_distance.view());
+            layout_->write_storage_image(set, Layout::feature_id_image, images_[i].feature.view());
+        }
+    }
+}
+
+void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart& none,
+                                  std::span<const VkDescriptorSet>& sets) {
+    details_.clear();
+    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
+        const plan::RecordsOutput& records = resident_->records[i];
+        std::uint32_t number = records.first_run;
+        for (const VkDescriptorSet set : take(sets, records.run_count)) {
+            const plan::PointRunOutput& run = resident_->point_runs[number++];
+            bind_words(set, words[run.round].points);
+            bind_records(set, places_[i]);
+            constexpr std::uint32_t words_of_details =
+                sizeof(plan::PointDetails) / sizeof(std::uint32_t);
+            details_.push_back(words[run.round].point_count + words_of_details * run.first);
+        }
+        const VkDescriptorSet last = take(sets, 1).front();
+        bind_words(last, none);
+        bind_records(last, places_[i]);
+    }
+}
+
+void ResidentBuffers::bind_samples(std::span<const Words> words, const BufferPart& none,
+                                   std::span<const VkDescriptorSet>& sets) const {
+    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
+        const plan::SamplesOutput& samples = resident_->samples[i];
+        const auto bind = [&](const BufferPart& part) {
+            const VkDescriptorSet set = take(sets, 1).front();
+            bind_words(set, part);
+            bind_records(set, sample_places_[i]);
+        };
+        for (std::uint32_t number = 0; number < samples.run_count; ++number) {
+            const Words& round = words[resident_->sample_runs[samples.first_run + number].round];
+            bind(round.summaries);
+            bind(samples.block_count > 0 ? round.hits : none);
+        }
+        bind(none);
+    }
+}
+
+passes::ExportField::Item ResidentBuffers::field_item(std::size_t i) const {
+    const plan::FieldOutputs& field = resident_->fields[i];
+    return {&field,
+            std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
+            std::span(sets_).subspan(field.first_part, field.part_count),
+            words_,
+            images_[i].signed_distance.handle(),
+            images_[i].feature.handle()};
+}
+
+passes::ExportRecords::Item ResidentBuffers::records_item(std::size_t i) const {
+    const plan::RecordsOutput& records = resident_->records[i];
+    const std::size_t first_set = resident_->field_parts.size() + records.first_run + i;
+    return {&records,
+            std::span(resident_->point_runs).subspan(records.first_run, records.run_count),
+            std::span(details_).subspan(records.first_run, records.run_count),
+            std::span(sets_).subspan(first_set, records.run_count + 1),
+            words_,
+            records_.handle()};
+}
+
+passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
+    const plan::SamplesOutput& samples = resident_->samples[i];
+    const std::size_t first_set = resident_->field_parts.size() + resident_->point_runs.size() +
+                                  resident_->records.size() + 2 * std::size_t{samples.first_run} +
+                                  i;
+    return {&samples,
+            std::span(resident_->sample_runs).subspan(samples.first_run, samples.run_count),
+            resident_->sample_tiles,
+            std::span(sets_).subspan(first_set, 2 * std::size_t{samples.run_count} + 1),
+            summaries_,
+            records_.handle()};
+}
+
+HandedOver ResidentBuffers::state(graph::Access access) const {
+    const graph::AccessTraits& traits = graph::traits(access);
+    return {traits.stages, traits.access(), traits.layout, device_->queue_family()};
+}
+
+ResidentField ResidentBuffers::field(std::size_t i) const {
+    const auto image = [](const gpu::KeptImage& kept) {
+        return ResidentImage{kept.handle(), kept.view(), kept.format()};
+    };
+    const plan::FieldOutputs& field = resident_->fields[i];
+    const Images& images = images_[i];
+    return {image(images.signed_distance),
+            image(images.feature),
+            field.width,
+            field.height,
+            images.signed_distance.extent(),
+            geometry::to_public(field.origin),
+            field.cell,
+            field.error_bound,
+            state(graph::Access::handed_over_image)};
+}
+
+ResidentRecords ResidentBuffers::records(std::size_t i) const {
+    const plan::RecordsOutput& records = resident_->records[i];
+    return {records_.handle(),
+            places_[i].records,
+            bytes_of_records(records),
+            records.capacity,
+            geometry::to_public(records.origin),
+            records.error_bound,
+            state(graph::Access::handed_over_buffer)};
+}
+
+ResidentSamples ResidentBuffers::samples(std::size_t i) const {
+    const plan::SamplesOutput& samples = resident_->samples[i];
+    return {records_.handle(),
+            sample_places_[i].records,
+            bytes_of_samples(samples),
+            samples.capacity,
+            geometry::to_public(samples.origin),
+            samples.cell,
+            samples.error_bound,
+            state(graph::Access::handed_over_buffer)};
+}
+
+}  // namespace nearfield::render

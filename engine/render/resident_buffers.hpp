@@ -1,0 +1,104 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/buffer_parts.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/image.hpp>
+#include <engine/graph/graph.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <engine/plan/tile_batch.hpp>
+#include <engine/render/compute_buffers.hpp>
+#include <nearfield/resident.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/export_field.hpp>
+#include <passes/export_records.hpp>
+#include <passes/export_samples.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::render {
+
+/// The images and the buffer that one batch in flight provides to the host's shaders, and what the
+/// passes need to fill them. Everything is kept from batch to batch and only grows: the first field
+/// of a batch takes the first images, and so on.
+class ResidentBuffers {
+public:
+    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout);
+
+    /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
+    /// upload. Must not be called while the device uses these buffers or the host uses the resident
+    /// outputs.
+    void upload(const plan::ResidentOutputs& resident);
+
+    /// Where a tile batch writes the words of its points (with their details) and of its fields,
+    /// the summaries of its tiles, and the hits in the cells of intersections.
+    struct Words {
+        BufferPart points, field, summaries, hits;
+        std::uint32_t point_count = 0;
+    };
+    /// Points the descriptor sets to the words, by tile batch; `none`: any part of the buffer that
+    /// holds the words of points and fields. `summaries`: the buffer of all summaries.
+    void bind(std::span<const Words> words, const BufferPart& none, VkBuffer summaries);
+
+    [[nodiscard]] const plan::ResidentOutputs& resident() const { return *resident_; }
+    /// What the passes record from; valid after bind().
+    [[nodiscard]] passes::ExportField::Item field_item(std::size_t i) const;
+    [[nodiscard]] passes::ExportRecords::Item records_item(std::size_t i) const;
+    [[nodiscard]] passes::ExportSamples::Item samples_item(std::size_t i) const;
+
+    /// The resident output of the i-th field, records or samples of the batch.
+    [[nodiscard]] ResidentField field(std::size_t i) const;
+    [[nodiscard]] ResidentRecords records(std::size_t i) const;
+    [[nodiscard]] ResidentSamples samples(std::size_t i) const;
+
+private:
+    struct Images {
+        gpu::KeptImage signed_distance;
+        gpu::KeptImage feature;
+    };
+    struct Place {
+        std::uint64_t records = 0;  ///< in the buffer: the summary, followed by records or samples
+        std::uint64_t blocks = 0;
+        std::uint64_t end = 0;
+    };
+
+    void lay_out_buffer();
+    [[nodiscard]] Place place_at(std::uint64_t end, std::uint64_t records,
+                                 std::uint64_t blocks) const;
+    void upload_tables();
+    void make_sets();
+    void append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own);
+    void bind_fields(std::span<const Words> words, std::span<const VkDescriptorSet>& sets) const;
+    void bind_points(std::span<const Words> words, const BufferPart& none,
+                     std::span<const VkDescriptorSet>& sets);
+    void bind_samples(std::span<const Words> words, const BufferPart& none,
+                      std::span<const VkDescriptorSet>& sets) const;
+    void bind_words(VkDescriptorSet set, const BufferPart& words) const;
+    void bind_records(VkDescriptorSet set, const Place& place) const;
+    [[nodiscard]] HandedOver state(graph::Access access) const;
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    const plan::ResidentOutputs* resident_ = nullptr;
+    gpu::MappedBuffer tables_;
+    gpu::MappedBuffer records_;
+    std::vector<Images> images_;          // by field
+    std::vector<Place> places_;           // by records
+    std::vector<Place> sample_places_;    // by samples
+    std::vector<std::uint32_t> details_;  // by run of points
+    // Fields, records and samples each have their own, so that everything that a set was ever bound
+    // to is bound anew with every use: lavapipe reads bindings that no shader uses, and the objects
+    // they refer to may be gone.
+    std::vector<passes::DescriptorSets> sets_of_images_;
+    std::vector<passes::DescriptorSets> sets_of_buffers_;
+    /// By part of a field; then, for each records output, one per run and one more; then, for each
+    /// samples output, two per run and one more.
+    std::vector<VkDescriptorSet> sets_;
+    VkBuffer words_ = VK_NULL_HANDLE;
+    VkBuffer summaries_ = VK_NULL_HANDLE;
+};
+
+}  // namespace nearfield::render

@@ -1,0 +1,212 @@
+#include <engine/geometry/transformed_polygon.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/resident/resident_samples_builder.hpp>
+#include <engine/resident/resident_tables.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nearfield::resident {
+namespace {
+
+using geometry::Box;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+using plan::ResidentOutputs;
+using plan::SamplesOutput;
+using plan::SampleTileData;
+
+Box box_of(const std::vector<Region>& regions) {
+    Box box;
+    for (const Region& region : regions) {
+        box.extend(geometry::to_vector(region.min));
+        box.extend(geometry::to_vector(region.max));
+    }
+    return box;
+}
+
+/// How far the device's numbers may differ from exact ones (docs/resident_results.md): single
+/// precision for lengths up to the extent of regions and boundary.
+double error_of_samples(const plan::PlannedQuery& planned, const Box& box, bool by_edge) {
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const Box all = by_edge ? box.merged(a.box()) : box;
+    return all.isEmpty() ? 0.0
+                         : std::ldexp(all.diagonal().norm(), -20) +
+                               4.0 * localize::placement_rounding(a, a.box());
+}
+
+void add_vertices(const plan::PlannedQuery& planned, SamplesOutput& samples,
+                  ResidentOutputs& resident) {
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    samples.rings = add_rings(*planned.a, resident);
+    samples.vertices = static_cast<std::uint32_t>(resident.tables.size());
+    for (std::uint32_t i = 0; i < planned.a->size(); ++i) {
+        add_position(a.vertex(i) - samples.origin, resident);
+    }
+}
+
+/// Sets the position of a tile's cells.
+void place(const plan::Tile& tile, const Vector& origin, SampleTileData& data) {
+    const Vector corner = tile.origin() - origin;
+    data.width = tile.width;
+    data.height = tile.height;
+    data.region = tile.region;
+    data.corner_x = static_cast<float>(corner.x());
+    data.corner_y = static_cast<float>(corner.y());
+}
+
+}  // namespace
+
+void ResidentSamplesBuilder::add(const plan::Plan& plan,
+                                 std::span<const plan::TileBatch> tile_batches, std::uint32_t query,
+                                 const IntersectionResult& result, ResidentOutputs& resident) {
+    if (!is_found_) {
+        find_tiles(plan, tile_batches);
+    }
+    const plan::PlannedQuery& planned = plan.queries[query];
+    const auto& asked = std::get<IntersectionQuery>(*planned.query);
+    const bool by_edge = asked.resident_samples && asked.kind != IntersectionKind::volume_volume;
+    const Box box = box_of(result.regions);
+    SamplesOutput& samples = resident.samples.emplace_back();
+    samples.query = query;
+    samples.cell = planned.budget.cell;
+    samples.error_bound = error_of_samples(planned, box, by_edge);
+    samples.first_run = static_cast<std::uint32_t>(resident.sample_runs.size());
+    if (!box.isEmpty()) {
+        samples.origin = box.center();
+    }
+    if (by_edge) {
+        add_vertices(planned, samples, resident);
+    }
+    add_tiles(plan, tile_batches, asked, resident);
+}
+
+void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
+                                        std::span<const plan::TileBatch> tile_batches) {
+    is_found_ = true;
+    tiles_.clear();
+    run_tables_.assign(tile_batches.size(), plan::no_word);
+    FoundTile found;
+    for (found.round = 0; found.round < tile_batches.size(); ++found.round) {
+        const plan::TileBatch& round = tile_batches[found.round];
+        if (round.by_compute) {
+            find_masks(plan, round, found);
+        } else {
+            find_drawn(plan, round, found);
+        }
+    }
+    // By query, then region, row and column: the order in which tiles were cut.
+    std::sort(tiles_.begin(), tiles_.end(),
+              [](const FoundTile& i, const FoundTile& j) { return i.index < j.index; });
+}
+
+void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::TileBatch& round,
+                                        FoundTile found) {
+    for (const std::vector<plan::TileDraw>& draws : round.overlap_draws) {
+        for (const plan::TileDraw& draw : draws) {
+            found.index = round.tile_index[draw.tile];
+            if (plan.queries[plan.tiles[found.index].query].resident) {
+                found.data.summary = draw.tile;
+                found.data.hits = draw.first_hit;
+                tiles_.push_back(found);
+            }
+        }
+    }
+}
+
+void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::TileBatch& round,
+                                        FoundTile found) {
+    const plan::ComputeWork& work = round.compute;
+    for (const plan::OverlapData& overlap : work.overlaps) {
+        found.index = round.tile_index[overlap.tile];
+        if (plan.queries[plan.tiles[found.index].query].resident) {
+            const plan::MaskData& mask_b = work.masks[overlap.mask_b];
+            found.data.summary = overlap.tile;
+            found.data.hits = mask_b.first_word;
+            found.data.mask_a = work.masks[overlap.mask_a].first_word;
+            found.data.words_per_row = mask_b.words_per_row;
+            found.data.runs = overlap.first_run == plan::no_runs
+                                  ? plan::no_word
+                                  : static_cast<std::uint32_t>(work.mask_words) + overlap.first_run;
+            tiles_.push_back(found);
+        }
+    }
+}
+
+void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan,
+                                       std::span<const plan::TileBatch> tile_batches,
+                                       const IntersectionQuery& asked, ResidentOutputs& resident) {
+    SamplesOutput& samples = resident.samples.back();
+    const auto query_of = [&](const FoundTile& tile) { return plan.tiles[tile.index].query; };
+    const auto first =
+        std::partition_point(tiles_.begin(), tiles_.end(),
+                             [&](const FoundTile& tile) { return query_of(tile) < samples.query; });
+    const auto last = std::partition_point(first, tiles_.end(), [&](const FoundTile& tile) {
+        return query_of(tile) == samples.query;
+    });
+    if (asked.resident_samples) {
+        place_blocks(plan, {first, last}, samples);
+    }
+    samples.tile_count = static_cast<std::uint32_t>(last - first);
+    std::sort(first, last, [](const FoundTile& i, const FoundTile& j) {
+        return i.round != j.round ? i.round < j.round : i.index < j.index;
+    });
+    for (auto tile = first; tile != last; ++tile) {
+        if (tile == first || tile->round != std::prev(tile)->round) {
+            plan::SampleRunOutput& run = resident.sample_runs.emplace_back();
+            run.round = tile->round;
+            run.first_tile = static_cast<std::uint32_t>(resident.sample_tiles.size());
+            ++samples.run_count;
+        }
+        place(plan.tiles[tile->index], samples.origin, tile->data);
+        if (samples.rings.count > 0) {
+            tile->data.run_table = run_table(tile_batches, tile->round, resident);
+        }
+        resident.sample_tiles.push_back(tile->data);
+        ++resident.sample_runs.back().tile_count;
+    }
+    // Contiguous, behind the edge tables that the tiles refer to.
+    for (std::uint32_t i = 0; i < samples.run_count; ++i) {
+        plan::SampleRunOutput& run = resident.sample_runs[samples.first_run + i];
+        run.table = static_cast<std::uint32_t>(resident.tables.size());
+        for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
+            add_words(resident.sample_tiles[run.first_tile + tile], resident);
+        }
+    }
+}
+
+/// One block per row of a tile, in the order of the samples: rows of adjacent tiles alternate.
+void ResidentSamplesBuilder::place_blocks(const plan::Plan& plan, std::span<FoundTile> tiles,
+                                          SamplesOutput& samples) const {
+    for (std::size_t first = 0; first < tiles.size();) {
+        const plan::Tile& leader = plan.tiles[tiles[first].index];
+        std::size_t end = first;
+        while (end < tiles.size() && plan.tiles[tiles[end].index].region == leader.region &&
+               plan.tiles[tiles[end].index].row == leader.row) {
+            ++end;
+        }
+        const auto beside = static_cast<std::uint32_t>(end - first);
+        for (std::uint32_t i = 0; i < beside; ++i) {
+            SampleTileData& data = tiles[first + i].data;
+            data.first_block = samples.block_count + i;
+            data.block_step = beside;
+            samples.capacity += plan.tiles[tiles[first + i].index].width * leader.height;
+        }
+        samples.block_count += beside * leader.height;
+        first = end;
+    }
+}
+
+std::uint32_t ResidentSamplesBuilder::run_table(std::span<const plan::TileBatch> tile_batches,
+                                                std::uint32_t number, ResidentOutputs& resident) {
+    std::uint32_t& table = run_tables_[number];
+    if (table == plan::no_word) {
+        table = static_cast<std::uint32_t>(resident.tables.size());
+        for (const plan::EdgeRun& run : tile_batches[number].runs) {
+            add_words(run, resident);
+        }
+    }
+    return table;
+}
+
+}  // namespace nearfield::resident

@@ -1,0 +1,147 @@
+#include <engine/localize/overlap.hpp>
+#include <engine/records/intersection_samples.hpp>
+#include <engine/results/query_answers.hpp>
+
+namespace nearfield::results {
+
+using geometry::TransformedPolygon;
+using plan::PlannedQuery;
+
+/// Adds the effort to the result's statistics if the test uses hierarchies.
+bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
+    const PlannedQuery& query = asked.planned();
+    if (query.on_cpu) {
+        return intersection_test_.intersect(query, instances_);
+    }
+    localize::Effort effort;
+    const bool answer = localize::intersects(TransformedPolygon(*query.a, query.pose_a),
+                                             TransformedPolygon(*query.b, query.pose_b),
+                                             asked.plan.bounding_volume, &effort);
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    return answer;
+}
+
+void QueryAnswers::begin_batch() {
+    instances_.clear();
+    simplified_.clear();
+    penetration_.begin_batch();
+}
+
+void QueryAnswers::find_points(const Asked& asked) {
+    const PlannedQuery& planned = asked.planned();
+    exact_points_.answer(asked.plan, planned, instances_, asked.words);
+    if (planned.reverse != PlannedQuery::none) {
+        exact_points_.answer(asked.plan, asked.plan.queries[planned.reverse], instances_,
+                             asked.words);
+    }
+}
+
+void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (planned.brute_force) {
+        penetration_.answer(planned, instances_, result);
+        return;
+    }
+    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+    resolver_.begin(asked.plan, planned);
+    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
+         ++i) {
+        if ((asked.words[i] & plan::point_inside) == 0) {
+            continue;
+        }
+        const records::ResolvedPoint resolved =
+            resolver_.resolve(asked.plan.points[i], asked.words[i]);
+        if (!resolved.inside) {
+            continue;  // it touches the boundary
+        }
+        const PenetrationRecord record = penetration_record(resolved);
+        if (result.count == 0 || record.depth > result.deepest.depth) {
+            result.deepest = record;
+        }
+        ++result.count;
+        if (keep) {
+            result.records.push_back(record);
+        }
+    }
+    result.intersects = result.count > 0 || shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (planned.on_cpu) {
+        overlaps_.answer(asked.plan, planned, simplified_, result);
+    }
+    result.area = static_cast<double>(result.count) * result.cell * result.cell;
+    result.intersects = shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    result.intersects = planned.a != nullptr && shapes_intersect(asked, result);
+    if (planned.on_cpu) {
+        asked.fields.set_largest(asked.query,
+                                 exact_fields_.answer(asked.plan, planned, simplified_, result));
+    }
+    asked.fields.finish(planned, asked.query, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, ContactResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (planned.brute_force) {
+        contacts_.answer(planned, instances_, result);
+        return;
+    }
+    const auto& query = std::get<ContactQuery>(*planned.query);
+    if (query.normals == ContactNormals::analytic) {
+        contact_decoder_.find(asked.plan, planned, asked.words, result.cell, found_contacts_);
+        found_contacts_.write(*planned.a, *planned.b, query, result);
+    }
+    result.intersects = shapes_intersect(asked, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, ClosestPointResult& result) {
+    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, SeparationResult& result) {
+    closest_.decode(asked.plan, asked.planned(), asked.words, instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, IntersectionTestResult& result) {
+    intersection_test_.answer(asked.planned(), instances_, result);
+}
+
+void QueryAnswers::answer(const Asked& asked, TimeOfImpactResult& result) {
+    time_of_impact_.answer(asked.planned(), result);
+}
+
+void QueryAnswers::answer(const Asked& asked, SeparationVectorResult& result) {
+    separation_vector_.answer(asked.planned(), instances_, result);
+}
+
+std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end,
+                                bool on_cpu, std::span<std::uint32_t> words,
+                                decode::FieldDecoder& fields, std::vector<AnyResult>& results) {
+    std::size_t count = 0;
+    for (std::size_t i = first; i < end; ++i) {
+        if (plan.queries[i].on_cpu != on_cpu) {
+            continue;
+        }
+        ++count;
+        const Asked asked{plan, static_cast<std::uint32_t>(i), words, fields};
+        if (on_cpu) {
+            find_points(asked);
+        }
+        std::visit(
+            [&](auto& result) {
+                if (result.status.ok()) {
+                    answer(asked, result);
+                }
+            },
+            results[i]);
+    }
+    return count;
+}
+
+}  // namespace nearfield::results

@@ -1,0 +1,74 @@
+#include <engine/records/intersection_samples.hpp>
+#include <engine/results/results.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace nearfield::results {
+namespace {
+
+using plan::Tile;
+
+}  // namespace
+
+void ResultDecoder::begin_batch(const plan::Plan& plan) {
+    words_.resize(plan.points.size());
+    samples_.clear();
+    fields_.begin_batch(plan);
+}
+
+void ResultDecoder::add_points(const plan::TileBatch& round, std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        words_[round.point_index[i]] = words[i];
+    }
+}
+
+void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::TileBatch& round,
+                                  std::span<const plan::TileSummary> summaries,
+                                  std::vector<AnyResult>& results) {
+    for (std::size_t i = 0; i < summaries.size(); ++i) {
+        const Tile& tile = plan.tiles[round.tile_index[i]];
+        if (tile.kind == plan::TileKind::overlap) {
+            records::add_summary(tile, summaries[i],
+                                 std::get<IntersectionResult>(results[tile.query]));
+        }
+    }
+}
+
+void ResultDecoder::add_samples(const plan::Plan& plan, const plan::TileBatch& round,
+                                std::span<const plan::SampleData> samples) {
+    for (const plan::SampleData& sample : samples) {
+        const std::uint32_t index = round.tile_index[sample.tile];
+        const Tile& tile = plan.tiles[index];
+        samples_.push_back(
+            {tile.query, tile.region, tile.row + (sample.cell >> 16U),
+             tile.column + (sample.cell & 0xffffU),
+             records::make_sample(plan.queries[tile.query], tile, sample.cell & 0xffffU,
+                                  sample.cell >> 16U,
+                                  round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run])});
+    }
+}
+
+void ResultDecoder::write_drawn_samples(std::vector<AnyResult>& results) {
+    // The device lists samples in no particular order; results are ordered.
+    std::sort(samples_.begin(), samples_.end(), [](const FoundSample& i, const FoundSample& j) {
+        return std::tie(i.query, i.region, i.row, i.column) <
+               std::tie(j.query, j.region, j.row, j.column);
+    });
+    for (const FoundSample& sample : samples_) {
+        std::get<IntersectionResult>(results[sample.query]).samples.push_back(sample.sample);
+    }
+}
+
+void ResultDecoder::answer_on_cpu(const plan::Plan& plan, std::vector<AnyResult>& results) {
+    left_ = results.size() - answers_->answer_on_cpu(plan, words_, fields_, results);
+}
+
+void ResultDecoder::finish(const plan::Plan& plan, std::vector<AnyResult>& results) {
+    write_drawn_samples(results);
+    if (left_ > 0) {
+        answers_->finish(plan, words_, fields_, results);
+    }
+}
+
+}  // namespace nearfield::results

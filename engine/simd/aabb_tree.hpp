@@ -1,0 +1,169 @@
+#pragma once
+
+#include <engine/simd/edge_kernels.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace nearfield::simd {
+
+/// Boxes as a structure of arrays, one per side. Arrays are padded to a multiple of eight with a
+/// box that intersects nothing.
+struct BoxArrays {
+    std::uint32_t count = 0;
+    const double* low_x = nullptr;
+    const double* low_y = nullptr;
+    const double* high_x = nullptr;
+    const double* high_y = nullptr;
+};
+
+/// Consecutive edges in their arrays.
+struct EdgeRange {
+    std::uint32_t first = 0;
+    std::uint32_t end = 0;
+};
+
+/// An AABB tree with fan-out eight: one box over every eight consecutive edges, one over every
+/// eight of those boxes, and so on up to a level of eight or fewer. It stores little more than the
+/// coordinates, so building it each frame takes one pass over the edges, and eight boxes are tested
+/// together.
+///
+/// With few rings, ring boundaries are ignored: a box may hold the end of one ring and the start of
+/// the next. Many rings, which may come in any order, are cut into pieces of up to eight edges; the
+/// lowest boxes are over those, with nearby rings next to each other.
+class AabbTree {
+public:
+    static constexpr std::uint32_t fan_out = 8;
+
+    /// Returns the number of boxes one level above `count` edges or boxes.
+    [[nodiscard]] static constexpr std::uint32_t boxes_over(std::uint32_t count) {
+        return count / fan_out + (count % fan_out != 0 ? 1 : 0);
+    }
+    /// Returns the number of doubles needed for the boxes and the data kept with them, for the
+    /// given number of lowest boxes.
+    [[nodiscard]] static std::size_t room(std::uint32_t lowest);
+
+    /// A view of edges and of the boxes over them, which kernels::find_boxes() wrote after the
+    /// arrays of ring_starts(): first x, then y, each padded to whole lanes. `pieces`: one per
+    /// lowest box; empty if the boxes are over every eight edges.
+    AabbTree(const EdgeArrays& edges, std::span<const EdgeRange> pieces, const double* boxes);
+
+    [[nodiscard]] const EdgeArrays& edges() const { return edges_; }
+    /// True if the lowest boxes come in the order of the edges.
+    [[nodiscard]] bool is_in_order() const { return pieces_.empty(); }
+    /// The edges of a lowest box; at least one.
+    [[nodiscard]] EdgeRange edges_of(std::uint32_t box) const {
+        if (!pieces_.empty()) {
+            return pieces_[box];
+        }
+        const std::uint32_t first = fan_out * box;
+        return {first, edges_.count - first < fan_out ? edges_.count : first + fan_out};
+    }
+    /// Level 0, the lowest, has the boxes over edges.
+    [[nodiscard]] std::uint32_t top_level() const { return top_level_; }
+    [[nodiscard]] const BoxArrays& level(std::uint32_t level) const { return levels_[level]; }
+    /// For each lowest box, the start of the ring that its first edge belongs to.
+    [[nodiscard]] const PointArrays& ring_starts() const { return ring_starts_; }
+
+private:
+    static constexpr std::size_t max_levels = 10;  // enough for more edges than 32 bits can count
+
+    EdgeArrays edges_;
+    std::span<const EdgeRange> pieces_;
+    PointArrays ring_starts_;
+    std::array<BoxArrays, max_levels> levels_;
+    std::uint32_t top_level_ = 0;
+};
+
+/// A vertex (the start of an edge) and a nearby edge of the other shape.
+struct VertexAndEdge {
+    std::uint32_t vertex = 0;
+    std::uint32_t edge = 0;
+    bool vertex_of_first = true;
+    double squared = 0.0;  ///< their squared distance, up to rounding
+};
+
+/// Receives the results of a pair search. `use` returns whether to go on.
+struct EdgePairSink {
+    bool (*use)(void* user, const EdgePair& pair) = nullptr;
+    void* user = nullptr;
+};
+struct VertexAndEdgeSink {
+    bool (*use)(void* user, const VertexAndEdge& found) = nullptr;
+    void* user = nullptr;
+};
+
+namespace kernels {
+
+// As their namesakes in edge_kernels.hpp, but inverse lengths are not read. If there are pieces,
+// kernels may read (but not use) up to one vector beyond the padded edge arrays.
+
+/// Writes the boxes of an AabbTree, but not its ring starts.
+void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, double* boxes);
+
+/// True if the point is inside by the even-odd rule, as contain().
+[[nodiscard]] bool contain(const AabbTree& tree, double x, double y);
+
+/// The start and direction of an axis-parallel ray.
+struct Ray {
+    double x = 0.0;
+    double y = 0.0;
+    bool upwards = false;  ///< otherwise to the right
+};
+
+/// The line of the edge that a ray starts on.
+struct LineOfEdge {
+    double along_x = 0.0;
+    double along_y = 0.0;
+    double rounding = 0.0;  ///< rounding error of the vertices and of the ray's start
+};
+
+/// True if a ray crosses an odd number of edges.
+[[nodiscard]] bool crossings_are_odd(const AabbTree& tree, const Ray& ray);
+
+/// The same, without the edges that run along a line through the ray's start: the edge it starts
+/// on, and any others that contain the start. Precondition: the ray leaves the line at an angle of
+/// 45 degrees or more.
+[[nodiscard]] bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray,
+                                               const LineOfEdge& line);
+
+/// Returns the nearest of the edges that are nearer to a point than `guess`, or `guess` if none is.
+[[nodiscard]] NearEdge find_nearer(const AabbTree& tree, double x, double y, const NearEdge& guess);
+
+[[nodiscard]] std::uint32_t find_edges_within(const AabbTree& tree, double x, double y, double most,
+                                              std::uint32_t* found);
+
+[[nodiscard]] std::uint32_t find_edges_in(const AabbTree& tree, const Extent& box,
+                                          std::uint32_t* found);
+
+/// Lists edges whose boxes intersect a box: all that come within `reach` of an edge of `others`. Up
+/// to eight edges in one lowest box are rejected together.
+[[nodiscard]] std::uint32_t find_edges_near(const AabbTree& tree, const Extent& box,
+                                            const AabbTree& others, double reach,
+                                            std::uint32_t* found);
+
+/// True if the box of any edge intersects a box.
+[[nodiscard]] bool meets(const AabbTree& tree, const Extent& box);
+
+/// Calls `sink` for all pairs of edges that may be at most `margin` apart, until it returns false;
+/// returns whether it did.
+bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
+                         const EdgePairSink& sink);
+
+/// Calls `sink` for every vertex of either shape and edge of the other whose distance is at most
+/// `margin` above the minimum, up to rounding, and for others that were the closest so far, until
+/// it returns false. Precondition: some pair is no farther apart than the square root of `most`.
+/// Returns the square of the least distance so far.
+double for_closest(const AabbTree& first, const AabbTree& second, double most, double margin,
+                   const VertexAndEdgeSink& sink);
+
+/// Calls `sink` for every vertex of either shape and edge of the other whose squared distance is at
+/// most `most`, up to rounding, until it returns false; returns whether it did.
+bool for_within(const AabbTree& first, const AabbTree& second, double most,
+                const VertexAndEdgeSink& sink);
+
+}  // namespace kernels
+
+}  // namespace nearfield::simd

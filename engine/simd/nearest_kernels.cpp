@@ -1,0 +1,239 @@
+#include <engine/simd/nearest_kernels.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// Highway compiles the rest once per instruction set by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/simd/nearest_kernels.cpp"
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <engine/simd/box_lanes-inl.hpp>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::simd::kernels::HWY_NAMESPACE {
+
+/// The number of consecutive points processed together, for any instruction set.
+constexpr std::uint32_t max_together = max_lanes;
+
+/// A disc around a group of points.
+struct DiscOfPoints {
+    double x;
+    double y;
+    double radius;
+};
+
+HWY_INLINE DiscOfPoints disc_around(const PointArrays& points, std::uint32_t first,
+                                    std::uint32_t count) {
+    const Extent box = extent_of({first + count, points.x, points.y}, first);
+    const double across = box.high_x - box.low_x;
+    const double up = box.high_y - box.low_y;
+    return {0.5 * (box.low_x + box.high_x), 0.5 * (box.low_y + box.high_y),
+            0.5 * std::sqrt(across * across + up * up)};
+}
+
+/// No edge farther than the square root of this from a disc's centre can be nearest to a point of
+/// the disc, or as near up to `margin`; slightly increased for rounding. `least`: squared distance
+/// of the edge nearest to the centre.
+HWY_INLINE double squared_reach(const DiscOfPoints& disc, double least, double margin) {
+    const double reach = std::sqrt(least) + 2.0 * disc.radius + margin;
+    return beyond_rounding(reach);
+}
+
+/// Writes the results for the points at `i` of the arrays from their nearest edges, as
+/// geometry::nearest_on_segment() computes them.
+HWY_INLINE void write_points(const EdgeArrays& edges, Lanes nearest_edge, Lanes x, Lanes y,
+                             std::size_t i, const NearestArrays& nearest) {
+    const Tag tag;
+    const Lanes one = hn::Set(tag, 1.0);
+    const auto edge = hn::ConvertTo(hn::RebindToSigned<Tag>(), nearest_edge);
+    const Lanes start_x = hn::GatherIndex(tag, edges.start_x, edge);
+    const Lanes start_y = hn::GatherIndex(tag, edges.start_y, edge);
+    const Lanes end_x = hn::GatherIndex(tag, edges.end_x, edge);
+    const Lanes end_y = hn::GatherIndex(tag, edges.end_y, edge);
+    const Lanes along_x = hn::Sub(end_x, start_x);
+    const Lanes along_y = hn::Sub(end_y, start_y);
+    const Lanes along =
+        hn::Add(hn::Mul(along_x, hn::Sub(x, start_x)), hn::Mul(along_y, hn::Sub(y, start_y)));
+    const Lanes length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
+    const LaneMask at_end = hn::Ge(along, length);
+    const LaneMask after_start =
+        hn::And(hn::Gt(along, hn::Zero(tag)), hn::Gt(length, hn::Zero(tag)));
+    const Lanes parameter = hn::Div(along, length);
+    // Computed from the nearer end, which loses less precision.
+    const LaneMask from_start = hn::Lt(parameter, hn::Set(tag, 0.5));
+    const Lanes back = hn::Sub(one, parameter);
+    Lanes point_x = hn::IfThenElse(from_start, hn::Add(start_x, hn::Mul(parameter, along_x)),
+                                   hn::Sub(end_x, hn::Mul(back, along_x)));
+    Lanes point_y = hn::IfThenElse(from_start, hn::Add(start_y, hn::Mul(parameter, along_y)),
+                                   hn::Sub(end_y, hn::Mul(back, along_y)));
+    // Both ends are kept unchanged, so that a vertex can be distinguished from an edge.
+    point_x = hn::IfThenElse(after_start, hn::IfThenElse(at_end, end_x, point_x), start_x);
+    point_y = hn::IfThenElse(after_start, hn::IfThenElse(at_end, end_y, point_y), start_y);
+    const Lanes off_x = hn::Sub(x, point_x);
+    const Lanes off_y = hn::Sub(y, point_y);
+    hn::StoreU(point_x, tag, nearest.x + i);
+    hn::StoreU(point_y, tag, nearest.y + i);
+    hn::StoreU(hn::Sqrt(hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y))), tag,
+               nearest.distance + i);
+    hn::StoreU(hn::IfThenElseZero(after_start, hn::IfThenElse(at_end, one, parameter)), tag,
+               nearest.parameter + i);
+}
+
+/// Nearest edges of several points at once, one edge after the other.
+class NearestOfLanes {
+public:
+    HWY_INLINE NearestOfLanes()
+        : first_(hn::Set(Tag(), std::numeric_limits<double>::infinity())),
+          second_(first_),
+          third_(first_),
+          first_edge_(hn::Zero(Tag())),
+          second_edge_(hn::Zero(Tag())) {}
+
+    HWY_INLINE void Look(Lanes squared, Lanes edge) {
+        const LaneMask nearest = hn::Lt(squared, first_);
+        const LaneMask second = hn::Lt(squared, second_);
+        third_ = hn::Min(third_, hn::Max(second_, squared));
+        second_ = hn::Min(second_, hn::Max(first_, squared));
+        first_ = hn::Min(first_, squared);
+        second_edge_ =
+            hn::IfThenElse(nearest, first_edge_, hn::IfThenElse(second, edge, second_edge_));
+        first_edge_ = hn::IfThenElse(nearest, edge, first_edge_);
+    }
+
+    /// Writes the results for the points at `i` of the arrays.
+    HWY_INLINE void Write(const EdgeArrays& edges, Lanes x, Lanes y, std::size_t i,
+                          const NearestArrays& nearest) const {
+        const Tag tag;
+        const hn::Rebind<std::int32_t, Tag> half;
+        const hn::Rebind<std::uint32_t, Tag> index;
+        hn::StoreU(hn::BitCast(index, hn::DemoteTo(half, first_edge_)), index, nearest.edge + i);
+        hn::StoreU(hn::BitCast(index, hn::DemoteTo(half, second_edge_)), index, nearest.second + i);
+        hn::StoreU(second_, tag, nearest.second_squared + i);
+        hn::StoreU(third_, tag, nearest.third_squared + i);
+        write_points(edges, first_edge_, x, y, i, nearest);
+    }
+
+private:
+    Lanes first_;
+    Lanes second_;
+    Lanes third_;
+    Lanes first_edge_;
+    Lanes second_edge_;
+};
+
+/// One edge in every lane, including its length.
+HWY_INLINE EdgesAlong same_along(const EdgeArrays& edges, std::size_t edge) {
+    const Tag tag;
+    const double x = edges.end_x[edge] - edges.start_x[edge];
+    const double y = edges.end_y[edge] - edges.start_y[edge];
+    EdgesAlong same;
+    same.start_x = hn::Set(tag, edges.start_x[edge]);
+    same.start_y = hn::Set(tag, edges.start_y[edge]);
+    same.along_x = hn::Set(tag, x);
+    same.along_y = hn::Set(tag, y);
+    same.inverse_length = hn::Set(tag, 1.0 / (x * x + y * y));
+    return same;
+}
+
+/// Finds the nearest of the listed edges for some points.
+HWY_INLINE void solve(const PointArrays& points, std::uint32_t first, std::uint32_t together,
+                      const EdgeArrays& edges, const std::uint32_t* listed, std::uint32_t count,
+                      const NearestArrays& nearest) {
+    const Tag tag;
+    for (std::uint32_t i = first; i < first + together;
+         i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
+        const Lanes x = hn::LoadU(tag, points.x + i);
+        const Lanes y = hn::LoadU(tag, points.y + i);
+        NearestOfLanes search;
+        for (std::uint32_t k = 0; k < count; ++k) {
+            search.Look(squared_distances(same_along(edges, listed[k]), x, y),
+                        hn::Set(tag, static_cast<double>(listed[k])));
+        }
+        search.Write(edges, x, y, i, nearest);
+    }
+}
+
+void FindNearestOf(const PointArrays& points, const EdgeArrays& edges, double margin,
+                   std::uint32_t* near, const NearestArrays& nearest) {
+    for (std::uint32_t i = 0; i < points.count; i += max_together) {
+        const std::uint32_t together = std::min(points.count - i, max_together);
+        const DiscOfPoints disc = disc_around(points, i, together);
+        const double least = LeastSquared(edges, disc.x, disc.y);
+        const std::uint32_t count =
+            FindEdgesWithin(edges, disc.x, disc.y, squared_reach(disc, least, margin), near);
+        solve(points, i, together, edges, near, count, nearest);
+    }
+}
+
+/// Finds the nearest edges of points, in groups where few edges can be nearest to any of them.
+class NearestByTree {
+public:
+    HWY_INLINE NearestByTree(const PointArrays& points, const AabbTree& tree, double margin,
+                             std::uint32_t* near, const NearestArrays& nearest)
+        : points_(points), tree_(tree), margin_(margin), near_(near), nearest_(nearest) {}
+
+    void Solve(std::uint32_t first, std::uint32_t together) {
+        constexpr std::uint32_t few_edges = 32;
+        const DiscOfPoints disc = disc_around(points_, first, together);
+        const NearEdge guess{last_, LengthTo(disc, last_)};
+        const NearEdge closest = FindNearer(tree_, disc.x, disc.y, guess);
+        last_ = closest.edge;
+        const std::uint32_t count = FindEdgesWithinByTree(
+            tree_, disc.x, disc.y, squared_reach(disc, closest.squared, margin_),
+            together > 1 ? few_edges : tree_.edges().count, near_);
+        if (count <= few_edges || together == 1) {
+            solve(points_, first, together, tree_.edges(), near_, count, nearest_);
+        } else {
+            const std::uint32_t half = together / 2;
+            Solve(first, half);
+            Solve(first + half, together - half);
+        }
+    }
+
+private:
+    [[nodiscard]] double LengthTo(const DiscOfPoints& disc, std::uint32_t edge) const {
+        const Tag tag;
+        return hn::GetLane(squared_distances(same_along(tree_.edges(), edge), hn::Set(tag, disc.x),
+                                             hn::Set(tag, disc.y)));
+    }
+
+    const PointArrays& points_;
+    const AabbTree& tree_;
+    double margin_;
+    std::uint32_t* near_;
+    const NearestArrays& nearest_;
+    std::uint32_t last_ = 0;  // the edge nearest to the previous points
+};
+
+void FindNearestOfByTree(const PointArrays& points, const AabbTree& tree, double margin,
+                         std::uint32_t* near, const NearestArrays& nearest) {
+    NearestByTree search(points, tree, margin, near, nearest);
+    for (std::uint32_t i = 0; i < points.count; i += max_together) {
+        search.Solve(i, std::min(points.count - i, max_together));
+    }
+}
+
+}  // namespace nearfield::simd::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::simd::kernels {
+
+HWY_EXPORT(FindNearestOf);
+HWY_EXPORT(FindNearestOfByTree);
+
+void find_nearest_of(const PointArrays& points, const EdgeArrays& edges, double margin,
+                     std::uint32_t* near, const NearestArrays& nearest) {
+    HWY_DYNAMIC_DISPATCH(FindNearestOf)(points, edges, margin, near, nearest);
+}
+
+void find_nearest_of(const PointArrays& points, const AabbTree& tree, double margin,
+                     std::uint32_t* near, const NearestArrays& nearest) {
+    HWY_DYNAMIC_DISPATCH(FindNearestOfByTree)(points, tree, margin, near, nearest);
+}
+
+}  // namespace nearfield::simd::kernels
+#endif

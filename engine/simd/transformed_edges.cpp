@@ -1,0 +1,276 @@
+#include <engine/geometry/magnitude.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/simd/transformed_edges.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+namespace nearfield::simd {
+namespace {
+
+using geometry::Box;
+using geometry::Polygon;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
+/// The number of arrays the edges take: start and end, x and y; inverse lengths where they are
+/// read.
+std::size_t arrays_of(std::uint32_t count) {
+    return count <= max_edges_one_by_one ? 5 : 4;
+}
+
+bool same(const Pose& a, const Pose& b) {
+    return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
+           a.angle == b.angle;
+}
+
+/// Each number has its own factor, so the products are independent.
+std::uint64_t scattered(double number, std::uint64_t factor) {
+    return std::bit_cast<std::uint64_t>(number) * factor;
+}
+
+/// Derives the end points of all edges from their start points, ring by ring.
+void copy_ends(const Polygon& polygon, const double* start, double* end) {
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t begin = polygon.ring_begin(ring);
+        const std::uint32_t last = polygon.ring_end(ring) - 1;
+        std::copy(start + begin + 1, start + last + 1, end + begin);
+        end[last] = start[begin];
+    }
+}
+
+/// From this many rings on, their order matters.
+constexpr std::uint32_t many_rings = 32;
+
+bool is_in_pieces(const Polygon& polygon) {
+    return polygon.ring_count() >= many_rings;
+}
+
+/// The length of each edge array. Pieces of rings begin anywhere, so one more vector is read.
+std::size_t length_of_arrays(const Polygon& polygon) {
+    return padded(polygon.size()) + (is_in_pieces(polygon) ? max_lanes : 0);
+}
+
+/// Writes AabbTree::ring_starts() for boxes over every eight edges.
+void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges, double* starts) {
+    const std::size_t length = padded(AabbTree::boxes_over(edges.count));
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t first = polygon.ring_begin(ring);
+        const std::uint32_t begin = AabbTree::boxes_over(first);
+        const std::uint32_t end = AabbTree::boxes_over(polygon.ring_end(ring));
+        std::fill(starts + begin, starts + end, edges.start_x[first]);
+        std::fill(starts + length + begin, starts + length + end, edges.start_y[first]);
+    }
+}
+
+/// The same for boxes over pieces of rings in the given order.
+void write_ring_starts(const Polygon& polygon, const EdgeArrays& edges,
+                       std::span<const std::uint32_t> rings, std::size_t length, double* starts) {
+    for (const std::uint32_t ring : rings) {
+        const std::uint32_t first = polygon.ring_begin(ring);
+        const std::uint32_t pieces = AabbTree::boxes_over(polygon.ring_end(ring) - first);
+        std::fill(starts, starts + pieces, edges.start_x[first]);
+        std::fill(starts + length, starts + length + pieces, edges.start_y[first]);
+        starts += pieces;
+    }
+}
+
+}  // namespace
+
+bool contains(const TransformedEdges& edges, const geometry::Vector& point) {
+    return is_small(edges) ? kernels::contain(edges, point.x(), point.y())
+                           : kernels::contain(edges.tree(), point.x(), point.y());
+}
+
+NearEdge find_nearest(const TransformedEdges& edges, const geometry::Vector& point) {
+    constexpr NearEdge nothing{0, std::numeric_limits<double>::infinity()};
+    return is_small(edges) ? kernels::find_nearest(edges, point.x(), point.y())
+                           : kernels::find_nearer(edges.tree(), point.x(), point.y(), nothing);
+}
+
+void TransformedInstances::clear() {
+    entries_.clear();
+    pieces_.clear();
+    used_ = 0;
+    std::fill(slots_.begin(), slots_.end(), empty_slot);
+}
+
+bool TransformedInstances::is(const Entry& entry, const Polygon& polygon, const Pose& pose) {
+    return &entry.edges.placed.polygon() == &polygon && same(entry.pose, pose);
+}
+
+std::size_t TransformedInstances::slot_of(const Polygon& polygon, const Pose& pose) const {
+    constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
+    const std::uint64_t sum = factor * std::bit_cast<std::uintptr_t>(&polygon) +
+                              scattered(pose.translation.x, 0xc2b2ae3d27d4eb4fU) +
+                              scattered(pose.translation.y, 0x165667b19e3779f9U) +
+                              scattered(pose.angle, 0xd6e8feb86659fd93U);
+    // Products carry upwards only, and round numbers differ in their upper bits.
+    const std::uint64_t hash = factor * (sum ^ (sum >> 32U));
+    std::size_t slot = (hash >> 32U) & (slots_.size() - 1);
+    while (slots_[slot] != empty_slot && !is(entries_[slots_[slot]], polygon, pose)) {
+        slot = (slot + 1) & (slots_.size() - 1);
+    }
+    return slot;
+}
+
+std::uint32_t TransformedInstances::place(const Polygon& polygon, const Pose& pose) {
+    for (const std::uint32_t index : std::array(recent_)) {
+        if (index < entries_.size() && is(entries_[index], polygon, pose)) {
+            // An instance that recurs in successive pairs is kept.
+            recent_ = {recent_[0] == index ? recent_[1] : recent_[0], index};
+            return index;
+        }
+    }
+    const std::uint32_t index = find_or_add(polygon, pose);
+    recent_ = {recent_[1], index};
+    return index;
+}
+
+std::uint32_t TransformedInstances::find_or_add(const Polygon& polygon, const Pose& pose) {
+    if (slots_.size() < 2 * (entries_.size() + 1)) {
+        rehash();
+    }
+    std::uint32_t& slot = slots_[slot_of(polygon, pose)];
+    if (slot == empty_slot) {
+        slot = static_cast<std::uint32_t>(entries_.size());
+        add(TransformedPolygon(polygon, pose), pose);
+    }
+    return slot;
+}
+
+void TransformedInstances::rehash() {
+    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty_slot);
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+        slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
+    }
+}
+
+void TransformedInstances::find_arrays(Entry& entry) const {
+    if (entry.first != nowhere) {
+        const std::uint32_t count = entry.edges.count;
+        const std::size_t length = length_of_arrays(entry.edges.placed.polygon()) / max_lanes;
+        const auto array = [&](std::size_t number) {
+            return coordinates_[entry.first + number * length].values;
+        };
+        static_cast<EdgeArrays&>(entry.edges) = {count,    array(0), array(1),
+                                                 array(2), array(3), nullptr};
+        if (arrays_of(count) > 4) {
+            entry.edges.inverse_length = array(4);
+        }
+    }
+    if (entry.first_boxes != nowhere) {
+        entry.edges.boxes = coordinates_[entry.first_boxes].values;
+        entry.edges.pieces =
+            std::span(pieces_).subspan(entry.first_piece, entry.end_piece - entry.first_piece);
+    }
+}
+
+std::size_t TransformedInstances::grow(std::size_t by) {
+    const std::size_t first = std::exchange(used_, used_ + by);
+    if (used_ > coordinates_.size()) {
+        coordinates_.resize(std::max(used_, 2 * coordinates_.size()));
+        for (Entry& entry : entries_) {
+            find_arrays(entry);
+        }
+    }
+    return first;
+}
+
+std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
+    add(placed, {});
+    return static_cast<std::uint32_t>(entries_.size()) - 1;
+}
+
+void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
+    const Polygon& polygon = placed.polygon();
+    Entry& entry = entries_.emplace_back(Entry{pose, nowhere, nowhere, 0, 0, {{}, placed, {}}});
+    TransformedEdges& edges = entry.edges;
+    edges.count = polygon.size();
+    if (is_small(edges)) {
+        entry.first = grow(arrays_of(edges.count) * length_of_arrays(polygon) / max_lanes);
+        find_arrays(entry);
+        edges.box = write_arrays(entry);
+    } else {
+        edges.box = placed.box();
+    }
+    edges.rounding = localize::placement_rounding(placed, edges.box);
+    edges.magnitude = geometry::largest_magnitude(placed, pose, edges.box);
+}
+
+void TransformedInstances::complete(std::uint32_t index) {
+    Entry& entry = entries_[index];
+    if (entry.first_boxes != nowhere) {
+        return;
+    }
+    const std::uint32_t count = entry.edges.count;
+    const Polygon& polygon = entry.edges.placed.polygon();
+    if (entry.first == nowhere) {
+        entry.first = grow(arrays_of(count) * length_of_arrays(polygon) / max_lanes);
+        find_arrays(entry);
+        static_cast<void>(write_arrays(entry));
+    }
+    std::span<const std::uint32_t> rings;
+    std::uint32_t lowest = AabbTree::boxes_over(count);
+    if (is_in_pieces(polygon)) {
+        rings = morton_order_.find(polygon, entry.edges, entry.edges.box);
+        lowest = cut_into_pieces(entry, rings);
+    }
+    entry.first_boxes = grow(AabbTree::room(lowest) / max_lanes);
+    find_arrays(entry);
+    double* const boxes = coordinates_[entry.first_boxes].values;
+    if (is_in_pieces(polygon)) {
+        write_ring_starts(polygon, entry.edges, rings, padded(lowest), boxes);
+    } else {
+        write_ring_starts(polygon, entry.edges, boxes);
+    }
+    kernels::find_boxes(entry.edges, entry.edges.pieces, boxes);
+}
+
+std::uint32_t TransformedInstances::cut_into_pieces(Entry& entry,
+                                                    std::span<const std::uint32_t> rings) {
+    const Polygon& polygon = entry.edges.placed.polygon();
+    const std::size_t room_before = pieces_.capacity();
+    entry.first_piece = pieces_.size();
+    for (const std::uint32_t ring : rings) {
+        const std::uint32_t end = polygon.ring_end(ring);
+        for (std::uint32_t i = polygon.ring_begin(ring); i < end; i += AabbTree::fan_out) {
+            pieces_.push_back({i, std::min(i + AabbTree::fan_out, end)});
+        }
+    }
+    entry.end_piece = pieces_.size();
+    if (pieces_.capacity() != room_before) {
+        for (Entry& other : entries_) {
+            find_arrays(other);
+        }
+    }
+    return static_cast<std::uint32_t>(entry.end_piece - entry.first_piece);
+}
+
+Box TransformedInstances::write_arrays(const Entry& entry) {
+    const Polygon& polygon = entry.edges.placed.polygon();
+    const std::uint32_t count = polygon.size();
+    const std::size_t length = length_of_arrays(polygon);
+    double* const start_x = coordinates_[entry.first].values;
+    double* const start_y = start_x + length;
+    double* const end_x = start_y + length;
+    double* const end_y = end_x + length;
+    const Extent extent = geometry::kernels::place_points(
+        polygon.vertices(), entry.edges.placed.placement(), start_x, start_y);
+    copy_ends(polygon, start_x, end_x);
+    copy_ends(polygon, start_y, end_y);
+    // The padding repeats the last edge's end: an edge of zero length.
+    std::fill(start_x + count, start_x + length, end_x[count - 1]);
+    std::fill(start_y + count, start_y + length, end_y[count - 1]);
+    std::fill(end_x + count, end_x + length, end_x[count - 1]);
+    std::fill(end_y + count, end_y + length, end_y[count - 1]);
+    if (entry.edges.inverse_length != nullptr) {
+        kernels::find_inverse_lengths(entry.edges, end_y + length);
+    }
+    return geometry::box_of(extent);
+}
+
+}  // namespace nearfield::simd

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <engine/geometry/transformed_polygon.hpp>
+#include <engine/simd/aabb_tree.hpp>
+#include <engine/simd/morton_order.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::simd {
+
+/// A polygon at a pose with all its edges transformed to the world, in one contiguous array per
+/// coordinate, so that several are processed at once. For polygons with few edges (see
+/// max_edges_one_by_one) this is faster than any tree; larger ones have boxes over their edges, and
+/// no inverse lengths.
+struct TransformedEdges : EdgeArrays {
+    geometry::TransformedPolygon placed;
+    geometry::Box box;
+    double rounding = 0.0;                   ///< of the vertices: localize::placement_rounding
+    double magnitude = 0.0;                  ///< geometry::largest_magnitude
+    std::span<const EdgeRange> pieces = {};  ///< of an AabbTree
+    const double* boxes = nullptr;           ///< of the tree; null until they are built
+
+    /// Precondition: it has boxes.
+    [[nodiscard]] AabbTree tree() const { return {*this, pieces, boxes}; }
+
+    [[nodiscard]] geometry::Vector start(std::uint32_t edge) const {
+        return {start_x[edge], start_y[edge]};
+    }
+    [[nodiscard]] geometry::Vector end(std::uint32_t edge) const {
+        return {end_x[edge], end_y[edge]};
+    }
+    /// The point at `parameter` < 1 along an edge, bit for bit equal to plan::position().
+    [[nodiscard]] geometry::Vector at(std::uint32_t edge, double parameter) const {
+        const geometry::Vector from = start(edge);
+        return from + parameter * (end(edge) - from);
+    }
+};
+
+/// Polygons with at most this many edges are processed by brute force, without a tree.
+inline constexpr std::uint32_t max_edges_one_by_one = 256;
+
+[[nodiscard]] inline bool is_small(const TransformedEdges& edges) {
+    return edges.count <= max_edges_one_by_one;
+}
+
+using geometry::extent_of;
+
+/// True if the point is inside by the even-odd rule. Precondition: few edges, or boxes present.
+[[nodiscard]] bool contains(const TransformedEdges& edges, const geometry::Vector& point);
+/// Returns the edge nearest to a point. Same precondition.
+[[nodiscard]] NearEdge find_nearest(const TransformedEdges& edges, const geometry::Vector& point);
+
+/// The instances of a batch, each transformed once, however many pairs it is in. Reuses its memory.
+class TransformedInstances {
+public:
+    void clear();
+    /// Returns the index of an instance, and transforms it if it is new. If it has many edges, only
+    /// its box, rounding and magnitude are known until complete().
+    [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
+    /// The same for an instance that the other place() will not find again.
+    [[nodiscard]] std::uint32_t place(const geometry::TransformedPolygon& placed);
+    /// Transforms all edges and builds the boxes over them.
+    void complete(std::uint32_t index);
+    /// Valid until the next place() or complete().
+    [[nodiscard]] const TransformedEdges& operator[](std::uint32_t index) const {
+        return entries_[index].edges;
+    }
+
+private:
+    static constexpr std::size_t nowhere = SIZE_MAX;
+
+    struct Entry {
+        Pose pose;
+        std::size_t first;        // of its arrays, which are consecutive
+        std::size_t first_boxes;  // `nowhere`, like the arrays, until they exist
+        std::size_t first_piece;  // of its pieces, if any
+        std::size_t end_piece;
+        TransformedEdges edges;
+    };
+    /// One widest vector, aligned for the fastest loads.
+    struct alignas(max_lanes * sizeof(double)) Coordinates {
+        double values[max_lanes];
+    };
+
+    [[nodiscard]] std::size_t slot_of(const geometry::Polygon& polygon, const Pose& pose) const;
+    [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
+                                 const Pose& pose);
+    [[nodiscard]] std::uint32_t find_or_add(const geometry::Polygon& polygon, const Pose& pose);
+    void add(const geometry::TransformedPolygon& placed, const Pose& pose);
+    /// Cuts the rings of an entry into pieces, in this order; returns their number.
+    [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
+    /// Writes the arrays of an entry, whose space is allocated; returns its bounding box.
+    [[nodiscard]] geometry::Box write_arrays(const Entry& entry);
+    void rehash();
+    /// Sets the array pointers of an entry.
+    void find_arrays(Entry& entry) const;
+    /// Allocates space for `by` more coordinates; returns its index.
+    [[nodiscard]] std::size_t grow(std::size_t by);
+
+    std::vector<Entry> entries_;
+    std::vector<Coordinates> coordinates_;  // the first used_ are in use
+    std::size_t used_ = 0;
+    std::vector<EdgeRange> pieces_;
+    MortonOrder morton_order_;
+    std::array<std::uint32_t, 2> recent_{};  // most recent indices: pairs come in both orders
+    std::vector<std::uint32_t> slots_;       // a hash table of entries; its size is a power of two
+};
+
+}  // namespace nearfield::simd

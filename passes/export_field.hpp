@@ -1,0 +1,54 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/execute.hpp>
+#include <engine/graph/graph.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <nearfield/context.hpp>
+#include <passes/compute_layout.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace nearfield::passes {
+
+/// The last pass of a resident field: copies the resolved cells to images for the host's shaders.
+/// It is a separate graph because the images belong to the batch and not to the compiled graph of a
+/// tile batch. The graph leaves the images in the layout in which the host's shaders read them.
+class ExportField {
+public:
+    ExportField(const gpu::Device& device, const ComputeLayout& layout);
+    ExportField(const ExportField&) = delete;
+    ExportField& operator=(const ExportField&) = delete;
+
+    /// The input of one field's pass.
+    struct Item {
+        const plan::FieldOutputs* field = nullptr;
+        std::span<const plan::FieldPartOutput> parts;
+        std::span<const VkDescriptorSet> sets;  ///< by part
+        VkBuffer words = VK_NULL_HANDLE;        ///< of fields, as written by the tile batches
+        VkImage signed_distance = VK_NULL_HANDLE;
+        VkImage feature = VK_NULL_HANDLE;
+    };
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+
+    [[nodiscard]] std::string print(GraphFormat format) const;
+
+private:
+    void dispatch(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    gpu::Owned<VkPipeline> pipeline_;
+    graph::Graph graph_;
+    graph::Handle words_;
+    graph::Handle signed_distance_;
+    graph::Handle feature_;
+    std::unique_ptr<graph::Executor> executor_;
+    Item item_;
+};
+
+}  // namespace nearfield::passes

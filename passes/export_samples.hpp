@@ -1,0 +1,66 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/execute.hpp>
+#include <engine/graph/graph.hpp>
+#include <engine/plan/resident_outputs.hpp>
+#include <nearfield/context.hpp>
+#include <passes/compute_layout.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace nearfield::passes {
+
+/// The last passes of resident intersection samples: box, count, place, write, in a separate graph
+/// (see ExportField).
+class ExportSamples {
+public:
+    ExportSamples(const gpu::Device& device, const ComputeLayout& layout);
+    ExportSamples(const ExportSamples&) = delete;
+    ExportSamples& operator=(const ExportSamples&) = delete;
+
+    /// The input of one query's passes.
+    struct Item {
+        const plan::SamplesOutput* samples = nullptr;
+        std::span<const plan::SampleRunOutput> runs;
+        std::span<const plan::SampleTileData> tiles;  ///< of all queries
+        /// Two per run: one whose words are the summaries, one whose words are the hits of the
+        /// cells; then one without either.
+        std::span<const VkDescriptorSet> sets;
+        VkBuffer summaries = VK_NULL_HANDLE;  ///< as written by the tile batches
+        VkBuffer samples_buffer = VK_NULL_HANDLE;
+    };
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+
+    [[nodiscard]] std::string print(GraphFormat format) const;
+
+private:
+    enum class Step : std::uint32_t { box, count, place, write };
+
+    void dispatch_count(VkCommandBuffer commands) const;
+    void dispatch_place(VkCommandBuffer commands) const;
+    void dispatch_rows(VkCommandBuffer commands, Step step) const;
+    void bind(VkCommandBuffer commands, VkDescriptorSet set) const;
+    /// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
+    void dispatch(VkCommandBuffer commands, Step step, std::uint32_t table,
+                  std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    gpu::Owned<VkPipeline> pipeline_;
+    graph::Graph graph_;
+    graph::Handle summaries_;
+    graph::Handle hits_;
+    graph::Handle tables_;
+    graph::Handle blocks_;
+    graph::Handle samples_;
+    std::unique_ptr<graph::Executor> executor_;
+    Item item_;
+};
+
+}  // namespace nearfield::passes

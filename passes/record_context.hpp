@@ -1,0 +1,38 @@
+#pragma once
+
+#include <engine/plan/tile_batch.hpp>
+
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nearfield::passes {
+
+inline constexpr std::size_t sign_encodings = 3;
+
+/// The input that all passes record from. One object lives as long as the passes; its contents
+/// change from tile batch to tile batch while commands are recorded.
+struct Frame {
+    const plan::TileBatch* round = nullptr;
+    VkBuffer mesh = VK_NULL_HANDLE;
+    VkDeviceSize mesh_offset = 0;             ///< start of the tile batch's mesh, in bytes
+    VkDescriptorSet points = VK_NULL_HANDLE;  ///< raster technique: with images
+    /// Compute technique: without images. It is not the raster's set, which names images of the
+    /// last compiled graph, because a driver may access every resource that a set names.
+    VkDescriptorSet points_by_lists = VK_NULL_HANDLE;
+    VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
+    VkDescriptorSet gradients = VK_NULL_HANDLE;
+    std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
+    VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
+    VkDescriptorSet blocks = VK_NULL_HANDLE;                         ///< of the compute technique
+    VkDescriptorSet feature_blocks = VK_NULL_HANDLE;                 ///< of the compute technique
+    VkBuffer scratch = VK_NULL_HANDLE;  ///< the compute technique's scratch memory
+    std::uint32_t subpixel_bits = 8;    ///< precision of the grid that vertices are snapped to
+    VkBuffer read_back = VK_NULL_HANDLE;
+    VkDeviceSize summaries_offset = 0;  ///< offset of the summaries in the read-back, in bytes
+    std::uint32_t sample_capacity = 0;  ///< space in the read-back, in samples
+};
+
+}  // namespace nearfield::passes

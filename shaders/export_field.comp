@@ -1,0 +1,52 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// Copies the resolved cells of a field tile to the resident images: the signed distance in world
+// units, and the nearest feature as an id.
+
+#include "export.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 6, r32f) writeonly uniform image2D signed_distance;
+layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2D feature_id;
+
+layout(push_constant) uniform Push {
+    uint value;    // word of the first cell's value
+    uint feature;  // word of its feature
+    uint stride;   // words per row
+    uint width;    // cells to copy
+    uint height;
+    int column;  // of the first cell, in the images
+    int row;
+    uint rings;
+    uint ring_count;
+    float cell;
+} push;
+
+const uint first_vertex_flag = 1u << 28;  // as in nearest.glsl
+const uint last_vertex_flag = 1u << 29;
+
+uint id_of(uint word) {
+    uint edge = word & nearfield_index_mask;
+    uint flags = word & (nearfield_unique_flag | nearfield_inside_flag);
+    if ((word & first_vertex_flag) != 0u) {
+        return flags | nearfield_vertex_flag | edge;
+    }
+    if ((word & last_vertex_flag) != 0u) {
+        return flags | nearfield_vertex_flag | next_vertex(edge, push.rings, push.ring_count);
+    }
+    return flags | edge;
+}
+
+void main() {
+    uvec2 cell = gl_GlobalInvocationID.xy;
+    if (cell.x >= push.width || cell.y >= push.height) {
+        return;
+    }
+    uint offset = cell.y * push.stride + cell.x;
+    ivec2 texel = ivec2(push.column, push.row) + ivec2(cell);
+    float value = uintBitsToFloat(words[push.value + offset]);
+    imageStore(signed_distance, texel, vec4(value * push.cell));
+    imageStore(feature_id, texel, uvec4(id_of(words[push.feature + offset])));
+}

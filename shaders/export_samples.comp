@@ -1,0 +1,221 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// Writes the summary and the samples of an intersection from the hits in the cells of its tiles,
+// ordered by region, row and column. Steps as in export_records.comp: one thread per row of a tile
+// counts, one thread computes prefix sums, one thread per row writes its samples. Boxes and counts
+// of whole tiles come from the summaries that the host reads too.
+
+#include "export.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(std430, set = 0, binding = 2) writeonly buffer Samples {
+    NearfieldIntersectionSummary summary;
+    NearfieldIntersectionSample samples[];
+};
+layout(std430, set = 0, binding = 3) buffer Blocks {
+    uint blocks[];  // per tile the count and both corners, then per row the count of samples
+};
+
+const uint box_step = 0u;
+const uint count_step = 1u;
+const uint place_step = 2u;
+const uint write_step = 3u;
+
+layout(push_constant) uniform Push {
+    uint step;
+    uint table;        // position of the tile, or of the first one, in the tables
+    uint first_tile;   // its index among the query's tiles
+    uint tile_count;   // of the tile batch in the first step, of the query in the others
+    uint block_count;  // of all rows; 0 if samples are omitted
+    uint capacity;
+    uint rings;        // of A
+    uint ring_count;
+    uint vertices;     // of A
+    float cell;
+} push;
+
+// As SampleTileData in engine/plan/resident_outputs.hpp.
+struct Tile {
+    uint width;
+    uint height;
+    uint first_block;
+    uint block_step;
+    uint hits;
+    uint mask_a;
+    uint words_per_row;
+    uint runs;
+    uint run_table;
+    uint summary;
+    uint region;
+    vec2 corner;
+};
+const uint words_of_tile = 13u;
+const uint words_of_box = 5u;
+const uint no_word = 0xffffffffu;
+
+const uint words_of_summary = 6u;  // as in samples.glsl
+const uint run_shift = 8u;         // as in collect.glsl
+const float infinity = 1.0 / 0.0;
+
+Tile tile_at(uint word) {
+    return Tile(tables[word], tables[word + 1u], tables[word + 2u], tables[word + 3u],
+                tables[word + 4u], tables[word + 5u], tables[word + 6u], tables[word + 7u],
+                tables[word + 8u], tables[word + 9u], tables[word + 10u],
+                uintBitsToFloat(uvec2(tables[word + 11u], tables[word + 12u])));
+}
+
+// `precise`, so that boxes and samples agree bit for bit.
+precise vec2 centre_of(Tile tile, uint column, uint row) {
+    precise vec2 offset = push.cell * (vec2(float(column), float(row)) + 0.5);
+    return tile.corner + offset;
+}
+
+void write_box(uint index) {
+    Tile tile = tile_at(push.table + words_of_tile * index);
+    uint found = words_of_summary * tile.summary;
+    uint count = words[found];
+    uint box = words_of_box * (push.first_tile + index);
+    vec2 low = vec2(infinity);
+    vec2 high = vec2(-infinity);
+    if (count > 0u) {
+        low = centre_of(tile, words[found + 1u], words[found + 2u]);
+        high = centre_of(tile, words[found + 3u], words[found + 4u]);
+    }
+    blocks[box] = count;
+    blocks[box + 1u] = floatBitsToUint(low.x);
+    blocks[box + 2u] = floatBitsToUint(low.y);
+    blocks[box + 3u] = floatBitsToUint(high.x);
+    blocks[box + 4u] = floatBitsToUint(high.y);
+}
+
+// The hits among the 32 cells of a word of a row, one bit each.
+uint found_in(Tile tile, uint row, uint word) {
+    if (tile.mask_a != no_word) {
+        uint offset = row * tile.words_per_row + word;
+        return words[tile.mask_a + offset] & words[tile.hits + offset];
+    }
+    uint first = tile.hits + row * tile.width + 32u * word;
+    uint end = min(32u, tile.width - 32u * word);
+    uint found = 0u;
+    for (uint i = 0u; i < end; ++i) {
+        found |= words[first + i] != 0u ? 1u << i : 0u;
+    }
+    return found;
+}
+
+uint words_of_row(Tile tile) {
+    return (tile.width + 31u) / 32u;
+}
+
+uint block_of(Tile tile, uint row) {
+    return words_of_box * push.tile_count + tile.first_block + tile.block_step * row;
+}
+
+void count_row(Tile tile, uint row) {
+    uint count = 0u;
+    for (uint word = 0u; word < words_of_row(tile); ++word) {
+        count += uint(bitCount(found_in(tile, row, word)));
+    }
+    blocks[block_of(tile, row)] = count;
+}
+
+void place_rows() {
+    NearfieldIntersectionSummary all = NearfieldIntersectionSummary(
+        0u, push.capacity, 0.0, push.cell, vec2(infinity), vec2(-infinity));
+    for (uint tile = 0u; tile < push.tile_count; ++tile) {
+        uint box = words_of_box * tile;
+        all.count += blocks[box];
+        all.low = min(all.low, uintBitsToFloat(uvec2(blocks[box + 1u], blocks[box + 2u])));
+        all.high = max(all.high, uintBitsToFloat(uvec2(blocks[box + 3u], blocks[box + 4u])));
+    }
+    if (all.count == 0u) {
+        all.low = vec2(0.0);
+        all.high = vec2(0.0);
+    }
+    all.area = float(all.count) * push.cell * push.cell;
+    summary = all;
+    uint before = 0u;
+    uint first_row = words_of_box * push.tile_count;
+    for (uint i = 0u; i < push.block_count; ++i) {
+        uint count = blocks[first_row + i];
+        blocks[first_row + i] = before;
+        before += count;
+    }
+}
+
+vec2 vertex(uint index) {
+    uint word = push.vertices + 2u * index;
+    return uintBitsToFloat(uvec2(tables[word], tables[word + 1u]));
+}
+
+// The edge of A nearest to a point, in a run of edges; the first one if several are equally near.
+uint nearest_edge(uint first, uint count, vec2 point) {
+    if (count == 1u) {
+        return first;
+    }
+    uint nearest = first;
+    float best = infinity;
+    for (uint edge = first; edge < first + count; ++edge) {
+        vec2 a = (vertex(edge) - point) / push.cell;
+        vec2 way = (vertex(next_vertex(edge, push.rings, push.ring_count)) - point) / push.cell - a;
+        float squared = dot(way, way);
+        float along = squared > 0.0 ? clamp(-dot(a, way) / squared, 0.0, 1.0) : 0.0;
+        vec2 offset = a + along * way;
+        if (dot(offset, offset) < best) {
+            best = dot(offset, offset);
+            nearest = edge;
+        }
+    }
+    return nearest;
+}
+
+uint edge_of(Tile tile, uint cell, vec2 point) {
+    if (tile.run_table == no_word) {
+        return nearfield_no_edge;
+    }
+    uint run = tile.mask_a != no_word ? words[tile.runs + cell]
+                                      : words[tile.hits + cell] >> run_shift;
+    uint word = tile.run_table + 2u * run;
+    return nearest_edge(tables[word], tables[word + 1u], point);
+}
+
+void write_row(Tile tile, uint row) {
+    uint place = blocks[block_of(tile, row)];
+    for (uint word = 0u; word < words_of_row(tile); ++word) {
+        uint found = found_in(tile, row, word);
+        while (found != 0u) {
+            uint column = 32u * word + uint(findLSB(found));
+            found &= found - 1u;
+            vec2 point = centre_of(tile, column, row);
+            uint edge = edge_of(tile, row * tile.width + column, point);
+            samples[place++] = NearfieldIntersectionSample(point, edge, tile.region);
+        }
+    }
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (push.step == place_step) {
+        if (index == 0u) {
+            place_rows();
+        }
+        return;
+    }
+    if (push.step == box_step) {
+        if (index < push.tile_count) {
+            write_box(index);
+        }
+        return;
+    }
+    Tile tile = tile_at(push.table);
+    if (index >= tile.height) {
+        return;
+    }
+    if (push.step == count_step) {
+        count_row(tile, index);
+    } else {
+        write_row(tile, index);
+    }
+}

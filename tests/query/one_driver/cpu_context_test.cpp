@@ -1,0 +1,253 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/every_query.hpp>
+#include <tests/query/host_table.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <map>
+#include <string>
+
+namespace nearfield::test {
+namespace {
+
+const std::vector<Vector2> square{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+const std::vector<Vector2> triangle{{-0.8, -0.5}, {0.9, -0.4}, {0.1, 1.1}};
+
+struct Shapes {
+    explicit Shapes(Context& context) : a(add(context, square)), b(add(context, triangle)) {}
+
+    static ShapeHandle add(Context& context, const std::vector<Vector2>& ring) {
+        const Ring rings[] = {Ring(ring)};
+        return context.add_shape(rings).value();
+    }
+
+    ShapeHandle a;
+    ShapeHandle b;
+};
+
+Context make_cpu() {
+    Expected<Context> made = Context::create_cpu();
+    EXPECT_TRUE(made.ok()) << made.status().text();
+    return std::move(made.value());
+}
+
+/// Every query of every kind that Technique::cpu answers, by `technique`, which is cpu or
+/// automatic.
+Batch every_query_of_cpu(const Shapes& shapes, Technique technique) {
+    Batch batch;
+    const Batch every = every_query(shapes.a, shapes.b, 1, false);
+    for (const AnyQuery& any : every.queries()) {
+        std::visit(
+            [&](auto query) {
+                query.technique = technique;
+                if constexpr (requires { query.gradient; }) {
+                    if (query.gradient == GradientMethod::blended) {
+                        query.gradient = GradientMethod::analytic;
+                    }
+                }
+                batch.add(query);
+            },
+            any);
+    }
+    return batch;
+}
+
+class CpuContext : public QueryTest {};
+
+TEST_F(CpuContext, AnswersEveryKindOfQueryAsAContextWithADeviceDoes) {
+    Context alone = make_cpu();
+    const Shapes shapes(alone);
+    const Shapes shapes_beside(context());
+    for (const Technique technique : {Technique::cpu, Technique::automatic}) {
+        Results results;
+        ASSERT_TRUE(alone.run(every_query_of_cpu(shapes, technique), results).ok());
+        Results beside;
+        ASSERT_TRUE(context().run(every_query_of_cpu(shapes_beside, Technique::cpu), beside).ok());
+        for (const AnyResult& result : results.results) {
+            std::visit(
+                [](const ResultSummary& any) {
+                    EXPECT_TRUE(any.status.ok()) << any.status.text();
+                    EXPECT_EQ(any.technique, Technique::cpu);
+                },
+                result);
+        }
+        EXPECT_EQ(all_numbers(results), all_numbers(beside));
+    }
+}
+
+TEST_F(CpuContext, RefusesWhatNeedsADeviceInTheResultsOfThoseQueriesAlone) {
+    Context context = make_cpu();
+    const Shapes shapes(context);
+    const Instance a{shapes.a, {}};
+    const Instance b{shapes.b, {}};
+    Batch batch;
+    const auto refused = [&](auto query, auto change) {
+        change(query);
+        return batch.add(query);
+    };
+    const PenetrationQuery penetration{a, b, 0.1};
+    DistanceFieldQuery field;
+    field.b = b;
+    field.tolerance = 0.1;
+    field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+    const auto raster = refused(penetration, [](auto& q) { q.technique = Technique::raster; });
+    const auto compute = refused(penetration, [](auto& q) { q.technique = Technique::compute; });
+    const auto resident = refused(penetration, [](auto& q) { q.resident = true; });
+    const auto blended = refused(field, [](auto& q) {
+        q.gradients = true;
+        q.gradient = GradientMethod::blended;
+    });
+    const auto answered = batch.add(penetration);
+    Results results;
+    ASSERT_TRUE(context.run(batch, results).ok());
+    const auto expect_refused = [](const Status& status, const std::string& what) {
+        EXPECT_EQ(status.code(), StatusCode::unsupported_technique);
+        EXPECT_NE(status.message().find(what), std::string::npos) << status.text();
+        EXPECT_NE(status.message().find("create_cpu"), std::string::npos) << status.text();
+    };
+    expect_refused(results[raster].status, "technique raster");
+    expect_refused(results[compute].status, "technique compute");
+    expect_refused(results[resident].status, "resident");
+    expect_refused(results[blended].status, "blended gradients");
+    EXPECT_TRUE(results[answered].status.ok()) << results[answered].status.text();
+    EXPECT_GT(results[answered].count, 0U);
+    const Expected<Ticket> ticket = context.submit(batch);
+    ASSERT_TRUE(ticket.ok());
+    EXPECT_EQ(context.resident(*ticket, resident).status().code(),
+              StatusCode::unsupported_technique);
+    EXPECT_TRUE(context.is_ready(*ticket));
+    ASSERT_TRUE(context.collect(*ticket, results).ok());
+    EXPECT_TRUE(results[answered].status.ok());
+}
+
+TEST_F(CpuContext, RefusesCallsThatNeedADevice) {
+    Context context = make_cpu();
+    const Shapes shapes(context);
+    Batch batch;
+    batch.add(PenetrationQuery{{shapes.a, {}}, {shapes.b, {}}, 0.1});
+    Recording recording;
+    EXPECT_EQ(context.record(batch, recording).status().code(), StatusCode::no_device);
+    const SemaphoreWait wait{};
+    Submission submission;
+    submission.waits = {&wait, 1};
+    EXPECT_EQ(context.submit(batch, submission).status().code(), StatusCode::no_device);
+    EXPECT_FALSE(context.reload_shaders().ok());
+    EXPECT_EQ(context.device_name(), "");
+    EXPECT_EQ(context.memory_use().peak, 0U);
+    EXPECT_EQ(context.describe_graph(GraphFormat::text), "");
+    std::vector<TileReport> tiles(1);
+    EXPECT_TRUE(context.list_tiles(tiles).ok());
+    EXPECT_TRUE(tiles.empty());
+    Results results;
+    EXPECT_TRUE(context.run(batch, results).ok()) << "no batch was left in flight";
+}
+
+TEST_F(CpuContext, MeasuresTheOneTechniqueThatItHas) {
+    Settings settings;
+    settings.costs = CostModel{};
+    settings.costs->raster.submission = 7.0;
+    Context context = Context::create_cpu(settings).value();
+    const Expected<CostModel> costs = context.measure_costs();
+    ASSERT_TRUE(costs.ok()) << costs.status().text();
+    EXPECT_EQ(costs->raster.submission, 7.0);
+    EXPECT_GT(costs->cpu.points.query, 0.0);
+}
+
+TEST_F(CpuContext, RefusesBadSettings) {
+    Settings settings;
+    settings.batches_in_flight = 0;
+    EXPECT_EQ(Context::create_cpu(settings).status().code(), StatusCode::invalid_settings);
+}
+
+TEST_F(CpuContext, OneQueryIsAnsweredInOneLineOrRefusedWithItsStatus) {
+    Context context = make_cpu();
+    const Shapes shapes(context);
+    const Expected<PenetrationResult> answer =
+        context.answer(PenetrationQuery{{shapes.a, {}}, {shapes.b, {}}, 0.1});
+    ASSERT_TRUE(answer.ok()) << answer.status().text();
+    EXPECT_GT(answer->count, 0U);
+    EXPECT_EQ(answer->records.size(), answer->count);
+    EXPECT_EQ(
+        context.answer(PenetrationQuery{{shapes.a, {}}, {shapes.b, {}}, -1.0}).status().code(),
+        StatusCode::invalid_query);
+    EXPECT_EQ(context.answer(SeparationQuery{{shapes.a, {}}, {}, 0.1}).status().code(),
+              StatusCode::unknown_shape);
+}
+
+/// Pipelines are created only for the techniques in Settings::techniques.
+class TechniqueSettings : public HostTable {
+protected:
+    /// A context with these techniques; `made` counts calls by name.
+    Context make_with(const DeviceTechniques& techniques) {
+        const HostDevice& device = watch([this](const test_support::WatchedCall& call) {
+            if (call.makes()) {
+                ++made_[std::string(call.name)];
+            }
+        });
+        Settings settings;
+        settings.techniques = techniques;
+        Expected<Context> made = Context::create(device, settings);
+        EXPECT_TRUE(made.ok()) << made.status().text();
+        return std::move(made.value());
+    }
+
+    static Status status_by(Context& context, Technique technique) {
+        const Shapes shapes(context);
+        PenetrationQuery query{{shapes.a, {}}, {shapes.b, {}}, 0.1};
+        query.technique = technique;
+        const Expected<PenetrationResult> result = context.answer(query);
+        return result.status();
+    }
+
+    std::map<std::string, int> made_;
+};
+
+TEST_F(TechniqueSettings, WithoutRasterNoGraphicsPipelineIsMade) {
+    make_host();
+    Context context = make_with({.raster = false, .compute = true});
+    EXPECT_EQ(made_["vkCreateGraphicsPipelines"], 0);
+    EXPECT_GT(made_["vkCreateComputePipelines"], 0);
+    EXPECT_TRUE(status_by(context, Technique::compute).ok());
+    EXPECT_TRUE(status_by(context, Technique::automatic).ok());
+    const Status refused = status_by(context, Technique::raster);
+    EXPECT_EQ(refused.code(), StatusCode::unsupported_technique);
+    EXPECT_NE(refused.message().find("Settings::techniques"), std::string::npos);
+    EXPECT_EQ(made_["vkCreateGraphicsPipelines"], 0);
+}
+
+TEST_F(TechniqueSettings, WithoutComputeLessPipelinesAreMadeAndTheRasterAnswers) {
+    make_host();
+    { const Context all = make_with({}); }
+    const int by_all = made_["vkCreateComputePipelines"];
+    made_.clear();
+    Context context = make_with({.raster = true, .compute = false});
+    EXPECT_LT(made_["vkCreateComputePipelines"], by_all);
+    EXPECT_GT(made_["vkCreateGraphicsPipelines"], 0);
+    EXPECT_TRUE(status_by(context, Technique::raster).ok());
+    EXPECT_EQ(status_by(context, Technique::compute).code(), StatusCode::unsupported_technique);
+}
+
+TEST_F(TechniqueSettings, AutomaticChoosesAmongThoseThatAreThere) {
+    make_host();
+    const Settings dear = drawing();  // its costs would select the raster
+    Settings settings = dear;
+    settings.techniques.raster = false;
+    Context context = Context::create(host(), settings).value();
+    const Shapes shapes(context);
+    const PenetrationQuery query{{shapes.a, {}}, {shapes.b, {}}, 0.1};
+    EXPECT_NE(context.answer(query)->technique, Technique::raster);
+    PenetrationQuery resident = query;
+    resident.resident = true;
+    EXPECT_EQ(context.answer(resident)->technique, Technique::compute);
+    DistanceFieldQuery blended;
+    blended.b = query.b;
+    blended.tolerance = 0.1;
+    blended.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+    blended.gradients = true;
+    blended.gradient = GradientMethod::blended;
+    const Status status = context.answer(blended).status();
+    EXPECT_EQ(status.code(), StatusCode::unsupported_technique);
+    EXPECT_NE(status.message().find("Settings::techniques"), std::string::npos) << status.text();
+}
+
+}  // namespace
+}  // namespace nearfield::test

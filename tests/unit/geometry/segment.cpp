@@ -1,0 +1,124 @@
+#include <engine/geometry/segment.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/unit/support/shape_samples.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::geometry {
+namespace {
+
+TEST(NearestOnSegment, NoSampleIsNearer) {
+    samples::Random random(1);
+    for (int round = 0; round < 3000; ++round) {
+        const double far = round % 3 == 0 ? 1e6 : 0.0;
+        const double thin = round % 2 == 0 ? 1.0 : 1e-6;
+        const auto point = [&] {
+            return Vector(far + random.between(-1.0, 1.0), far + thin * random.between(-1.0, 1.0));
+        };
+        const Vector p = point();
+        const Vector a = point();
+        const Vector b = round % 7 == 0 ? a : point();
+        const NearestOnSegment nearest = nearest_on_segment(p, a, b);
+        ASSERT_GE(nearest.parameter, 0.0);
+        ASSERT_LE(nearest.parameter, 1.0);
+        const double rounding = 1e-15 * (1.0 + far);
+        EXPECT_LE((nearest.point - (a + nearest.parameter * (b - a))).norm(), rounding) << round;
+        const double distance = (nearest.point - p).norm();
+        EXPECT_DOUBLE_EQ(nearest.squared_distance, distance * distance) << round;
+        for (int i = 0; i <= 200; ++i) {
+            EXPECT_LE(distance, (a + i / 200.0 * (b - a) - p).norm() + rounding) << round;
+        }
+    }
+}
+
+TEST(NearestOnSegment, EndsAreReturnedAsTheyAre) {
+    const Vector a(0.1, 0.7);
+    const Vector b(0.3, 1e6);
+    EXPECT_EQ(nearest_on_segment(Vector(0.0, -5.0), a, b).point, a);
+    EXPECT_EQ(nearest_on_segment(Vector(0.0, -5.0), a, b).parameter, 0.0);
+    EXPECT_EQ(nearest_on_segment(Vector(0.0, 2e6), a, b).point, b);
+    EXPECT_EQ(nearest_on_segment(Vector(0.0, 2e6), a, b).parameter, 1.0);
+    EXPECT_EQ(nearest_on_segment(Vector(0.0, 2e6), a, a).point, a);
+    EXPECT_EQ(nearest_on_segment(a, a, a).squared_distance, 0.0);
+}
+
+/// Twice the area of a triangle of lattice points, without rounding.
+std::int64_t turn(const Vector& a, const Vector& b, const Vector& c) {
+    const auto whole = [](double x) { return static_cast<std::int64_t>(x); };
+    return whole(b.x() - a.x()) * whole(c.y() - a.y()) -
+           whole(b.y() - a.y()) * whole(c.x() - a.x());
+}
+
+bool on_segment(const Vector& p, const Vector& a, const Vector& b) {
+    return turn(a, b, p) == 0 && (p - a).dot(p - b) <= 0.0;
+}
+
+/// By cases: a proper crossing, or an end of one on the other.
+bool intersect_by_cases(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+    const auto opposite = [](std::int64_t x, std::int64_t y) {
+        return (x > 0 && y < 0) || (x < 0 && y > 0);
+    };
+    return (opposite(turn(a, b, c), turn(a, b, d)) && opposite(turn(c, d, a), turn(c, d, b))) ||
+           on_segment(a, c, d) || on_segment(b, c, d) || on_segment(c, a, b) || on_segment(d, a, b);
+}
+
+TEST(SegmentsIntersect, AllSegmentsOfASmallLattice) {
+    // All ways to touch, overlap, cross or degenerate occur on a lattice of 4 x 3 points.
+    for (const double far : {0.0, 1e6}) {
+        std::vector<Vector> points;
+        for (int x = 0; x < 4; ++x) {
+            for (int y = 0; y < 3; ++y) {
+                points.emplace_back(far + x, y - far);
+            }
+        }
+        int together = 0;
+        int apart = 0;
+        for (const Vector& a : points) {
+            for (const Vector& b : points) {
+                for (const Vector& c : points) {
+                    for (const Vector& d : points) {
+                        const bool expected = intersect_by_cases(a, b, c, d);
+                        ASSERT_EQ(segments_intersect(a, b, c, d), expected)
+                            << a.transpose() << ", " << b.transpose() << " and " << c.transpose()
+                            << ", " << d.transpose();
+                        (expected ? together : apart) += 1;
+                    }
+                }
+            }
+        }
+        EXPECT_GT(together, 1000);
+        EXPECT_GT(apart, 1000);
+    }
+}
+
+TEST(SegmentsIntersect, RandomSegmentsMeetWhereTheirDistanceIsZero) {
+    samples::Random random(2);
+    int together = 0;
+    for (int round = 0; round < 20000; ++round) {
+        std::array<Vector, 4> p;
+        for (Vector& v : p) {
+            v = Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        }
+        // Solved for the parameters of both segments.
+        const Vector u = p[1] - p[0];
+        const Vector w = p[3] - p[2];
+        const double determinant = cross(u, w);
+        const double s = cross(p[2] - p[0], w) / determinant;
+        const double t = cross(p[2] - p[0], u) / determinant;
+        const bool expected = s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0;
+        together += expected ? 1 : 0;
+        const bool close_call =
+            std::min({std::abs(s), std::abs(s - 1.0), std::abs(t), std::abs(t - 1.0)}) < 1e-9;
+        if (!close_call) {
+            EXPECT_EQ(segments_intersect(p[0], p[1], p[2], p[3]), expected) << round;
+        }
+    }
+    EXPECT_GT(together, 2000);
+}
+
+}  // namespace
+}  // namespace nearfield::geometry

@@ -1,0 +1,115 @@
+#include "support.hpp"
+
+#include <gtest/gtest.h>
+#include <tools/io/geojson.hpp>
+
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+const std::string triangle = "[[[0, 0], [4, 0], [0, 3], [0, 0]]]";
+
+std::string error_of(const std::string& text) {
+    return input_error([&] { return parse_geojson(text, "a.geojson"); });
+}
+
+std::string polygon(const std::string& coordinates) {
+    return R"({"type": "Polygon", "coordinates": )" + coordinates + "}";
+}
+
+TEST(ToolsGeojson, ReadsEveryKindThatHoldsPolygons) {
+    const std::vector<Ring> one{{{0, 0}, {4, 0}, {0, 3}, {0, 0}}};
+    const std::vector<Ring> two{one[0], one[0]};
+    const std::string feature =
+        R"({"type": "Feature", "properties": null, "geometry": )" + polygon(triangle) + "}";
+    EXPECT_EQ(parse_geojson(polygon(triangle), "f"), one);
+    EXPECT_EQ(parse_geojson(feature, "f"), one);
+    EXPECT_EQ(
+        parse_geojson(
+            R"({"type": "MultiPolygon", "coordinates": [)" + triangle + "," + triangle + "]}", "f"),
+        two);
+    EXPECT_EQ(
+        parse_geojson(
+            R"({"type": "FeatureCollection", "features": [)" + feature + "," + feature + "]}", "f"),
+        two);
+    const std::string collection = R"({"type": "GeometryCollection", "geometries": [)" +
+                                   polygon(triangle) + "," + polygon(triangle) + "]}";
+    EXPECT_EQ(parse_geojson(collection, "f"), two);
+    const std::string nested =
+        R"({"type": "GeometryCollection", "geometries": [)" + collection + "]}";
+    EXPECT_EQ(parse_geojson(R"({"type": "Feature", "geometry": )" + nested + "}", "f"), two);
+}
+
+TEST(ToolsGeojson, CollectionsNameWhatIsWrongInThem) {
+    EXPECT_EQ(error_of(R"({"type": "GeometryCollection", "geometries": []})"),
+              "a.geojson: geometries: a GeometryCollection without geometries");
+    EXPECT_EQ(error_of(R"({"type": "GeometryCollection", "geometries": [{"type": "Point"}]})"),
+              "a.geojson: geometries[0].type: \"Point\" is none of Polygon, MultiPolygon, "
+              "GeometryCollection");
+    std::string nested = polygon(triangle);
+    for (int i = 0; i < 70; ++i) {
+        nested = R"({"type": "GeometryCollection", "geometries": [)" + nested + "]}";
+    }
+    EXPECT_NE(error_of(nested).find("collections nested too deep"), std::string::npos);
+}
+
+TEST(ToolsGeojson, KeepsHolesOpenRingsAndEveryDigitAndDropsHeights) {
+    const std::vector<Ring> rings = parse_geojson(
+        polygon(
+            "[[[1000000.123456789, -2e-3, 7], [1, 2, 7, 8], [3, 5]], [[0, 0], [1, 0], [0, 1]]]"),
+        "f");
+    const std::vector<Ring> expected{{{1000000.123456789, -2e-3}, {1, 2}, {3, 5}},
+                                     {{0, 0}, {1, 0}, {0, 1}}};
+    EXPECT_EQ(rings, expected);
+}
+
+TEST(ToolsGeojson, StructureErrorsNameTheFileAndThePlace) {
+    EXPECT_EQ(error_of(polygon(R"([[[0, 0], [1, "x"], [0, 1]]])")),
+              "a.geojson: coordinates[0][1][1]: not a number but a string");
+    EXPECT_EQ(error_of(polygon("[[[0, 0], [1], [0, 1]]]")),
+              "a.geojson: coordinates[0][1]: a position needs two numbers, not 1");
+    EXPECT_EQ(error_of(polygon("[[[0, 0], 5, [0, 1]]]")),
+              "a.geojson: coordinates[0][1]: not an array but a number");
+    EXPECT_EQ(error_of(polygon("[[0, 0], [1, 0], [0, 1]]")),
+              "a.geojson: coordinates[0][0]: not an array but a number");
+    EXPECT_EQ(error_of(polygon("[[[[0, 0], [1, 0], [0, 1]]]]")),
+              "a.geojson: coordinates[0][0][0]: not a number but an array");
+    EXPECT_EQ(error_of(polygon("[[[0, 0], [1, 0], [0, 1]], []]")),
+              "a.geojson: coordinates[1]: an empty ring");
+    EXPECT_EQ(error_of(polygon("[]")), "a.geojson: coordinates: a polygon without rings");
+    EXPECT_EQ(error_of(polygon("{}")), "a.geojson: coordinates: not an array but an object");
+    EXPECT_EQ(error_of(R"({"type": "Polygon"})"), "a.geojson: has no \"coordinates\"");
+    EXPECT_EQ(error_of(R"({"type": 3})"), "a.geojson: type: not a string but a number");
+    EXPECT_EQ(error_of("[1, 2]"), "a.geojson: not an object but an array");
+    EXPECT_EQ(error_of(R"({"type": "Feature", "geometry": null})"),
+              "a.geojson: geometry: not an object but null");
+    EXPECT_EQ(
+        error_of(R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})"),
+        "a.geojson: type: \"LineString\" is none of Polygon, MultiPolygon, GeometryCollection");
+    EXPECT_EQ(error_of(R"({"type": "FeatureCollection", "features": []})"),
+              "a.geojson: features: a FeatureCollection without features");
+    EXPECT_EQ(error_of(R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+                           "geometry": {"type": "Polygon", "coordinates": [[[0, null]]]}}]})"),
+              "a.geojson: features[0].geometry.coordinates[0][0][1]: not a number but null");
+}
+
+TEST(ToolsGeojson, SyntaxErrorsNameFileLineAndColumn) {
+    EXPECT_EQ(error_of("{\n  \"type\": NaN}").substr(0, 25), "a.geojson:2:11: not JSON:");
+    EXPECT_EQ(error_of("{\"type\":").substr(0, 24), "a.geojson:1:9: not JSON:");
+    EXPECT_EQ(error_of("{\"type\": \"Polygon\",\n\"coordinates\": [[[0, 1e999]]]}").substr(0, 25),
+              "a.geojson:2:26: not JSON:");
+    EXPECT_NE(error_of(polygon(triangle) + "x").find("a.geojson:1:"), std::string::npos);
+}
+
+TEST(ToolsGeojson, AbsurdNestingIsAnErrorLikeAnyOther) {
+    constexpr std::size_t depth = 2'000'000;
+    const std::string nested = std::string(depth, '[') + std::string(depth, ']');
+    EXPECT_EQ(error_of(polygon(nested)),
+              "a.geojson: coordinates[0][0]: a position needs two numbers, not 1");
+    EXPECT_NE(error_of(std::string(depth, '[')), "no error");
+}
+
+}  // namespace
+}  // namespace nearfield::tools

@@ -1,0 +1,200 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/narrowphase/closest_pair.hpp>
+#include <engine/narrowphase/overlap_test.hpp>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tests/unit/support/shape_samples.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace nearfield::narrowphase {
+namespace {
+
+using geometry::Polygon;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double brute_force_squared_distance(const TransformedPolygon& a, const TransformedPolygon& b) {
+    double least = infinity;
+    for (std::uint32_t i = 0; i < a.polygon().size(); ++i) {
+        for (std::uint32_t j = 0; j < b.polygon().size(); ++j) {
+            least = std::min(
+                least, geometry::closest_of_segments(a.vertex(i), a.vertex(a.polygon().next(i)),
+                                                     b.vertex(j), b.vertex(b.polygon().next(j)))
+                           .squared_distance);
+        }
+    }
+    return least;
+}
+
+/// Two transformed shapes, complete.
+struct PlacedPair {
+    simd::TransformedInstances instances;
+    std::uint32_t index_a;
+    std::uint32_t index_b;
+
+    PlacedPair(const Polygon& polygon_a, const Pose& pose_a, const Polygon& polygon_b,
+               const Pose& pose_b)
+        : index_a(instances.place(polygon_a, pose_a)), index_b(instances.place(polygon_b, pose_b)) {
+        instances.complete(index_a);
+        instances.complete(index_b);
+    }
+    [[nodiscard]] const simd::TransformedEdges& a() const { return instances[index_a]; }
+    [[nodiscard]] const simd::TransformedEdges& b() const { return instances[index_b]; }
+};
+
+TEST(ClosestOfSegments, NoSampleIsCloser) {
+    samples::Random random(8);
+    for (int round = 0; round < 2000; ++round) {
+        const auto point = [&] {
+            return Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        };
+        const Vector a = point();
+        const Vector b = round % 9 == 0 ? a : point();
+        const Vector c = point();
+        const Vector d = round % 5 == 0 ? Vector(c + 0.7 * (b - a)) : point();  // parallel
+        const auto closest = geometry::closest_of_segments(a, b, c, d);
+        EXPECT_LT((a + closest.first_parameter * (b - a) - closest.first).norm(), 1e-15);
+        EXPECT_LT((c + closest.second_parameter * (d - c) - closest.second).norm(), 1e-14);
+        const double distance = std::sqrt(closest.squared_distance);
+        EXPECT_NEAR((closest.first - closest.second).norm(), distance, 1e-15);
+        for (int i = 0; i <= 20; ++i) {
+            const Vector p = a + i / 20.0 * (b - a);
+            EXPECT_LE(closest.squared_distance,
+                      geometry::nearest_on_segment(p, c, d).squared_distance + 1e-15);
+        }
+        EXPECT_EQ(closest.squared_distance,
+                  geometry::closest_of_segments(c, d, a, b).squared_distance);
+    }
+}
+
+TEST(ClosestPair, IsThatOfBruteForceFarAndNear) {
+    samples::Random random(77);
+    const auto shapes = samples::assorted_shapes(random);
+    ClosestPairFinder finder;
+    OverlapTest overlap_test;
+    int apart = 0;
+    int met = 0;
+    for (const auto& first : shapes) {
+        for (const auto& second : shapes) {
+            SCOPED_TRACE(first.name + " and " + second.name);
+            const Polygon polygon_a = samples::polygon(first.rings);
+            const Polygon polygon_b = samples::polygon(second.rings);
+            for (const double off : {0.0, 2.5}) {
+                const Pose pose_a{{}, random.between(-3.0, 3.0)};
+                const Pose pose_b{{off + random.between(0.0, 4.0), random.between(-1.0, 1.0)}, 0.4};
+                const PlacedPair placed(polygon_a, pose_a, polygon_b, pose_b);
+                const double truth =
+                    brute_force_squared_distance(placed.a().placed, placed.b().placed);
+                if (truth == 0.0) {
+                    simd::EdgePair edges;
+                    EXPECT_TRUE(overlap_test.boundaries_meet(placed.a(), placed.b(), edges));
+                    ++met;
+                    continue;
+                }
+                ++apart;
+                const ClosestPair pair = finder.find(placed.a(), placed.b(), infinity, 0.0);
+                EXPECT_EQ(pair.squared_distance, truth);
+                EXPECT_NEAR((pair.point_a - pair.point_b).squaredNorm(), truth, 1e-15);
+                // Known bounds do not change the answer.
+                const auto known = [&](double at_most) {
+                    return finder.find(placed.a(), placed.b(), at_most, 0.1).squared_distance;
+                };
+                EXPECT_EQ(known(std::sqrt(truth)), truth);
+                EXPECT_EQ(known(2.0 * std::sqrt(truth) + 1e-9), truth);
+                EXPECT_EQ(finder.find(placed.b(), placed.a(), infinity, 0.0).squared_distance,
+                          truth);
+            }
+        }
+    }
+    EXPECT_GT(met, 20);
+    EXPECT_GT(apart, 20);
+}
+
+TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
+    const Polygon wall = samples::polygon({samples::rectangle(0.0, 0.0, 10.0, 1.0)});
+    ClosestPairFinder finder;
+    const auto unique = [&](const samples::Rings& rings) {
+        const Polygon polygon = samples::polygon(rings);
+        const PlacedPair placed(wall, {}, polygon, {});
+        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, 1e-3);
+        return finder.is_unique(closest, Side::a, 1e-3, 0.5);
+    };
+    EXPECT_TRUE(unique({{{5.0, 2.0}, {6.0, 4.0}, {4.0, 4.0}}}));
+    EXPECT_FALSE(unique({samples::rectangle(2.0, 2.0, 3.0, 4.0)}));
+    EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
+    EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
+    EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
+}
+
+/// A rectangle whose upper and lower sides are divided into `edges` edges.
+Ring cut_rectangle(double low_x, double low_y, double high_x, double high_y, int edges) {
+    Ring ring;
+    for (int i = 0; i < edges; ++i) {
+        ring.push_back({low_x + (high_x - low_x) * i / edges, low_y});
+    }
+    for (int i = 0; i < edges; ++i) {
+        ring.push_back({high_x - (high_x - low_x) * i / edges, high_y});
+    }
+    ring.push_back({low_x, high_y});
+    return ring;
+}
+
+/// Tens of thousands of pairs as close as the closest, up to the margin: more than are stored.
+TEST(ClosestPair, UniqueUnlessAnotherIsAsCloseAmongVeryMany) {
+    const Polygon wall = samples::polygon({cut_rectangle(0.0, 0.0, 10.0, 1.0, 5000)});
+    ClosestPairFinder finder;
+    const auto unique = [&](const Ring& ring, double margin) {
+        const Polygon polygon = samples::polygon({ring});
+        const PlacedPair placed(wall, {}, polygon, {});
+        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, margin);
+        EXPECT_EQ(closest.squared_distance,
+                  brute_force_squared_distance(placed.a().placed, placed.b().placed));
+        return finder.is_unique(closest, Side::either, margin, 0.5);
+    };
+    for (const double margin : {0.0, 1e-3}) {
+        EXPECT_TRUE(unique(cut_rectangle(5.0, 2.0, 5.4, 4.0, 500), margin));
+        EXPECT_FALSE(unique(cut_rectangle(5.0, 2.0, 6.0, 4.0, 500), margin));
+    }
+    // Tilted down to the left, so that the other end is farther away by 0.001.
+    Ring tilted = cut_rectangle(5.0, 2.0, 7.0, 4.0, 500);
+    for (Vector2& vertex : tilted) {
+        vertex.y += 5e-4 * (vertex.x - 5.0);
+    }
+    EXPECT_TRUE(unique(tilted, 1e-4));
+    EXPECT_FALSE(unique(tilted, 5e-4));
+}
+
+TEST(ClosestPair, IsTheSameOnEveryInstructionSet) {
+    samples::Random random(91);
+    ClosestPairFinder finder;
+    for (int i = 0; i < 60; ++i) {
+        const auto size = [&] { return static_cast<std::uint32_t>(random.between(3.0, 120.0)); };
+        const Polygon a = samples::polygon({samples::star(random, size(), 0.3, 1.0)});
+        const Polygon b = samples::polygon({samples::star(random, size(), 0.1, 0.9)});
+        const PlacedPair pair(a, {}, b,
+                              {{random.between(2.0, 3.0), random.between(-1.5, 1.5)}, 0.4});
+        ClosestPair expected;
+        for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+            hwy::SetSupportedTargetsForTest(left & ~(left - 1));
+            hwy::GetChosenTarget().DeInit();
+            const ClosestPair found = finder.find(pair.a(), pair.b(), 10.0, 1e-3);
+            hwy::SetSupportedTargetsForTest(0);
+            hwy::GetChosenTarget().DeInit();
+            if (expected.squared_distance == infinity) {
+                expected = found;
+            }
+            EXPECT_EQ(found.edge_a, expected.edge_a);
+            EXPECT_EQ(found.edge_b, expected.edge_b);
+            EXPECT_EQ(found.squared_distance, expected.squared_distance);
+        }
+        EXPECT_LT(expected.squared_distance, infinity);
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::narrowphase

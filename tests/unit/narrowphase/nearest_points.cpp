@@ -1,0 +1,131 @@
+#include <engine/narrowphase/nearest_points.hpp>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+#include <tests/unit/support/point_samples.hpp>
+#include <tests/unit/support/shape_samples.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace nearfield::narrowphase {
+namespace {
+
+using geometry::Polygon;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+using samples::Points;
+
+/// Scattered points, or points along lines at various spacings.
+Points any_points(const TransformedPolygon& placed, samples::Random& random) {
+    Points points;
+    const std::uint32_t count = 1 + random.below(40);
+    const bool along_a_line = random.below(3) > 0;
+    const double step = std::pow(10.0, random.between(-4.0, 0.0));
+    Vector at(random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+    const double angle = random.between(-4.0, 4.0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        points.push(placed.to_world(at));
+        at = along_a_line ? Vector(at + step * Vector(std::cos(angle), std::sin(angle)))
+                          : Vector(random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+    }
+    return points;
+}
+
+/// Calls `check(edges, points)` for points around all kinds of shapes, small and large.
+template <class Check>
+void for_each_list(const Check& check) {
+    samples::Random random(95);
+    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+        for (const Pose& pose : {Pose{}, Pose{{1e4, -3.0}, 0.7}}) {
+            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
+            const Polygon polygon = samples::polygon(shape.rings);
+            simd::TransformedInstances instances;
+            const std::uint32_t index = instances.place(polygon, pose);
+            instances.complete(index);
+            for (int i = 0; i < 200; ++i) {
+                check(instances[index], any_points(instances[index].placed, random));
+            }
+        }
+    }
+}
+
+TEST(NearestPoints, AreThoseOfBruteForce) {
+    NearestPoints nearest;
+    std::uint32_t large = 0;
+    for_each_list([&](const simd::TransformedEdges& edges, const Points& points) {
+        large += simd::is_small(edges) ? 0U : 1U;
+        nearest.find(points.arrays(), edges, 1e-3);
+        const simd::NearestArrays& found = nearest.arrays();
+        for (std::uint32_t i = 0; i < points.count; ++i) {
+            const Vector point(points.x[i], points.y[i]);
+            double least = std::numeric_limits<double>::infinity();
+            for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+                least = std::min(
+                    least, geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
+                               .squared_distance);
+            }
+            ASSERT_LT(found.edge[i], edges.count);
+            EXPECT_NEAR(found.distance[i], std::sqrt(least), 1e-7 * edges.rounding + 1e-11);
+            const geometry::NearestOnSegment on_edge = geometry::nearest_on_segment(
+                point, edges.start(found.edge[i]), edges.end(found.edge[i]));
+            EXPECT_EQ(found.x[i], on_edge.point.x());
+            EXPECT_EQ(found.y[i], on_edge.point.y());
+            EXPECT_EQ(found.parameter[i], on_edge.parameter);
+            EXPECT_EQ(found.distance[i], std::sqrt(on_edge.squared_distance));
+        }
+    });
+    EXPECT_GT(large, 300U);
+}
+
+TEST(NearestPoints, AreUniqueWhereTheBoundarySaysSo) {
+    NearestPoints nearest;
+    std::uint32_t unique = 0;
+    std::uint32_t not_unique = 0;
+    for_each_list([&](const simd::TransformedEdges& edges, const Points& points) {
+        for (const double margin : {1e-6, 1e-2}) {
+            nearest.find(points.arrays(), edges, margin);
+            Boundary boundary;
+            boundary.set(edges);
+            for (std::uint32_t i = 0; i < points.count; ++i) {
+                const Vector point(points.x[i], points.y[i]);
+                const std::uint32_t edge = nearest.arrays().edge[i];
+                const NearestPoint found{
+                    edge, geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))};
+                const bool expected = boundary.is_unique(point, found, margin);
+                EXPECT_EQ(nearest.is_unique(i), expected) << point.transpose();
+                ++(expected ? unique : not_unique);
+            }
+        }
+    });
+    EXPECT_GT(unique, 10000U);
+    EXPECT_GT(not_unique, 1000U);
+}
+
+TEST(NearestPoints, AreTheSameOnEveryInstructionSet) {
+    const auto all = [] {
+        std::vector<double> said;
+        NearestPoints nearest;
+        for_each_list([&](const simd::TransformedEdges& edges, const Points& points) {
+            nearest.find(points.arrays(), edges, 1e-3);
+            const simd::NearestArrays& found = nearest.arrays();
+            for (std::uint32_t i = 0; i < points.count; ++i) {
+                said.insert(said.end(),
+                            {found.x[i], found.y[i], found.distance[i], found.parameter[i],
+                             found.second_squared[i], found.third_squared[i], 1.0 * found.edge[i]});
+            }
+        });
+        return said;
+    };
+    const std::vector<double> expected = all();
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+        hwy::SetSupportedTargetsForTest(left & ~(left - 1));
+        hwy::GetChosenTarget().DeInit();
+        EXPECT_EQ(all(), expected) << "target " << (left & ~(left - 1));
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().DeInit();
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::narrowphase

@@ -1,0 +1,64 @@
+#include <engine/plan/atlas.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+TEST(AtlasPacker, TilesOfARoundNeverOverlapAndStayInTheImage) {
+    for (std::uint32_t seed = 0; seed < 50; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::mt19937 random(seed);
+        const std::uint32_t largest = 64U << (seed % 3);
+        std::vector<TileSize> tiles(1 + random() % 200);
+        for (TileSize& tile : tiles) {
+            tile = {1 + static_cast<std::uint32_t>(random() % largest),
+                    1 + static_cast<std::uint32_t>(random() % (seed % 2 == 0 ? largest : 8))};
+        }
+        AtlasPacker packer(largest);
+        std::vector<AtlasPlace> places;
+        packer.pack(tiles, places);
+        ASSERT_EQ(places.size(), tiles.size());
+        ASSERT_LE(packer.extent().width, largest);
+        ASSERT_LE(packer.extent().height, largest);
+
+        std::vector<std::vector<bool>> taken(
+            packer.tile_batches(), std::vector<bool>(std::size_t{largest} * largest, false));
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            ASSERT_LT(places[i].round, packer.tile_batches());
+            ASSERT_LE(places[i].x + tiles[i].width, packer.extent().width);
+            ASSERT_LE(places[i].y + tiles[i].height, packer.extent().height);
+            for (std::uint32_t y = 0; y < tiles[i].height; ++y) {
+                for (std::uint32_t x = 0; x < tiles[i].width; ++x) {
+                    const std::size_t pixel =
+                        std::size_t{places[i].y + y} * largest + places[i].x + x;
+                    ASSERT_FALSE(taken[places[i].round][pixel]) << "tile " << i;
+                    taken[places[i].round][pixel] = true;
+                }
+            }
+        }
+    }
+}
+
+TEST(AtlasPacker, ManySmallTilesOfOneSizeWasteLittle) {
+    const std::vector<TileSize> tiles(1000, {32, 32});
+    AtlasPacker packer(2048);
+    std::vector<AtlasPlace> places;
+    packer.pack(tiles, places);
+    EXPECT_EQ(packer.tile_batches(), 1U);
+    EXPECT_LE(packer.extent().width * packer.extent().height, 1000U * 32U * 32U * 5U / 4U);
+}
+
+TEST(AtlasPacker, NoTilesNeedNoRound) {
+    AtlasPacker packer(64);
+    std::vector<AtlasPlace> places{{1, 2, 3}};
+    packer.pack({}, places);
+    EXPECT_EQ(packer.tile_batches(), 0U);
+    EXPECT_TRUE(places.empty());
+}
+
+}  // namespace
+}  // namespace nearfield::plan

@@ -1,0 +1,219 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/plan/planner.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Polygon;
+using geometry::Vector;
+
+class PlannerTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::vector<Ring> a{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
+        const std::vector<Ring> b{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}};
+        ASSERT_TRUE(a_.assign(a).ok());
+        ASSERT_TRUE(b_.assign(b).ok());
+        limits_.memory = 64U << 20U;
+        penetration_.a.shape = {0, 0};
+        penetration_.b = {{1, 0}, {{6.0, 3.0}, 0.3}};
+        penetration_.tolerance = 0.01;
+        penetration_.technique = Technique::raster;
+    }
+
+    void run(std::vector<AnyQuery> queries) {
+        queries_ = std::move(queries);
+        std::vector<QueryShapes> shapes;
+        find_shapes(
+            queries_,
+            [this](ShapeHandle handle) -> const Polygon* {
+                return handle.index == 0 ? &a_ : handle.index == 1 ? &b_ : nullptr;
+            },
+            shapes);
+        Planner(limits_).plan(queries_, shapes, plan_, results_);
+    }
+
+    Polygon a_;
+    Polygon b_;
+    PlanLimits limits_;
+    PenetrationQuery penetration_;
+    std::vector<AnyQuery> queries_;
+    Plan plan_;
+    std::vector<AnyResult> results_;
+};
+
+TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
+    limits_.points_tile = 100;
+    run({penetration_});
+    ASSERT_GT(plan_.tiles.size(), 3U);
+    ASSERT_GT(plan_.points.size(), 500U);
+    const geometry::TransformedPolygon a(a_, penetration_.a.pose);
+    for (const PlannedPoint& point : plan_.points) {
+        const Tile& tile = plan_.tiles[point.tile];
+        const Vector local = (position(a, point.point) - tile.origin()) / tile.grid.cell;
+        ASSERT_GE(local.minCoeff(), -1e-9);
+        ASSERT_LE(local.x(), tile.width + 1e-9);
+        ASSERT_LE(local.y(), tile.height + 1e-9);
+        ASSERT_LE(std::max(tile.width, tile.height), limits_.points_tile);
+        const auto side = tile.needed.side();
+        const auto block = [side](double value, std::uint32_t count) {
+            return static_cast<std::uint32_t>(std::clamp(value, 0.0, count - 1.0)) / side;
+        };
+        ASSERT_TRUE(
+            tile.needed.any(block(local.x(), tile.width), block(local.y(), tile.height), 1));
+    }
+}
+
+TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
+    limits_.largest_tile = 64;
+    DistanceFieldQuery field;
+    field.technique = Technique::raster;
+    field.b = penetration_.b;
+    field.tolerance = 0.05;
+    field.rectangle = Rectangle{{-3.0, 1.0}, {12.5, 9.0}};
+    run({field});
+    const auto& result = std::get<DistanceFieldResult>(results_[0]);
+    EXPECT_EQ(result.width, static_cast<std::uint32_t>(std::ceil(15.5 / (0.05 * std::sqrt(2.0)))));
+    EXPECT_EQ(result.height, static_cast<std::uint32_t>(std::ceil(8.0 / (0.05 * std::sqrt(2.0)))));
+    std::vector<int> covered(std::size_t{result.width} * result.height, 0);
+    for (const Tile& tile : plan_.tiles) {
+        for (std::uint64_t row = tile.row; row < tile.row + tile.height; ++row) {
+            for (std::uint64_t column = tile.column; column < tile.column + tile.width; ++column) {
+                ++covered[row * result.width + column];
+            }
+        }
+    }
+    EXPECT_EQ(covered, std::vector<int>(covered.size(), 1));
+}
+
+TEST_F(PlannerTest, WhatDoesNotFitIsRefusedWithAToleranceThatDoes) {
+    IntersectionQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 1e-5;
+    try {
+        run({query});
+        FAIL() << "an intersection of 10^11 cells was planned";
+    } catch (const StatusException& failure) {
+        EXPECT_EQ(failure.status().code(), StatusCode::too_large);
+        const std::string& message = failure.status().message();
+        const std::string lead = "the smallest tolerance that fits is about ";
+        const auto at = message.find(lead);
+        ASSERT_NE(at, std::string::npos) << message;
+        query.tolerance = std::stod(message.substr(at + lead.size()));
+        EXPECT_GT(query.tolerance, 1e-5);
+    }
+    EXPECT_NO_THROW(run({query})) << "the tolerance that the message names";
+}
+
+TEST_F(PlannerTest, MemoryIsCountedOverTheWholeBatch) {
+    IntersectionQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 0.01;
+    run({query});
+    const double one = plan_.result_bytes;
+    ASSERT_GT(one, 0.0);
+    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / one) + 1;
+    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
+}
+
+TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
+    ContactQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = {{1, 0}, {{10.5, 0.0}, 0.0}};
+    query.tolerance = 0.01;
+    query.contact_distance = 0.6;
+    query.technique = Technique::cpu;
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    const double roughly = plan_.result_bytes;
+    ASSERT_GT(roughly, 0.0);
+    const double most = static_cast<double>(limits_.memory);
+    const auto many = static_cast<std::size_t>(most / roughly) + 1;
+    query.contact_distance = 0.01;
+    run(std::vector<AnyQuery>(many, query));
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+    query.contact_distance = 30.0;
+    EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+}
+
+TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
+    PenetrationQuery query = penetration_;
+    query.b.pose.translation = {1000.0, 0.0};
+    query.tolerance = 0.01;
+    query.technique = Technique::cpu;
+    run({query});
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    const double roughly = plan_.result_bytes;
+    ASSERT_GT(roughly, 0.0);
+    const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / roughly) + 1;
+    run(std::vector<AnyQuery>(many, query));
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+    query.b.pose = {{1.0, 1.0}, 0.0};
+    run(std::vector<AnyQuery>(many / 2, query));
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, query)), StatusException);
+    query.records = false;
+    run(std::vector<AnyQuery>(4 * many, query));
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_EQ(plan_.result_bytes, 0.0);
+}
+
+TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
+    penetration_.technique = Technique::cpu;
+    penetration_.tolerance = 1.0;
+    run({penetration_});
+    EXPECT_GT(plan_.max_jobs, 100U);
+    penetration_.tolerance = 0.001;
+    penetration_.records = false;
+    run({penetration_});
+    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_GE(plan_.max_jobs, 1U);
+    EXPECT_LT(plan_.max_jobs, 4U);
+}
+
+TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
+    ContactQuery query;
+    query.technique = Technique::raster;
+    query.a = penetration_.a;
+    query.b = penetration_.b;
+    query.tolerance = 0.01;
+    query.contact_distance = 0.02;
+    const auto brute_force = [&] {
+        run({query});
+        return plan_.queries[0].brute_force;
+    };
+    query.technique = Technique::raster;
+    EXPECT_FALSE(brute_force());
+    query.technique = Technique::cpu;
+    EXPECT_TRUE(brute_force());
+    query.normals = ContactNormals::gradient;
+    EXPECT_FALSE(brute_force());
+    query.normals = ContactNormals::analytic;
+    query.tolerance = 1e-4;  // 280,000 samples per boundary
+    EXPECT_FALSE(brute_force());
+}
+
+TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
+    penetration_.b.pose.translation = {1000.0, 0.0};
+    run({penetration_});
+    EXPECT_TRUE(plan_.tiles.empty());
+    EXPECT_TRUE(std::get<PenetrationResult>(results_[0]).regions.empty());
+}
+
+}  // namespace
+}  // namespace nearfield::plan

@@ -1,0 +1,290 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
+#include <engine/plan/nearest_edges.hpp>
+#include <engine/plan/simplified_shapes.hpp>
+#include <engine/plan/tile_edges.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Polygon;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+constexpr std::uint32_t width = 40;
+constexpr std::uint32_t height = 24;
+
+/// A shape over, around or beside a tile of 40 x 24 cells of side 1 with its low corner at the
+/// origin.
+struct Case {
+    std::string name;
+    Polygon polygon;
+    Pose pose;
+    SimplifiedShapes shapes;
+    std::optional<TileBoundary> placed;
+
+    Case(const test::NamedRings& shape, std::uint64_t seed, double deviation) {
+        test::Random random(seed);
+        const double size = random.scale(3.0, 3e5);
+        name = shape.name + ", seed " + std::to_string(seed);
+        EXPECT_TRUE(polygon.assign(test::scaled_and_moved(shape.rings, size, {})).ok()) << name;
+        pose = {{random.between(-0.7, 0.7) * size + 0.5 * width,
+                 random.between(-0.7, 0.7) * size + 0.5 * height},
+                random.between(0.0, 7.0)};
+        placed.emplace(shapes.get(polygon, deviation, 64.0),
+                       ToCells(TransformedPolygon(polygon, pose), Vector::Zero(), 1.0));
+    }
+
+    [[nodiscard]] const TileBoundary& boundary() const { return *placed; }
+};
+
+std::vector<std::unique_ptr<Case>> cases(double deviation) {
+    std::vector<std::unique_ptr<Case>> all;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        for (const test::NamedRings& shape : test::every_family(seed)) {
+            all.push_back(std::make_unique<Case>(shape, 1000 * seed + all.size(), deviation));
+        }
+    }
+    return all;
+}
+
+bool crosses(const Vector& p, const Vector& a, const Vector& b) {
+    return (a.y() > p.y()) != (b.y() > p.y()) &&
+           p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+}
+
+TEST(TileBoundary, RingsClose) {
+    for (const auto& c : cases(0.3)) {
+        const SimplifiedBoundary& simplified = c->boundary().simplified();
+        for (std::uint32_t i = 0; i < simplified.size(); ++i) {
+            ASSERT_EQ(simplified.edges[simplified.previous(i)].last, simplified.edges[i].first)
+                << c->name;
+            ASSERT_EQ(simplified.ring_of[simplified.previous(i)], simplified.ring_of[i]) << c->name;
+        }
+    }
+}
+
+/// The distance from a point to an edge, computed from the edge only.
+double distance_to(const TileBoundary& boundary, const Vector& p, std::uint32_t edge) {
+    return std::sqrt(
+        geometry::nearest_on_segment(p, boundary.start(edge), boundary.end(edge)).squared_distance);
+}
+
+TEST(TileBoundary, FindsWhatAPlainScanFinds) {
+    test::Random random(3);
+    for (const auto& c : cases(0.3)) {
+        for (int i = 0; i < 20; ++i) {
+            const double far = random.scale(1.0, 1e4);
+            const Vector p(random.between(-far, far), random.between(-far, far));
+            const double reach = random.scale(1.0, 1e4);
+            double nearest = 1e300;
+            std::vector<std::uint32_t> wanted;
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                const double distance = distance_to(c->boundary(), p, e);
+                nearest = std::min(nearest, distance);
+                if (distance <= reach) {
+                    wanted.push_back(e);
+                }
+            }
+            ASSERT_EQ(c->boundary().distance(p), nearest) << c->name << " at " << p.transpose();
+            std::vector<std::uint32_t> found;
+            std::uint32_t visited = 0;
+            c->boundary().for_edges_near(p, reach, [&](std::uint32_t e) {
+                ++visited;
+                if (distance_to(c->boundary(), p, e) <= reach) {
+                    found.push_back(e);
+                }
+            });
+            ASSERT_EQ(found, wanted) << c->name << " at " << p.transpose();
+            ASSERT_LE(visited, c->boundary().size()) << c->name;
+        }
+    }
+}
+
+TEST(TileBoundary, LooksOnlyAtWhatIsNear) {
+    test::Random random(4);
+    Polygon polygon;
+    ASSERT_TRUE(polygon.assign(test::scaled_and_moved(test::regular(20000), 1e5, {})).ok());
+    SimplifiedShapes shapes;
+    const TileBoundary boundary(shapes.get(polygon, 1e-9, 64.0),
+                                ToCells(TransformedPolygon(polygon, {}), Vector::Zero(), 1.0));
+    ASSERT_EQ(boundary.size(), 20000U);
+    std::uint32_t visited = 0;
+    boundary.for_edges_near({1e5, 0.0}, 100.0, [&](std::uint32_t) { ++visited; });
+    EXPECT_GE(visited, 6U);  // an edge is 31 cells long
+    EXPECT_LE(visited, 40U);
+    std::vector<TileEdge> crossing;
+    crossing_edges(boundary, width, height, 0.3, crossing);
+    EXPECT_LE(crossing.size(), 2U) << "the right half of the circle";
+}
+
+/// The heights between `low` and `high` that upright edges cross an odd number of times, given by
+/// the positions where the parity changes: ends that occur twice cancel.
+std::vector<double> odd_ends(const std::vector<TileEdge>& edges, double low, double high) {
+    std::map<double, int> ends;
+    for (const TileEdge& edge : edges) {
+        for (const Vector& end : {edge.a, edge.b}) {
+            ++ends[std::clamp(end.y(), low, high)];
+        }
+    }
+    std::vector<double> odd;
+    for (const auto& [y, count] : ends) {
+        if (count % 2 == 1) {
+            odd.push_back(y);
+        }
+    }
+    return odd;
+}
+
+TEST(CrossingEdges, AreThoseOfAPlainScan) {
+    const double slack = 0.3;
+    const double right = width + 1.0 + slack;
+    const double low = -1.0 - slack;
+    const double high = height + 1.0 + slack;
+    for (const auto& c : cases(0.3)) {
+        const TileBoundary& boundary = c->boundary();
+        std::vector<TileEdge> crossing;
+        crossing_edges(boundary, width, height, slack, crossing);
+        std::vector<std::uint32_t> wanted;
+        std::vector<TileEdge> beyond;  // with upright edges, as without joining
+        for (std::uint32_t e = 0; e < boundary.size(); ++e) {
+            const Vector a = boundary.start(e);
+            const Vector b = boundary.end(e);
+            if (std::min(a.x(), b.x()) > right) {
+                beyond.push_back({{right, a.y()}, {right, b.y()}, no_simplified});
+            } else if (std::max(a.y(), b.y()) >= low && std::min(a.y(), b.y()) <= high &&
+                       std::max(a.x(), b.x()) >= -1.0 - slack) {
+                wanted.push_back(e);
+                if (std::max(a.x(), b.x()) > right && boundary.edge(e).count == 1) {
+                    const double cut = a.y() + (right - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+                    const double end = a.x() <= right ? b.y() : a.y();
+                    beyond.push_back({{right, cut}, {right, end}, no_simplified});
+                }
+            }
+        }
+        std::vector<std::uint32_t> found;
+        std::vector<TileEdge> upright;
+        for (const TileEdge& edge : crossing) {
+            if (edge.simplified == no_simplified) {
+                upright.push_back(edge);
+            } else {
+                found.push_back(edge.simplified);
+            }
+        }
+        ASSERT_EQ(found, wanted) << c->name;
+        ASSERT_EQ(odd_ends(upright, low, high), odd_ends(beyond, low, high)) << c->name;
+        ASSERT_LE(upright.size(), beyond.size()) << c->name;
+    }
+}
+
+TEST(CrossingEdges, GiveTheParityOfTheWholeBoundary) {
+    test::Random random(5);
+    for (const auto& c : cases(0.3)) {
+        std::vector<TileEdge> crossing;
+        crossing_edges(c->boundary(), width, height, 0.3, crossing);
+        for (int i = 0; i < 100; ++i) {
+            const Vector p(random.between(0.0, width), random.between(0.0, height));
+            bool whole = false;
+            double distance = 1e300;
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                const Vector a = c->boundary().start(e);
+                const Vector b = c->boundary().end(e);
+                whole = whole != crosses(p, a, b);
+                distance =
+                    std::min(distance, geometry::nearest_on_segment(p, a, b).squared_distance);
+            }
+            bool odd = false;
+            for (const TileEdge& edge : crossing) {
+                odd = odd != crosses(p, edge.a, edge.b);
+                EXPECT_LE(edge.simplified == no_simplified ? edge.a.x() : 0.0, width + 2.0);
+            }
+            if (distance > 1e-12) {
+                ASSERT_EQ(odd, whole) << c->name << " at " << p.transpose();
+            }
+        }
+    }
+}
+
+TEST(NearestEdges, ComeInOrderFromEveryPartOfTheTile) {
+    std::vector<NearestEdge> all;
+    std::vector<NearestEdge> part;
+    NearestEdgeFinder finder;
+    for (const auto& c : cases(0.3)) {
+        NeededBlocks everything(width, height);
+        everything.add_all();
+        finder.find(c->boundary(), everything, 0.5, all);
+        ASSERT_FALSE(all.empty()) << c->name;
+        for (std::size_t i = 1; i < all.size(); ++i) {
+            ASSERT_LT(all[i - 1].edge.simplified, all[i].edge.simplified) << c->name;
+        }
+        NeededBlocks corner(width, height);
+        corner.add(width - 1, height - 1);
+        finder.find(c->boundary(), corner, 0.5, part);
+        ASSERT_TRUE(std::includes(all.begin(), all.end(), part.begin(), part.end(),
+                                  [](const NearestEdge& i, const NearestEdge& j) {
+                                      return i.edge.simplified < j.edge.simplified;
+                                  }))
+            << c->name;
+    }
+}
+
+TEST(NearestEdges, HoldTheNearestEdgeOfEveryNeededSampleOnItsSide) {
+    const double slack = 0.5;
+    const double deviation = 0.3;
+    std::vector<NearestEdge> found;
+    NearestEdgeFinder finder;
+    test::Random random(9);
+    for (const auto& c : cases(deviation)) {
+        NeededBlocks needed(width, height);
+        std::vector<Vector> samples;
+        for (int i = 0; i < 30; ++i) {
+            const Vector p(random.between(0.0, width), random.between(0.0, height));
+            needed.add(static_cast<std::uint32_t>(p.x()), static_cast<std::uint32_t>(p.y()));
+            samples.push_back(p);
+        }
+        finder.find(c->boundary(), needed, slack, found);
+        std::vector<const NearestEdge*> by_edge(c->boundary().size(), nullptr);
+        for (const NearestEdge& edge : found) {
+            by_edge[edge.edge.simplified] = &edge;
+        }
+        for (const Vector& p : samples) {
+            double nearest = 1e300;
+            std::vector<double> distances;
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                distances.push_back(std::sqrt(
+                    geometry::nearest_on_segment(p, c->boundary().start(e), c->boundary().end(e))
+                        .squared_distance));
+                nearest = std::min(nearest, distances.back());
+            }
+            for (std::uint32_t e = 0; e < c->boundary().size(); ++e) {
+                // Any edge that the deviation may make nearest.
+                if (distances[e] > nearest + 2.0 * deviation) {
+                    continue;
+                }
+                ASSERT_NE(by_edge[e], nullptr)
+                    << c->name << ": edge " << e << " at " << p.transpose();
+                if (distances[e] == nearest) {
+                    const double left = geometry::cross(
+                        c->boundary().end(e) - c->boundary().start(e), p - c->boundary().start(e));
+                    const double reach =
+                        left >= 0.0 ? by_edge[e]->reach_left : by_edge[e]->reach_right;
+                    ASSERT_GE(reach, nearest) << c->name << ": edge " << e;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::plan

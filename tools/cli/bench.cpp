@@ -1,0 +1,169 @@
+#include <nearfield/context.hpp>
+
+#include <tools/benchmark/median_timings.hpp>
+#include <tools/benchmark/spread.hpp>
+#include <tools/cli/bench.hpp>
+#include <tools/cli/open_context.hpp>
+#include <tools/cli/paper_tables.hpp>
+#include <tools/cli/standard_table.hpp>
+#include <tools/common/library_error.hpp>
+#include <tools/common/parsed_option.hpp>
+#include <tools/common/scene_runner.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/input_error.hpp>
+#include <tools/io/query_json.hpp>
+#include <tools/io/report_target.hpp>
+#include <tools/io/scene.hpp>
+#include <tools/io/summary.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+/// The result of a measurement.
+struct Measurement {
+    benchmark::Spread frame_ms;
+    double slowest_ms = 0.0;
+    Timings timings;
+};
+
+Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
+    const bool show_progress = isatty(STDERR_FILENO) == 1;
+    std::vector<double> frames_ms;
+    std::vector<Timings> timings;
+    const std::uint64_t all = std::uint64_t{arguments.warm_up} + arguments.frames;
+    for (std::uint64_t frame = 0; frame < all; ++frame) {
+        if (show_progress) {
+            std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
+        }
+        const double milliseconds = runner.run_frame();
+        runner.require_results();
+        if (frame >= arguments.warm_up) {
+            frames_ms.push_back(milliseconds);
+            timings.push_back(runner.timings());
+        }
+    }
+    if (show_progress) {
+        std::cerr << '\n';
+    }
+    return {benchmark::spread_of(frames_ms), *std::max_element(frames_ms.begin(), frames_ms.end()),
+            benchmark::median_timings(timings)};
+}
+
+void write_bench_json(std::ostream& stream, const Measurement& measurement,
+                      const BenchArguments& arguments, const std::string& device,
+                      std::string_view technique) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("scene").value(std::string_view(arguments.scene));
+    json.key("device").value_or_null(device);
+    json.key("technique").value(technique);
+    json.key("frames").value(std::uint64_t{arguments.frames});
+    json.key("median_ms").value(measurement.frame_ms.median);
+    json.key("min_ms").value(measurement.frame_ms.least);
+    json.key("max_ms").value(measurement.slowest_ms);
+    write_timings(json, measurement.timings);
+    json.end_object();
+    stream << '\n';
+}
+
+void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
+                         const std::string& device, std::string_view technique) {
+    stream << "device            " << device_text(device) << '\n'
+           << "technique         " << technique << '\n'
+           << "queries           " << scene.queries.size() << '\n'
+           << "frames            " << measurement.frame_ms.count << '\n'
+           << "median            " << short_number(measurement.frame_ms.median) << " ms a frame ("
+           << short_number(measurement.frame_ms.least) << " to "
+           << short_number(measurement.slowest_ms) << ")\n";
+    write_timings_summary(stream, measurement.timings);
+}
+
+}  // namespace
+
+CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
+    CLI::App* command = program.add_subcommand(
+        "bench",
+        "Report median times (ms) of whole frames: of the standard table, or of a scene's queries "
+        "as one batch a frame");
+    CLI::Option* const scene =
+        command
+            ->add_option("--scene", arguments.scene,
+                         "Scene: shapes, instances (shape and pose) and queries; default: the "
+                         "standard table, by each technique")
+            ->type_name("FILE.json");
+    CLI::Option* const filter =
+        command
+            ->add_option("--filter", arguments.filter,
+                         "Only the rows of the standard table whose names hold this text")
+            ->type_name("TEXT")
+            ->excludes(scene);
+    CLI::Option* const paper =
+        command
+            ->add_flag("--paper", arguments.paper,
+                       "The paper's Tables 2 and 3: proximity queries of its simulations, by each "
+                       "technique, the paper's figures beside them")
+            ->excludes(scene)
+            ->excludes(filter);
+    command
+        ->add_option("--curves", arguments.curves,
+                     "Of --paper: draw how times grow with lines and tolerance; default none")
+        ->type_name("FILE.png")
+        ->needs(paper);
+    command
+        ->add_option("--technique", arguments.technique,
+                     "raster, compute, cpu or automatic, of all queries; default as the scene says")
+        ->type_name("NAME")
+        ->needs(scene);
+    add_settings_options(*command, arguments.settings);
+    add_count_option(*command, "--frames", arguments.frames, {1, 1'000'000},
+                     "Frames that are measured; default 50")
+        ->type_name("COUNT")
+        ->needs(scene);
+    add_count_option(*command, "--warmup", arguments.warm_up, {0, 1'000'000},
+                     "Frames before them that are not measured; default 5")
+        ->type_name("COUNT")
+        ->needs(scene);
+    command
+        ->add_option("--json", arguments.json,
+                     "Write the times as JSON, milliseconds; - for the standard output, the "
+                     "summary then goes to the standard error; default none")
+        ->type_name("FILE|-");
+    return command;
+}
+
+void run_bench(const BenchArguments& arguments) {
+    if (arguments.paper) {
+        run_paper_tables(parse_settings(arguments.settings), arguments.json, arguments.curves);
+        return;
+    }
+    if (arguments.scene.empty()) {
+        run_standard_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
+        return;
+    }
+    const std::optional<Technique> technique = parse_technique_option(arguments.technique);
+    const Settings settings = parse_settings(arguments.settings);
+    Scene scene = read_scene(arguments.scene);
+    set_technique(scene, technique);
+    if (scene.queries.empty()) {
+        throw InputError(arguments.scene + ": queries: there is none to measure");
+    }
+    ReportTarget report(arguments.json);
+    Context context = open_context(settings, techniques_of(scene));
+    SceneRunner runner(scene, arguments.scene, context);
+    const Measurement measurement = measure(runner, arguments);
+    if (std::ostream* json = report.json()) {
+        write_bench_json(*json, measurement, arguments, context.device_name(), runner.technique());
+    }
+    write_bench_summary(report.summary(), measurement, scene, context.device_name(),
+                        runner.technique());
+    report.commit();
+}
+
+}  // namespace nearfield::tools

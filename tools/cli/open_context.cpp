@@ -1,0 +1,35 @@
+#include <tools/cli/open_context.hpp>
+#include <tools/common/library_error.hpp>
+
+#include <iostream>
+
+namespace nearfield::tools {
+
+AskedTechniques techniques_of(const Scene& scene) {
+    AskedTechniques asked;
+    for (const SceneQuery& query : scene.queries) {
+        asked.add(query.request);
+    }
+    return asked;
+}
+
+Context open_context(Settings settings, const AskedTechniques& asked) {
+    const bool automatic = asked.has(Technique::automatic);
+    const bool raster = asked.has(Technique::raster);
+    const bool compute = asked.has(Technique::compute);
+    if (!automatic && !raster && !compute) {
+        return take(Context::create_cpu(settings));
+    }
+    settings.techniques = {.raster = automatic || raster, .compute = automatic || compute};
+    Expected<Context> context = Context::create_headless({}, settings);
+    const StatusCode code = context.status().code();
+    if ((code == StatusCode::no_device || code == StatusCode::unsupported_device) && !raster &&
+        !compute) {
+        std::cerr << "nearfield: without a device, by the CPU alone: " << context.status().text()
+                  << '\n';
+        return take(Context::create_cpu(settings));
+    }
+    return take(std::move(context));
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,280 @@
+#include <tools/benchmark/machine.hpp>
+#include <tools/benchmark/outlines.hpp>
+#include <tools/cli/paper_tables.hpp>
+#include <tools/cli/query_times.hpp>
+#include <tools/drawing/line_chart.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/json_writer.hpp>
+#include <tools/io/output_file.hpp>
+#include <tools/io/report_target.hpp>
+#include <tools/simulation/rigid_body.hpp>
+#include <tools/simulation/scenes.hpp>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+/// Milliseconds from the paper: GeForce2, InfiniteReality2, ATI Rage Pro LT.
+using PaperTimes = std::array<double, 3>;
+constexpr std::array<PaperTimes, 5> paper_table_2{{{0.281, 0.901, 0.4344},
+                                                   {0.015, 0.026, 0.064},
+                                                   {0.020, 0.052, 0.038},
+                                                   {0.007, 0.026, 0.015},
+                                                   {1.030, 2.360, 2.990}}};
+constexpr std::array<PaperTimes, 5> paper_table_3{{{0.710, 1.270, 5.560},
+                                                   {0.315, 1.000, 1.850},
+                                                   {0.211, 0.930, 0.895},
+                                                   {0.176, 0.879, 0.631},
+                                                   {0.165, 0.876, 0.535}}};
+constexpr std::array<double, 5> tolerance_factors{0.25, 0.5, 1.0, 2.0, 4.0};
+constexpr std::array<const char*, 5> tolerance_names{"d/4", "d/2", "d", "2d", "4d"};
+
+/// A row of either of the two tables.
+struct PaperRow {
+    std::string name;
+    std::size_t objects = 0;
+    std::size_t lines = 0;
+    double tolerance = 0.0;
+    QueryTimes times;
+    PaperTimes paper{};
+};
+
+/// The independent variable and the time.
+struct GrowthPoint {
+    double of = 0.0;
+    QueryTimes times;
+};
+
+struct Measured {
+    std::vector<PaperRow> table_2;
+    std::vector<PaperRow> table_3;
+    std::vector<GrowthPoint> lines;       ///< by total number of lines of two coasts
+    std::vector<GrowthPoint> tolerances;  ///< by tolerance d
+};
+
+/// Shows the current measurement on a terminal.
+void show(const std::string& what) {
+    if (isatty(STDERR_FILENO) == 1) {
+        std::cerr << "\r\x1b[K" << what << std::flush;
+    }
+}
+
+std::vector<PaperRow> measure_table_2(QueryStopwatch& stopwatch) {
+    std::vector<PaperRow> rows;
+    for (const simulation::NamedScene& named : simulation::paper_scenes()) {
+        show(std::string("table 2: ") + named.name);
+        simulation::Scene scene = named.make();
+        PaperRow row{named.name, scene.bodies.size(),       line_count(scene), scene.tolerance,
+                     {},         paper_table_2[rows.size()]};
+        row.times = stopwatch.measure_run(std::move(scene), {row.tolerance}).front();
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::vector<PaperRow> measure_table_3(QueryStopwatch& stopwatch) {
+    show("table 3: wavy");
+    simulation::Scene scene = simulation::wavy_scene();
+    std::vector<PaperRow> rows;
+    std::vector<double> tolerances;
+    for (std::size_t i = 0; i < tolerance_factors.size(); ++i) {
+        tolerances.push_back(tolerance_factors[i] * scene.tolerance);
+        rows.push_back({tolerance_names[i],
+                        scene.bodies.size(),
+                        line_count(scene),
+                        tolerances.back(),
+                        {},
+                        paper_table_3[i]});
+    }
+    const std::vector<QueryTimes> times = stopwatch.measure_run(std::move(scene), tolerances);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].times = times[i];
+    }
+    return rows;
+}
+
+/// Two coasts of n lines each that overlap by a fifth of their size.
+simulation::Scene two_coasts(std::size_t n, double tolerance) {
+    simulation::Scene scene;
+    for (const double side : {-0.8, 0.8}) {
+        scene.bodies.push_back(std::make_unique<simulation::RigidBody>(
+            std::vector<Ring>{benchmark::coast(side < 0.0 ? 1 : 2, n)}, Pose{{side, 0.0}}));
+    }
+    scene.tolerance = tolerance;
+    return scene;
+}
+
+void measure_growth(QueryStopwatch& stopwatch, Measured& measured) {
+    for (const std::size_t n : {50U, 158U, 500U, 1581U, 5000U, 15811U, 50000U}) {
+        show("growth: " + std::to_string(2 * n) + " lines");
+        measured.lines.push_back(
+            {static_cast<double>(2 * n), stopwatch.measure_still(two_coasts(n, 0.01))});
+    }
+    for (const double d : {0.0003162, 0.001, 0.003162, 0.01, 0.03162, 0.1}) {
+        show("growth: tolerance " + std::to_string(d));
+        measured.tolerances.push_back({d, stopwatch.measure_still(two_coasts(500, d))});
+    }
+    show("");
+}
+
+std::string digits(double number) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3f", number);
+    return text.data();
+}
+
+std::string digits(const std::optional<double>& number) {
+    return number ? digits(*number) : "refused";
+}
+
+void print_rows(std::ostream& stream, const std::vector<PaperRow>& rows) {
+    for (const PaperRow& row : rows) {
+        stream << "| " << row.name << " | " << row.objects << " | " << row.lines << " | "
+               << digits(row.times.queries) << " | " << digits(row.times.points);
+        for (const std::optional<double>& time : row.times.milliseconds) {
+            stream << " | " << digits(time);
+        }
+        for (const double time : row.paper) {
+            stream << " | " << digits(time);
+        }
+        stream << " |\n";
+    }
+}
+
+void print_tables(std::ostream& stream, const Measured& measured, const benchmark::Machine& machine,
+                  const std::string& device) {
+    constexpr auto header =
+        " | objects | lines | queries | points | raster | compute | cpu | automatic | GeForce2 | "
+        "InfiniteReality2 | ATI Rage Pro LT |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
+           << machine.cores << " cores; " << device_text(device) << " ("
+           << benchmark::driver_of(device) << ")\n\n"
+           << "Table 2: milliseconds of a frame's proximity queries (points inside each other, "
+              "their depths and directions,\nfor every near pair both ways), on average over the "
+              "simulation; the last three columns are the paper's.\n\n| demo"
+           << header;
+    print_rows(stream, measured.table_2);
+    stream << "\nTable 3: wavy, by the tolerance; d is " << digits(measured.table_3[2].tolerance)
+           << "\n\n| tolerance" << header;
+    print_rows(stream, measured.table_3);
+}
+
+void write_times(JsonWriter& json, const QueryTimes& times) {
+    json.key("queries").value(times.queries);
+    json.key("points").value(times.points);
+    json.key("ms").begin_object();
+    for (std::size_t i = 0; i < techniques_measured; ++i) {
+        json.key(to_string(QueryStopwatch::techniques()[i]));
+        times.milliseconds[i] ? json.value(*times.milliseconds[i]) : json.null();
+    }
+    json.end_object();
+}
+
+void write_rows(JsonWriter& json, const char* name, const std::vector<PaperRow>& rows) {
+    json.key(name).begin_array(JsonWriter::Layout::lines);
+    for (const PaperRow& row : rows) {
+        json.begin_object();
+        json.key("name").value(std::string_view(row.name));
+        json.key("objects").value(std::uint64_t{row.objects});
+        json.key("lines").value(std::uint64_t{row.lines});
+        json.key("tolerance").value(row.tolerance);
+        write_times(json, row.times);
+        json.key("paper_ms").begin_array();
+        for (const double time : row.paper) {
+            json.value(time);
+        }
+        json.end_array();
+        json.end_object();
+    }
+    json.end_array();
+}
+
+void write_growth(JsonWriter& json, const char* name, const char* of,
+                  const std::vector<GrowthPoint>& points) {
+    json.key(name).begin_array(JsonWriter::Layout::lines);
+    for (const GrowthPoint& point : points) {
+        json.begin_object();
+        json.key(of).value(point.of);
+        write_times(json, point.times);
+        json.end_object();
+    }
+    json.end_array();
+}
+
+void write_json(std::ostream& stream, const Measured& measured, const benchmark::Machine& machine,
+                const std::string& device) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("commit").value(std::string_view(machine.commit));
+    json.key("date").value(std::string_view(machine.date));
+    json.key("processor").value(std::string_view(machine.processor));
+    json.key("cores").value(std::uint64_t{machine.cores});
+    json.key("device").value_or_null(device);
+    write_rows(json, "table_2", measured.table_2);
+    write_rows(json, "table_3", measured.table_3);
+    write_growth(json, "growth_with_lines", "lines", measured.lines);
+    write_growth(json, "growth_with_tolerance", "tolerance", measured.tolerances);
+    json.end_object();
+    stream << '\n';
+}
+
+LineChart chart_of(const std::vector<GrowthPoint>& points, std::string title, std::string x_name) {
+    constexpr std::array<Color, techniques_measured> colors{rgb(0xC2185B), rgb(0x7B3FA0),
+                                                            rgb(0x14467C), rgb(0x5B6675)};
+    LineChart chart{std::move(title), std::move(x_name), "milliseconds of a frame's queries", {}};
+    for (std::size_t i = 0; i < techniques_measured; ++i) {
+        ChartLine line{to_string(QueryStopwatch::techniques()[i]), colors[i], {}};
+        for (const GrowthPoint& point : points) {
+            if (point.times.milliseconds[i]) {
+                line.points.push_back({point.of, *point.times.milliseconds[i]});
+            }
+        }
+        chart.lines.push_back(std::move(line));
+    }
+    return chart;
+}
+
+std::string draw_curves(const Measured& measured) {
+    Canvas canvas(1240, 480, palette::page);
+    draw_line_chart(canvas, chart_of(measured.lines, "Two coasts, d = 0.01", "lines, together"),
+                    {{0.0, 0.0}, {620.0, 480.0}});
+    draw_line_chart(canvas,
+                    chart_of(measured.tolerances, "Two coasts of 500 lines each", "tolerance d"),
+                    {{620.0, 0.0}, {1240.0, 480.0}});
+    return canvas.png();
+}
+
+}  // namespace
+
+void run_paper_tables(const Settings& settings, const std::optional<std::string>& json,
+                      const std::optional<std::string>& curves) {
+    ReportTarget report(json);
+    std::optional<OutputFile> picture;
+    if (curves) {
+        picture.emplace(*curves);
+    }
+    QueryStopwatch stopwatch(settings);
+    Measured measured{measure_table_2(stopwatch), measure_table_3(stopwatch), {}, {}};
+    if (json || curves) {
+        measure_growth(stopwatch, measured);
+    }
+    show("");
+    const benchmark::Machine machine = benchmark::this_machine();
+    print_tables(report.summary(), measured, machine, stopwatch.device_name());
+    if (picture) {
+        picture->stream() << draw_curves(measured);
+        picture->commit();
+    }
+    if (std::ostream* stream = report.json()) {
+        write_json(*stream, measured, machine, stopwatch.device_name());
+    }
+    report.commit();
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <tools/cli/settings_options.hpp>
+#include <tools/io/query_request.hpp>
+#include <tools/io/values.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+
+/// The arguments of `nearfield query`.
+struct QueryArguments {
+    QueryRequest request;  ///< the kind, and the options that can be read without the others
+    std::string file_a;
+    std::string file_b;
+    std::optional<double> deviation;
+    DegreesPose pose_a;
+    DegreesPose pose_b;
+    std::optional<DegreesPose> end_pose_a;
+    std::optional<DegreesPose> end_pose_b;
+    std::optional<Technique> technique;
+    std::optional<IntersectionStrategy> strategy;
+    std::optional<SignEncoding> sign;
+    std::optional<GradientMethod> gradient;
+    std::vector<std::string> at;
+    SettingsArguments settings;
+    std::optional<std::string> json;
+    std::optional<std::string> image;
+    std::optional<std::string> field;
+    std::optional<std::string> gradient_field;
+    std::optional<std::string> features;
+    bool tiles = false;
+};
+
+/// Answers the query and writes the requested outputs. Throws InputError, LibraryError or
+/// std::runtime_error.
+void run_query(const QueryArguments& arguments);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,48 @@
+#include <tools/cli/settings_options.hpp>
+#include <tools/common/parsed_option.hpp>
+#include <tools/io/cost_model.hpp>
+#include <tools/io/input_error.hpp>
+
+namespace nearfield::tools {
+
+void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
+    command
+        .add_option("--boxes", arguments.boxes,
+                    "Bounding boxes that localise: axis-aligned or oriented; default axis-aligned")
+        ->type_name("NAME");
+    add_count_option(command, "--height", arguments.height, {0, 32},
+                     "Maximum height of their hierarchies: more is more work on the CPU and less "
+                     "on the device; default 12")
+        ->type_name("LEVELS");
+    command
+        .add_option("--costs", arguments.costs,
+                    "What the techniques cost here, as nearfield calibrate has measured it: what "
+                    "the technique automatic goes by; default what is usual for such a device")
+        ->type_name("FILE.json");
+    add_parsed_option(
+        command, "--threads", arguments.threads,
+        [](const std::string& text, const std::string& option) {
+            return std::make_shared<ThreadTeam>(parse_count(text, option, {1, max_jobs}));
+        },
+        "Threads for what the CPU answers; default 1; 1 to " + std::to_string(max_jobs))
+        ->type_name("COUNT");
+}
+
+Settings parse_settings(const SettingsArguments& arguments) {
+    Settings settings;
+    if (arguments.boxes == "oriented") {
+        settings.bounding_volume = BoundingVolume::oriented;
+    } else if (arguments.boxes && arguments.boxes != "axis-aligned") {
+        throw InputError("--boxes: \"" + *arguments.boxes + "\" is none of axis-aligned, oriented");
+    }
+    settings.hierarchy_height = arguments.height.value_or(settings.hierarchy_height);
+    if (arguments.costs) {
+        settings.costs = read_cost_model(*arguments.costs);
+    }
+    if (arguments.threads) {
+        settings.jobs = arguments.threads->jobs();
+    }
+    return settings;
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,173 @@
+#include <tools/cli/table_report.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/json_writer.hpp>
+#include <tools/io/query_json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace nearfield::tools {
+namespace {
+
+/// Milliseconds with three significant digits: the spread is seldom below one percent.
+std::string three_digits(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", number);
+    // 1.23e+03 is harder to read than 1230.
+    if (number >= 1000.0) {
+        std::snprintf(text, sizeof text, "%.0f", number);
+    }
+    return text;
+}
+
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
+}
+
+constexpr std::size_t name_width = 40;
+constexpr std::size_t work_width = 34;
+constexpr std::size_t cell_width = 38;
+
+std::string work_text(const FrameWork& work) {
+    return std::to_string(work.queries) + ", " + std::to_string(work.vertices) + ", " +
+           std::to_string(work.cells) + " -> " + std::to_string(work.found);
+}
+
+/// The work of a row, from the technique that reports most: only some techniques draw grids.
+FrameWork work_of_row(const RowTimes& row) {
+    FrameWork most;
+    for (const TechniqueTime& time : row.techniques) {
+        if (time.refusal.empty() && (most.queries == 0 || time.work.cells > most.cells)) {
+            most = time.work;
+        }
+    }
+    return most;
+}
+
+/// Writes null if there is no number.
+void write_number(JsonWriter& json, std::string_view name, const std::optional<double>& number) {
+    json.key(name);
+    if (number) {
+        json.value(*number);
+    } else {
+        json.null();
+    }
+}
+
+void write_work(JsonWriter& json, const FrameWork& work) {
+    json.key("queries").value(std::uint64_t{work.queries});
+    json.key("vertices").value(std::uint64_t{work.vertices});
+    json.key("cells").value(work.cells);
+    json.key("found").value(work.found);
+}
+
+void write_technique(JsonWriter& json, const TechniqueTime& time) {
+    json.key(time.technique);
+    if (!time.refusal.empty()) {
+        json.begin_object().key("refused").value(std::string_view(time.refusal)).end_object();
+        return;
+    }
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("technique").value(std::string_view(time.answered_by));
+    json.key("frames").value(std::uint64_t{time.frame_ms.count});
+    json.key("median_ms").value(time.frame_ms.median);
+    json.key("min_ms").value(time.frame_ms.least);
+    json.key("quartiles_ms").begin_array();
+    json.value(time.frame_ms.lower_quartile).value(time.frame_ms.upper_quartile).end_array();
+    write_number(json, "gpu_ms", time.device_ms());
+    write_work(json, time.work);
+    write_timings(json, time.timings);
+    json.end_object();
+}
+
+}  // namespace
+
+TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
+    const benchmark::Machine& machine = surroundings.machine;
+    stream_
+        << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
+        << machine.cores << " cores; " << device_text(surroundings.device) << " ("
+        << surroundings.driver << ")\n\n"
+        << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
+           "quartile - upper quartile);\n"
+        << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
+           "found. The last column is the\n"
+        << "median of automatic over that of the quickest other (and the same of the least).\n\n"
+        << "| " << padded("row", name_width) << " | " << padded("work", work_width);
+    for (const char* technique : {"raster", "compute", "cpu", "automatic"}) {
+        stream_ << " | " << padded(technique, cell_width);
+    }
+    stream_ << " | chose | to best |\n|---|---|---|---|---|---|---|---|\n" << std::flush;
+}
+
+std::string TextTable::cell(const TechniqueTime& time) {
+    if (!time.refusal.empty()) {
+        auto place = std::find(refusals_.begin(), refusals_.end(), time.refusal);
+        if (place == refusals_.end()) {
+            place = refusals_.insert(refusals_.end(), time.refusal);
+        }
+        return "refused [" + std::to_string(place - refusals_.begin() + 1) + "]";
+    }
+    const benchmark::Spread& spread = time.frame_ms;
+    const std::optional<double> device = time.device_ms();
+    return three_digits(spread.median) + " (" + three_digits(spread.least) + "; " +
+           three_digits(spread.lower_quartile) + " - " + three_digits(spread.upper_quartile) + ")" +
+           (device ? " gpu " + three_digits(*device) : "");
+}
+
+void TextTable::add(const RowTimes& row) {
+    stream_ << "| " << padded(row.name, name_width) << " | "
+            << padded(work_text(work_of_row(row)), work_width);
+    for (const TechniqueTime& time : row.techniques) {
+        stream_ << " | " << padded(cell(time), cell_width);
+    }
+    const TechniqueTime* const automatic = row.find("automatic");
+    const std::optional<double> ratio = row.automatic_to_best();
+    const std::optional<double> least = row.automatic_to_best(&benchmark::Spread::least);
+    stream_ << " | " << (automatic != nullptr ? automatic->answered_by : "") << " | "
+            << (ratio && least ? three_digits(*ratio) + " (" + three_digits(*least) + ")" : "")
+            << " |\n"
+            << std::flush;
+}
+
+void TextTable::finish() {
+    if (!refusals_.empty()) {
+        stream_ << '\n';
+    }
+    for (std::size_t index = 0; index < refusals_.size(); ++index) {
+        stream_ << '[' << index + 1 << "] " << refusals_[index] << '\n';
+    }
+}
+
+void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
+                      const Surroundings& surroundings) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("commit").value(std::string_view(surroundings.machine.commit));
+    json.key("date").value(std::string_view(surroundings.machine.date));
+    json.key("processor").value(std::string_view(surroundings.machine.processor));
+    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
+    json.key("device").value_or_null(surroundings.device);
+    json.key("driver").value(std::string_view(surroundings.driver));
+    json.key("rows").begin_array(JsonWriter::Layout::lines);
+    for (const RowTimes& row : table) {
+        json.begin_object(JsonWriter::Layout::lines);
+        json.key("name").value(std::string_view(row.name));
+        write_work(json, work_of_row(row));
+        json.key("techniques").begin_object(JsonWriter::Layout::lines);
+        for (const TechniqueTime& time : row.techniques) {
+            write_technique(json, time);
+        }
+        json.end_object();
+        write_number(json, "automatic_to_best", row.automatic_to_best());
+        write_number(json, "automatic_to_best_least",
+                     row.automatic_to_best(&benchmark::Spread::least));
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+    stream << '\n';
+}
+
+}  // namespace nearfield::tools

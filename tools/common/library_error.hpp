@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nearfield/status.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace nearfield::tools {
+
+/// Exit statuses of the program.
+namespace exit_status {
+inline constexpr int done = 0;
+inline constexpr int other_error = 1;
+inline constexpr int bad_input = 2;
+inline constexpr int no_device = 3;
+}  // namespace exit_status
+
+/// Thrown when the library returns an error.
+class LibraryError : public std::runtime_error {
+public:
+    LibraryError(const Status& status, const std::string& message)
+        : std::runtime_error(message), code_(status.code()) {}
+
+    [[nodiscard]] int program_status() const noexcept;
+
+private:
+    StatusCode code_;
+};
+
+/// Throws LibraryError if the status is an error. `subject` (such as a file name) precedes its
+/// text.
+void require(const Status& status, const std::string& subject = {});
+
+/// Returns the value or throws LibraryError.
+template <class Value>
+[[nodiscard]] Value take(Expected<Value> expected, const std::string& subject = {}) {
+    require(expected.status(), subject);
+    return std::move(*expected);
+}
+
+}  // namespace nearfield::tools

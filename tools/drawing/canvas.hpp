@@ -1,0 +1,81 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <cairo.h>
+#include <tools/drawing/color.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+
+enum class Align { left, center, right };
+enum class Weight { normal, bold };
+
+/// The style of a line.
+struct Pen {
+    Color color;
+    double width = 1.0;
+    std::vector<double> dashes = {};
+};
+
+/// A page of pixels to draw on: x to the right, y down. Hides the Cairo objects.
+class Canvas {
+public:
+    Canvas(int width, int height, const Color& background);
+
+    /// Clips drawing to a rectangle until unclip().
+    void clip(const Rectangle& rectangle);
+    void unclip();
+
+    /// Fills and strokes closed lines; they are filled together by the odd-even rule.
+    void fill(std::span<const std::vector<Vector2>> rings, const Color& color);
+    void stroke(std::span<const std::vector<Vector2>> rings, const Pen& pen);
+    /// Strokes open lines together: at crossings, a translucent colour is applied once.
+    void stroke_open(std::span<const std::vector<Vector2>> lines, const Pen& pen);
+
+    void fill(const Rectangle& rectangle, const Color& color, double corner_radius = 0.0);
+    void stroke(const Rectangle& rectangle, const Pen& pen);
+    void dot(Vector2 center, double radius, const Color& color);
+    /// Draws a shaft and, if it is long enough, a filled head at `to`.
+    void arrow(Vector2 from, Vector2 to, double head, const Pen& pen);
+
+    /// Draws pixels, 0xAARRGGBB with alpha 255, at scale 1 with the lower corner at `corner`.
+    void image(std::span<const std::uint32_t> pixels, int width, int height, Vector2 corner);
+
+    /// Draws a line of text; its baseline starts, is centred or ends at `position`.
+    void text(Vector2 position, const std::string& text, double size, const Color& color,
+              Align align = Align::left, Weight weight = Weight::normal);
+    [[nodiscard]] double text_width(const std::string& text, double size,
+                                    Weight weight = Weight::normal);
+    /// Returns the text, truncated with an ellipsis if it is wider than `width`.
+    [[nodiscard]] std::string shortened(std::string text, double size, double width,
+                                        Weight weight = Weight::normal);
+
+    /// The current page, 0xAARRGGBB, row by row.
+    [[nodiscard]] std::vector<std::uint32_t> pixels() const;
+    /// The current page as a PNG file.
+    [[nodiscard]] std::string png() const;
+
+private:
+    struct DestroySurface {
+        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    };
+    struct DestroyContext {
+        void operator()(cairo_t* context) const { cairo_destroy(context); }
+    };
+
+    void set(const Color& color);
+    void set(const Pen& pen);
+    void select_font(double size, Weight weight);
+    void trace(std::span<const std::vector<Vector2>> lines, bool closed);
+
+    std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
+    std::unique_ptr<cairo_t, DestroyContext> context_;
+};
+
+}  // namespace nearfield::tools

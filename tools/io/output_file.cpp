@@ -1,0 +1,92 @@
+#include <sys/stat.h>
+#include <tools/io/input_error.hpp>
+#include <tools/io/output_file.hpp>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+
+namespace nearfield::tools {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+    throw InputError(path + ": cannot be written: " + reason);
+}
+
+/// The permissions of a new file according to the user's umask.
+mode_t default_mode() {
+    const mode_t mask = umask(0);
+    umask(mask);
+    return static_cast<mode_t>(0666) & ~mask;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+    std::error_code error;
+    target_ = std::filesystem::weakly_canonical(path, error);
+    if (error || path.empty()) {
+        refuse(path, path.empty() ? "an empty name" : error.message());
+    }
+    const std::filesystem::file_status status = std::filesystem::status(target_, error);
+    if (std::filesystem::is_directory(status)) {
+        refuse(path, "is a folder");
+    }
+    if (std::filesystem::exists(status)) {
+        if (access(target_.c_str(), W_OK) != 0) {
+            refuse(path, std::strerror(errno));
+        }
+        if (!std::filesystem::is_regular_file(status)) {
+            stream_.open(target_, std::ios::binary);
+            if (!stream_) {
+                refuse(path, "cannot be opened");
+            }
+            return;
+        }
+    }
+    open_temporary();
+}
+
+void OutputFile::open_temporary() {
+    std::string name = target_.string() + ".XXXXXX";
+    const int descriptor = mkstemp(name.data());
+    if (descriptor < 0) {
+        refuse(path_, std::strerror(errno));
+    }
+    temporary_ = name;
+    fchmod(descriptor, default_mode());
+    close(descriptor);
+    stream_.open(temporary_, std::ios::binary);
+    if (!stream_) {
+        refuse(path_, "the temporary file beside it cannot be opened");
+    }
+}
+
+OutputFile::~OutputFile() {
+    if (!temporary_.empty()) {
+        stream_.close();
+        std::error_code ignored;
+        std::filesystem::remove(temporary_, ignored);
+    }
+}
+
+void OutputFile::commit() {
+    stream_.close();
+    if (!stream_) {
+        throw std::runtime_error(path_ + ": could not be written completely");
+    }
+    if (temporary_.empty()) {
+        return;
+    }
+    std::error_code error;
+    std::filesystem::rename(temporary_, target_, error);
+    if (error) {
+        throw std::runtime_error(path_ + ": could not be written: " + error.message());
+    }
+    temporary_.clear();
+}
+
+}  // namespace nearfield::tools

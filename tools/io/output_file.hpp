@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <string>
+
+namespace nearfield::tools {
+
+/// A file that is replaced as a whole: the text goes into a temporary file beside it, which
+/// commit() renames. Construct it before the work begins, so that an unwritable target is reported
+/// first. Without commit() nothing is left behind. Targets other than regular files (a pipe, a
+/// terminal, /dev/null) are written directly.
+class OutputFile {
+public:
+    /// Throws InputError if the file cannot be written.
+    explicit OutputFile(const std::string& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    [[nodiscard]] std::ostream& stream() noexcept { return stream_; }
+
+    /// Throws std::runtime_error if writing failed (a full disk, for example).
+    void commit();
+
+private:
+    void open_temporary();
+
+    std::string path_;                 ///< as given, for messages
+    std::filesystem::path target_;     ///< with links resolved
+    std::filesystem::path temporary_;  ///< empty if the target is written directly
+    std::ofstream stream_;
+};
+
+}  // namespace nearfield::tools

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <tools/io/answer.hpp>
+#include <tools/io/json_writer.hpp>
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace nearfield::tools {
+
+/// Writes the JSON of one query with a final line feed.
+void write_query_json(std::ostream& stream, const Answer& answer);
+
+/// Writes the JSON of a scene's answers with a final line feed. `technique`: the one for all of
+/// them.
+void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers,
+                      const Timings& timings, const std::string& device,
+                      std::string_view technique);
+
+/// Writes the member `timings_ms` into the open object.
+void write_timings(JsonWriter& json, const Timings& timings);
+
+}  // namespace nearfield::tools

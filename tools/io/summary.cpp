@@ -1,0 +1,246 @@
+#include <tools/io/summary.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string_view>
+#include <variant>
+
+namespace nearfield::tools {
+namespace {
+
+/// Nine digits, because points may be far from the origin.
+std::string point_text(Vector2 point) {
+    char text[64];
+    std::snprintf(text, sizeof text, "(%.9g, %.9g)", point.x + 0.0, point.y + 0.0);
+    return text;
+}
+
+std::string feature_text(Feature feature) {
+    return (feature.kind == Feature::Kind::edge ? "edge " : "vertex ") +
+           std::to_string(feature.index);
+}
+
+void write_item(std::ostream& stream, std::string_view name, const std::string& text) {
+    constexpr std::size_t column = 18;
+    stream << name << std::string(name.size() < column ? column - name.size() : 1, ' ') << text
+           << '\n';
+}
+
+void write_result(std::ostream& stream, const PenetrationResult& result) {
+    write_item(stream, "count", std::to_string(result.count) + " penetrating points");
+    if (result.count == 0) {
+        return;
+    }
+    const PenetrationRecord& deepest = result.deepest;
+    const double degrees =
+        std::atan2(deepest.direction.y, deepest.direction.x) * (180.0 / std::numbers::pi);
+    write_item(stream, "deepest", point_text(deepest.point));
+    write_item(stream, "depth", short_number(deepest.depth));
+    write_item(stream, "direction",
+               point_text(deepest.direction) + ", " + short_number(degrees) + " degrees");
+    write_item(stream, "nearest",
+               point_text(deepest.nearest) + " on " + feature_text(deepest.feature) + " of B" +
+                   (deepest.unique ? "" : ", one of several"));
+}
+
+void write_result(std::ostream& stream, const IntersectionResult& result) {
+    write_item(stream, "kind", std::string(name_of(result.kind)));
+    write_item(stream, "strategy", std::string(name_of(result.strategy)));
+    write_item(stream, "count", std::to_string(result.count) + " samples");
+    write_item(stream, "area", short_number(result.area));
+    if (result.count > 0) {
+        write_item(stream, "box", point_text(result.box.min) + " to " + point_text(result.box.max));
+    }
+}
+
+void write_result(std::ostream& stream, const DistanceFieldResult& result) {
+    write_item(stream, "origin", point_text(result.origin));
+    write_item(stream, "grid",
+               std::to_string(result.width) + " x " + std::to_string(result.height) + " cells of " +
+                   short_number(result.cell));
+    if (result.gradient_error_bound > 0.0) {
+        const std::string format = result.gradient_format;
+        write_item(stream, "gradient",
+                   "error bound " + short_number(result.gradient_error_bound) +
+                       (format.empty() ? "" : ", blended in " + format));
+    }
+    constexpr std::size_t max_shown = 8;
+    for (std::size_t index = 0; index < result.points.size() && index < max_shown; ++index) {
+        const FieldPoint& point = result.points[index];
+        write_item(stream, "at " + point_text(point.point),
+                   short_number(point.distance) + " within " + short_number(point.error_bound) +
+                       ", inside " + short_number(point.inside) + ", gradient " +
+                       point_text(point.gradient) + ", " + feature_text(point.feature) +
+                       (point.unique ? "" : ", one of several"));
+    }
+    if (result.points.size() > max_shown) {
+        write_item(stream, "", "and " + std::to_string(result.points.size() - max_shown) + " more");
+    }
+}
+
+void write_result(std::ostream& stream, const ContactResult& result) {
+    write_item(stream, "count",
+               std::to_string(result.count) + " contact points in " +
+                   std::to_string(result.manifold.size()) + " stretches");
+    constexpr std::size_t max_shown = 8;
+    for (std::size_t index = 0; index < result.manifold.size() && index < max_shown; ++index) {
+        const ContactCluster& cluster = result.manifold[index];
+        write_item(stream, "",
+                   point_text(cluster.first) + " to " + point_text(cluster.last) + ", normal " +
+                       point_text(cluster.normal) +
+                       (cluster.extreme.inside ? ", depth " : ", distance ") +
+                       short_number(cluster.extreme.distance));
+    }
+    if (result.manifold.size() > max_shown) {
+        write_item(stream, "",
+                   "and " + std::to_string(result.manifold.size() - max_shown) + " more");
+    }
+}
+
+void write_closest(std::ostream& stream, double distance, Vector2 on_a, Vector2 on_b,
+                   Feature feature_a, Feature feature_b, bool unique) {
+    write_item(stream, "distance", short_number(distance));
+    if (distance > 0.0) {
+        write_item(stream, "point of A", point_text(on_a) + " on " + feature_text(feature_a));
+        write_item(stream, "point of B",
+                   point_text(on_b) + " on " + feature_text(feature_b) +
+                       (unique ? "" : ", one of several pairs"));
+    } else {
+        write_item(stream, "common point", point_text(on_a));
+    }
+}
+
+void write_result(std::ostream& stream, const ClosestPointResult& result) {
+    write_closest(stream, result.distance, result.point, result.nearest, result.feature_a,
+                  result.feature_b, result.unique);
+}
+
+void write_result(std::ostream& stream, const SeparationResult& result) {
+    write_closest(stream, result.distance, result.point_a, result.point_b, result.feature_a,
+                  result.feature_b, result.unique);
+}
+
+void write_result(std::ostream& stream, const IntersectionTestResult& result) {
+    write_item(stream, "share a point", result.intersects ? "yes" : "no");
+}
+
+std::string pose_text(const Pose& pose) {
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    return point_text(pose.translation) + ", " + short_number(pose.angle * degrees) + " degrees";
+}
+
+/// Nine digits, with the uncertainty that remains.
+std::string time_text(const TimeOfImpactResult& result) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.9g", result.time);
+    return text + (result.time_error_bound > 0.0
+                       ? ", or up to " + short_number(result.time_error_bound) + " later"
+                       : std::string());
+}
+
+void write_result(std::ostream& stream, const TimeOfImpactResult& result) {
+    write_item(stream, "state", std::string(name_of(result.state)));
+    write_item(stream, "time", time_text(result));
+    write_item(stream, "pose of A then", pose_text(result.pose_a));
+    write_item(stream, "pose of B then", pose_text(result.pose_b));
+    if (result.state == ImpactState::intersecting_at_start && result.distance == 0.0) {
+        write_item(stream, "common point", point_text(result.point_a));
+    } else {
+        write_item(stream, "distance then",
+                   short_number(result.distance) + ", before it never less than " +
+                       short_number(result.min_distance));
+        write_item(stream, "point of A",
+                   point_text(result.point_a) + " on " + feature_text(result.feature_a));
+        write_item(stream, "point of B",
+                   point_text(result.point_b) + " on " + feature_text(result.feature_b));
+        write_item(stream, "direction", point_text(result.direction));
+    }
+    write_item(stream, "steps", std::to_string(result.steps));
+}
+
+void write_result(std::ostream& stream, const SeparationVectorResult& result) {
+    write_item(stream, "vector", point_text(result.vector));
+    write_item(
+        stream, "length",
+        short_number(result.length) + "; none is shorter than " + short_number(result.lower_bound));
+}
+
+void write_regions(std::ostream& stream, const ResultSummary& summary) {
+    write_item(stream, "regions", std::to_string(summary.regions.size()));
+    constexpr std::size_t max_shown = 8;
+    for (std::size_t index = 0; index < summary.regions.size() && index < max_shown; ++index) {
+        const Region& region = summary.regions[index];
+        write_item(stream, "",
+                   point_text(region.min) + " to " + point_text(region.max) + ", " +
+                       std::to_string(region.width) + " x " + std::to_string(region.height) +
+                       " cells");
+    }
+    if (summary.regions.size() > max_shown) {
+        write_item(stream, "",
+                   "and " + std::to_string(summary.regions.size() - max_shown) + " more");
+    }
+}
+
+}  // namespace
+
+std::string short_number(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", number + 0.0);  // + 0.0: no negative zero
+    return text;
+}
+
+void write_timings_summary(std::ostream& stream, const Timings& timings) {
+    const auto write_time = [&stream](std::string_view name, double milliseconds) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%10.3f ms", milliseconds);
+        write_item(stream, name, text);
+    };
+    write_time("localize", timings.localize);
+    write_time("plan", timings.plan);
+    write_time("record", timings.record);
+    write_time("device", timings.device);
+    for (const PassTime& pass : timings.passes) {
+        write_time("  " + pass.name, pass.milliseconds);
+    }
+    write_time("decode", timings.decode);
+    write_time("total", timings.total);
+}
+
+void write_summary(std::ostream& stream, const Answer& answer) {
+    const ResultSummary& summary = summary_of(answer.result);
+    write_item(stream, "query", std::string(name_of(answer.request.type)));
+    write_item(stream, "device", device_text(answer.device));
+    write_item(stream, "technique", to_string(summary.technique));
+    const std::string bound = short_number(summary.error_bound);
+    if (answer.request.type == QueryType::intersection_test) {
+        write_item(stream, "error bound", bound);
+    } else {
+        write_item(stream, "tolerance", short_number(summary.tolerance) + ", error bound " + bound);
+    }
+    write_item(stream, "intersects", summary.intersects ? "yes" : "no");
+    if (is_sampled(answer.request.type)) {
+        write_regions(stream, summary);
+    }
+    std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
+    write_timings_summary(stream, answer.timings);
+}
+
+void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answers,
+                         const Timings& timings, const std::string& device,
+                         std::string_view technique) {
+    write_item(stream, "device", device_text(device));
+    write_item(stream, "technique", std::string(technique));
+    write_item(stream, "queries", std::to_string(answers.size()));
+    for (const SceneAnswer& answer : answers) {
+        stream << '\n';
+        write_item(
+            stream, "query",
+            std::string(name_of(answer.request.type)) + " of " + answer.a + " and " + answer.b);
+        std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
+    }
+    stream << '\n';
+    write_timings_summary(stream, timings);
+}
+
+}  // namespace nearfield::tools

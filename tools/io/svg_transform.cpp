@@ -1,0 +1,105 @@
+#include <tools/io/svg_transform.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+double radians(double degrees) {
+    return std::remainder(degrees, 360.0) * (std::numbers::pi / 180.0);
+}
+
+Vector2 mapped(const AffineMap& map, const Vector2& v) {
+    return {v.x * map.x_axis.x + v.y * map.y_axis.x, v.x * map.x_axis.y + v.y * map.y_axis.y};
+}
+
+AffineMap translation(double x, double y) {
+    return {{1.0, 0.0}, {0.0, 1.0}, {x, y}};
+}
+
+AffineMap rotation(double degrees) {
+    const double cosine = std::cos(radians(degrees));
+    const double sine = std::sin(radians(degrees));
+    return {{cosine, sine}, {-sine, cosine}, {}};
+}
+
+/// The map for one function, from its name and arguments.
+AffineMap one_transform(const SvgText& text, std::size_t start, const std::string& name,
+                        const std::vector<double>& n) {
+    const auto takes = [&](std::initializer_list<std::size_t> counts, const char* form) {
+        for (const std::size_t count : counts) {
+            if (n.size() == count) {
+                return;
+            }
+        }
+        text.fail(start,
+                  name + " takes " + form + ", not " + std::to_string(n.size()) + " numbers");
+    };
+    if (name == "matrix") {
+        takes({6}, "six numbers");
+        return {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}};
+    }
+    if (name == "translate") {
+        takes({1, 2}, "one or two numbers");
+        return translation(n[0], n.size() > 1 ? n[1] : 0.0);
+    }
+    if (name == "scale") {
+        takes({1, 2}, "one or two numbers");
+        return {{n[0], 0.0}, {0.0, n.size() > 1 ? n[1] : n[0]}, {}};
+    }
+    if (name == "rotate") {
+        takes({1, 3}, "one or three numbers");
+        if (n.size() == 1) {
+            return rotation(n[0]);
+        }
+        return combine(combine(translation(-n[1], -n[2]), rotation(n[0])), translation(n[1], n[2]));
+    }
+    if (name == "skewX") {
+        takes({1}, "one number");
+        return {{1.0, 0.0}, {std::tan(radians(n[0])), 1.0}, {}};
+    }
+    if (name == "skewY") {
+        takes({1}, "one number");
+        return {{1.0, std::tan(radians(n[0]))}, {0.0, 1.0}, {}};
+    }
+    text.fail(start, "\"" + name + "\" is none of matrix, translate, scale, rotate, skewX, skewY");
+}
+
+}  // namespace
+
+AffineMap combine(const AffineMap& first, const AffineMap& then) {
+    const Vector2 origin = mapped(then, first.origin);
+    return {mapped(then, first.x_axis),
+            mapped(then, first.y_axis),
+            {origin.x + then.origin.x, origin.y + then.origin.y}};
+}
+
+AffineMap parse_transform(SvgText& text) {
+    AffineMap result;
+    text.skip_separator();
+    while (text.peek() != '\0') {
+        const std::size_t start = text.position();
+        const std::string name = text.word();
+        if (name.empty()) {
+            text.fail("expected the name of a transform");
+        }
+        text.expect('(');
+        std::vector<double> numbers;
+        text.skip_space();
+        while (text.peek() != ')') {
+            numbers.push_back(text.number());
+            text.skip_separator();
+        }
+        text.expect(')');
+        // Functions further to the right are applied first.
+        result = combine(one_transform(text, start, name, numbers), result);
+        text.skip_separator();
+    }
+    return result;
+}
+
+}  // namespace nearfield::tools

@@ -1,0 +1,107 @@
+#include <tools/io/input_error.hpp>
+#include <tools/io/values.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <system_error>
+
+namespace nearfield::tools {
+namespace {
+
+[[noreturn]] void fail(const std::string& option, std::string_view text,
+                       const std::string& reason) {
+    throw InputError(option + ": \"" + std::string(text) + "\": " + reason);
+}
+
+/// Returns false if `text` as a whole is not one finite number.
+bool parse_finite(std::string_view text, double& number) {
+    if (text.size() > 1 && text.front() == '+' && text[1] != '-') {
+        text.remove_prefix(1);
+    }
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc{} && rest == end && std::isfinite(number);
+}
+
+/// Parses finite numbers separated by commas; `form` describes them in messages.
+void parse_list(std::string_view text, const std::string& option, const std::string& form,
+                std::span<double> numbers) {
+    std::string_view rest = text;
+    for (std::size_t index = 0; index < numbers.size(); ++index) {
+        const bool last = index + 1 == numbers.size();
+        const std::size_t comma = last ? rest.size() : rest.find(',');
+        if (comma == std::string_view::npos) {
+            fail(option, text, "expected " + form);
+        }
+        if (!parse_finite(rest.substr(0, comma), numbers[index])) {
+            fail(option, text,
+                 "expected " + form + "; \"" + std::string(rest.substr(0, comma)) +
+                     "\" is not a finite number");
+        }
+        rest.remove_prefix(last ? comma : comma + 1);
+    }
+}
+
+}  // namespace
+
+double parse_positive(std::string_view text, const std::string& option) {
+    double number = 0.0;
+    if (!parse_finite(text, number) || !(number > 0.0)) {
+        fail(option, text, "expected a finite number greater than 0");
+    }
+    return number;
+}
+
+std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(option + ": \"" + std::string(text) + "\" is " + reason);
+    };
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number);
+    const bool too_large = error == std::errc::result_out_of_range;
+    const bool whole = too_large || (std::isfinite(number) && number == std::floor(number));
+    if (error == std::errc::invalid_argument || rest != end || !whole) {
+        refuse("not a whole number in decimal notation");
+    }
+    if (too_large || std::signbit(number) || number < range.min || number > range.max) {
+        refuse("out of range " + std::to_string(range.min) + " to " + std::to_string(range.max));
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
+DegreesPose parse_pose(std::string_view text, const std::string& option) {
+    double numbers[3] = {};
+    parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+Pose to_pose(const DegreesPose& pose) {
+    const double turn = std::remainder(pose.degrees, 360.0);
+    return {{pose.x, pose.y}, turn * (std::numbers::pi / 180.0)};
+}
+
+Pose to_end_pose(const DegreesPose& end, double start_degrees) {
+    const double start = to_pose({.degrees = start_degrees}).angle;
+    return {{end.x, end.y}, start + (end.degrees - start_degrees) * (std::numbers::pi / 180.0)};
+}
+
+Vector2 parse_point(std::string_view text, const std::string& option) {
+    double numbers[2] = {};
+    parse_list(text, option, "X,Y (two numbers)", numbers);
+    return {numbers[0], numbers[1]};
+}
+
+Rectangle parse_rectangle(std::string_view text, const std::string& option) {
+    double numbers[4] = {};
+    parse_list(text, option, "X0,Y0,X1,Y1 (four numbers)", numbers);
+    if (!(numbers[0] < numbers[2] && numbers[1] < numbers[3])) {
+        fail(option, text, "expected X0 < X1 and Y0 < Y1");
+    }
+    return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+}  // namespace nearfield::tools

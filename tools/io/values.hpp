@@ -1,0 +1,50 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace nearfield::tools {
+
+/// Strict parsing of command line values: the whole text must match, and numbers must be finite.
+/// `option` is used in messages of InputError ("--pose-a").
+
+/// A number greater than zero.
+[[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
+
+/// The range of an integer, both ends included.
+struct CountRange {
+    std::uint32_t min = 0;
+    std::uint32_t max = 0;
+};
+
+/// Parses an integer in decimal notation ("250", "1e6"), without a leading plus sign.
+[[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option,
+                                        CountRange range);
+
+/// A pose in the units of the command line and of scenes.
+struct DegreesPose {
+    double x = 0.0;
+    double y = 0.0;
+    double degrees = 0.0;
+};
+
+/// "X,Y,DEGREES"
+[[nodiscard]] DegreesPose parse_pose(std::string_view text, const std::string& option);
+
+/// "X0,Y0,X1,Y1": the low corner, then the high one.
+[[nodiscard]] Rectangle parse_rectangle(std::string_view text, const std::string& option);
+
+/// "X,Y"
+[[nodiscard]] Vector2 parse_point(std::string_view text, const std::string& option);
+
+/// Removes whole turns in degrees, where that is exact.
+[[nodiscard]] Pose to_pose(const DegreesPose& pose);
+
+/// The end of a motion that starts at an angle: the difference between the angles is that of the
+/// degrees, whole turns included.
+[[nodiscard]] Pose to_end_pose(const DegreesPose& end, double start_degrees);
+
+}  // namespace nearfield::tools
