@@ -9,10 +9,10 @@
 
 namespace nearfield::passes {
 
-Blocks::Blocks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
+Blocks::Blocks(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       values_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_blocks_comp,
                                          "nearfield resolve blocks")),
       features_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_features_comp,
@@ -65,8 +65,8 @@ void Blocks::record_values(VkCommandBuffer commands) const {
     constexpr std::uint32_t threads_per_block = plan::block_side / 2;
     const gpu::Functions& functions = device_->functions();
     const auto end =
-        static_cast<std::uint32_t>(frame_->round->compute.blocks.size()) * threads_per_block;
-    bind(commands, values_, frame_->blocks);
+        static_cast<std::uint32_t>(context_->round->compute.blocks.size()) * threads_per_block;
+    bind(commands, values_, context_->blocks);
     dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
         const std::uint32_t push[2] = {first, end};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
@@ -77,9 +77,9 @@ void Blocks::record_values(VkCommandBuffer commands) const {
 void Blocks::record_features(VkCommandBuffer commands) const {
     constexpr std::uint32_t cells = plan::block_side * plan::block_side;
     const gpu::Functions& functions = device_->functions();
-    const plan::TileBatch& round = *frame_->round;
+    const plan::TileBatch& round = *context_->round;
     const auto end = static_cast<std::uint32_t>(round.compute.feature_blocks.size()) * cells;
-    bind(commands, features_, frame_->feature_blocks);
+    bind(commands, features_, context_->feature_blocks);
     dispatch_points(functions, commands, 0, end, [&](std::uint32_t first) {
         const std::uint32_t push[3] = {first, end, round.resident ? 1U : 0U};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
@@ -89,9 +89,9 @@ void Blocks::record_features(VkCommandBuffer commands) const {
 
 void Blocks::record_points(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
-    const plan::TileBatch& round = *frame_->round;
+    const plan::TileBatch& round = *context_->round;
     const auto points = static_cast<std::uint32_t>(round.lists.geometry().size());
-    bind(commands, points_, frame_->feature_blocks);
+    bind(commands, points_, context_->feature_blocks);
     for (const plan::FieldPointRun& run : round.field_point_runs) {
         dispatch_points(
             functions, commands, run.first, run.first + run.count, [&](std::uint32_t first) {

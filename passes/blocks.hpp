@@ -16,7 +16,7 @@ namespace nearfield::passes {
 /// within a workgroup and shared memory cost the most.
 class Blocks {
 public:
-    Blocks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    Blocks(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context);
 
     /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
     /// Returns the new version of `field`, as the others do.
@@ -41,7 +41,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> values_;
     gpu::Owned<VkPipeline> features_;
     gpu::Owned<VkPipeline> points_;

@@ -13,10 +13,11 @@ constexpr std::uint32_t group_height = 32;
 
 }  // namespace
 
-Collect::Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
+Collect::Collect(const gpu::Device& device, const ComputeLayout& layout,
+                 const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       numbers_(gpu::make_compute_pipeline(device, layout_, shaders::collect_comp,
                                           "nearfield collect numbers")),
       colors_(gpu::make_compute_pipeline(device, layout_, shaders::collect_colors_comp,
@@ -46,9 +47,9 @@ void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) co
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                 colors ? colors_.get() : numbers_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->samples[index], 0, nullptr);
-    for (const plan::TileDraw& tile : frame_->round->overlap_draws[index]) {
-        const std::uint32_t push[3] = {tile.tile, tile.list ? frame_->sample_capacity : 0,
+                                      &context_->samples[index], 0, nullptr);
+    for (const plan::TileDraw& tile : context_->round->overlap_draws[index]) {
+        const std::uint32_t push[3] = {tile.tile, tile.list ? context_->sample_capacity : 0,
                                        tile.first_hit};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);

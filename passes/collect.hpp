@@ -14,7 +14,7 @@ namespace nearfield::passes {
 /// in any order; for tiles that keep their hits, the number found at every cell.
 class Collect {
 public:
-    Collect(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    Collect(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context);
 
     /// The outputs: summaries, count and list, which the host has initialised; and the kept hits, a
     /// null handle if no tile keeps them.
@@ -31,7 +31,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> numbers_;
     gpu::Owned<VkPipeline> colors_;
 };

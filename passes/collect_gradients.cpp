@@ -6,10 +6,10 @@
 namespace nearfield::passes {
 
 CollectGradients::CollectGradients(const gpu::Device& device, const ComputeLayout& layout,
-                                   const Frame& frame)
+                                   const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::collect_gradients_comp,
                                            "nearfield collect gradients")) {}
 
@@ -30,7 +30,7 @@ void CollectGradients::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->gradients, 0, nullptr);
+                                      &context_->gradients, 0, nullptr);
     const auto dispatch = [&](std::uint32_t begin, std::uint32_t end, std::uint32_t first_word,
                               std::uint32_t origin, std::uint32_t words_per_point,
                               std::uint32_t tile) {
@@ -40,12 +40,12 @@ void CollectGradients::record(VkCommandBuffer commands) const {
                                          sizeof(push), push);
         });
     };
-    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+    for (const plan::TileDraw& tile : context_->round->distance_draws) {
         if (tile.first_gradient != plan::not_asked) {
             dispatch(0, tile.width * tile.height, tile.first_gradient, 0, 0, tile.tile);
         }
     }
-    for (const plan::FieldPointRun& run : frame_->round->field_point_runs) {
+    for (const plan::FieldPointRun& run : context_->round->field_point_runs) {
         if (run.parts.blended) {
             dispatch(4 * run.first, 4 * (run.first + run.count), run.first_word, run.first,
                      run.parts.words_per_point, 0);

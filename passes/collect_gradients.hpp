@@ -12,7 +12,8 @@ namespace nearfield::passes {
 /// point. Reads the gradient image, tiles and points; writes the field's buffer.
 class CollectGradients {
 public:
-    CollectGradients(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    CollectGradients(const gpu::Device& device, const ComputeLayout& layout,
+                     const RecordContext& context);
 
     /// Adds the pass; returns the new version of `field`.
     [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
@@ -23,7 +24,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> pipeline_;
 };
 

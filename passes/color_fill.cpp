@@ -14,8 +14,8 @@ constexpr std::uint32_t white_everywhere = 0xffffffff;
 }  // namespace
 
 ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                     const Frame& frame)
-    : device_(&device), layout_(layout), frame_(&frame) {
+                     const RecordContext& context)
+    : device_(&device), layout_(layout), context_(&context) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -54,12 +54,12 @@ graph::Handle ColorFill::declare(graph::Graph& graph, graph::Handle mesh, VkExte
 }
 
 void ColorFill::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const TileRenderer renderer(*device_, layout_, commands, *context_);
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::uint32_t value,
                               plan::DrawRange plan::TileDraw::*range) {
         renderer.bind(pipeline.get());
         renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        for (const plan::TileDraw& tile : context_->round->distance_draws) {
             if (tile.sign == SignEncoding::color) {
                 renderer.draw(tile, tile.*range, 1.0F, value);
             }

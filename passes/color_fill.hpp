@@ -13,7 +13,7 @@ namespace nearfield::passes {
 class ColorFill {
 public:
     ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-              const Frame& frame);
+              const RecordContext& context);
 
     /// Adds the pass; returns the image, sampled as unsigned bytes: 255 inside, 0 outside.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
@@ -23,7 +23,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> clear_;
     gpu::Owned<VkPipeline> parity_;
 };

@@ -60,20 +60,20 @@ DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& l
 ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
     : sets_(device, layout, names_of_round) {}
 
-void ComputeSets::hand_to(Frame& frame) const {
+void ComputeSets::bind_to(RecordContext& context) const {
     std::size_t next = 0;
-    frame.points = sets_[next++];
-    for (VkDescriptorSet& field : frame.field) {
+    context.points = sets_[next++];
+    for (VkDescriptorSet& field : context.field) {
         field = sets_[next++];
     }
-    frame.gradients = sets_[next++];
-    for (VkDescriptorSet& samples : frame.samples) {
+    context.gradients = sets_[next++];
+    for (VkDescriptorSet& samples : context.samples) {
         samples = sets_[next++];
     }
-    frame.masks = sets_[next++];
-    frame.blocks = sets_[next++];
-    frame.feature_blocks = sets_[next++];
-    frame.points_by_lists = sets_[next++];
+    context.masks = sets_[next++];
+    context.blocks = sets_[next++];
+    context.feature_blocks = sets_[next++];
+    context.points_by_lists = sets_[next++];
 }
 
 }  // namespace nearfield::passes

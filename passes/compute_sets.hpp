@@ -31,7 +31,7 @@ public:
     ComputeSets(const gpu::Device& device, const ComputeLayout& layout);
 
     /// Makes the passes use these sets.
-    void hand_to(Frame& frame) const;
+    void bind_to(RecordContext& context) const;
 
 private:
     DescriptorSets sets_;

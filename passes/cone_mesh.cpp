@@ -9,8 +9,8 @@
 namespace nearfield::passes {
 
 ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                   const Frame& frame)
-    : device_(&device), layout_(layout), frame_(&frame) {
+                   const RecordContext& context)
+    : device_(&device), layout_(layout), context_(&context) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -42,16 +42,16 @@ graph::Handle ConeMesh::declare(graph::Graph& graph, graph::Handle mesh, VkExten
 }
 
 void ConeMesh::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const TileRenderer renderer(*device_, layout_, commands, *context_);
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
-    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+    for (const plan::TileDraw& tile : context_->round->distance_draws) {
         if (tile.sign != SignEncoding::feature_bit) {
             renderer.draw(tile, tile.rectangle, 1.0F, plan::no_feature);
         }
     }
     renderer.bind(draw_.get());
-    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+    for (const plan::TileDraw& tile : context_->round->distance_draws) {
         if (tile.sign != SignEncoding::feature_bit) {
             renderer.draw(tile, tile.distance, tile.depth_scale, 0);
         }

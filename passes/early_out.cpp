@@ -4,8 +4,8 @@
 
 namespace nearfield::passes {
 
-EarlyOut::EarlyOut(const gpu::Device& device, const Frame& frame)
-    : device_(&device), frame_(&frame) {
+EarlyOut::EarlyOut(const gpu::Device& device, const RecordContext& context)
+    : device_(&device), context_(&context) {
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_OCCLUSION;
@@ -19,8 +19,9 @@ EarlyOut::EarlyOut(const gpu::Device& device, const Frame& frame)
 }
 
 void EarlyOut::reset(VkCommandBuffer commands) const {
-    if (frame_->round->watched > 0) {
-        device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0, frame_->round->watched);
+    if (context_->round->watched > 0) {
+        device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0,
+                                                 context_->round->watched);
     }
 }
 
@@ -48,14 +49,14 @@ graph::Handle EarlyOut::declare(graph::Graph& graph, graph::Handle samples,
 }
 
 void EarlyOut::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
-    const auto& tiles = frame_->round->overlap_draws[static_cast<std::size_t>(strategy)];
+    const auto& tiles = context_->round->overlap_draws[static_cast<std::size_t>(strategy)];
     for (const plan::TileDraw& tile : tiles) {
         if (tile.watch != plan::no_watch) {
-            const VkDeviceSize offset = frame_->summaries_offset +
+            const VkDeviceSize offset = context_->summaries_offset +
                                         tile.tile * sizeof(plan::TileSummary) +
                                         offsetof(plan::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
-                commands, pool_.get(), tile.watch, 1, frame_->read_back, offset,
+                commands, pool_.get(), tile.watch, 1, context_->read_back, offset,
                 sizeof(std::uint32_t), VK_QUERY_RESULT_WAIT_BIT);
         }
     }

@@ -12,7 +12,7 @@ namespace nearfield::passes {
 /// stay on the device. The plan selects the tiles (plan::TileDraw::watch).
 class EarlyOut {
 public:
-    EarlyOut(const gpu::Device& device, const Frame& frame);
+    EarlyOut(const gpu::Device& device, const RecordContext& context);
 
     /// Resets the queries; call before each tile batch, outside a render pass. All tile batches
     /// share the queries, so on the device the reset waits for the previous tile batch, also that
@@ -34,7 +34,7 @@ private:
     void record(VkCommandBuffer commands, IntersectionStrategy strategy) const;
 
     const gpu::Device* device_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkQueryPool> pool_;
 };
 

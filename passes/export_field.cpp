@@ -7,8 +7,8 @@
 namespace nearfield::passes {
 namespace {
 
-constexpr graph::ExternalAccess handed_over{graph::Access::handed_over_image,
-                                            graph::Access::handed_over_image};
+constexpr graph::ExternalAccess exported{graph::Access::exported_image,
+                                         graph::Access::exported_image};
 
 struct FieldPush {
     std::uint32_t value, feature, stride, width, height;
@@ -24,13 +24,13 @@ ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
     : device_(&device),
       layout_(layout.pipeline_layout()),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::export_field_comp,
-                                           "nearfield hand over field")),
+                                           "nearfield export field")),
       words_(
           graph_.import_buffer({"field results"}, {graph::Access::storage_write_in_compute, {}})),
-      signed_distance_(graph_.import_image({"signed distance", VK_FORMAT_R32_SFLOAT}, handed_over)),
-      feature_(graph_.import_image({"feature id", VK_FORMAT_R32_UINT}, handed_over)) {
+      signed_distance_(graph_.import_image({"signed distance", VK_FORMAT_R32_SFLOAT}, exported)),
+      feature_(graph_.import_image({"feature id", VK_FORMAT_R32_UINT}, exported)) {
     graph_.add_pass(
-        "hand over field", graph::PassKind::compute,
+        "export field", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(words_, graph::Access::storage_read_in_compute);
             static_cast<void>(

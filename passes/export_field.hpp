@@ -6,7 +6,7 @@
 #include <engine/graph/execute.hpp>
 #include <engine/graph/graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 #include <passes/compute_layout.hpp>
 
 #include <memory>

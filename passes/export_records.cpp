@@ -23,12 +23,12 @@ ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& lay
     : device_(&device),
       layout_(layout.pipeline_layout()),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::export_records_comp,
-                                           "nearfield hand over records")),
+                                           "nearfield export records")),
       words_(graph_.import_buffer({"point results"}, {Access::storage_write_in_compute, {}})),
       tables_(graph_.import_buffer({"tables", true, false})),
       blocks_(graph_.import_buffer({"record blocks"})),
-      records_(graph_.import_buffer({"records"},
-                                    {Access::handed_over_buffer, Access::handed_over_buffer})) {
+      records_(
+          graph_.import_buffer({"records"}, {Access::exported_buffer, Access::exported_buffer})) {
     graph::Handle blocks;
     graph::Handle records;
     graph_.add_pass(

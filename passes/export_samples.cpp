@@ -24,13 +24,13 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
     : device_(&device),
       layout_(layout.pipeline_layout()),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::export_samples_comp,
-                                           "nearfield hand over samples")),
+                                           "nearfield export samples")),
       summaries_(graph_.import_buffer({"tile summaries"}, {Access::storage_write_in_compute, {}})),
       hits_(graph_.import_buffer({"found in cells"}, {Access::storage_read_in_compute, {}})),
       tables_(graph_.import_buffer({"tables", true, false})),
       blocks_(graph_.import_buffer({"sample blocks"})),
       samples_(graph_.import_buffer({"resident samples"},
-                                    {Access::handed_over_buffer, Access::handed_over_buffer})) {
+                                    {Access::exported_buffer, Access::exported_buffer})) {
     graph::Handle blocks;
     graph::Handle samples;
     graph_.add_pass(

@@ -19,8 +19,8 @@ constexpr VkColorComponentFlags id_bytes =
 }  // namespace
 
 FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                       const Frame& frame)
-    : device_(&device), layout_(layout), frame_(&frame) {
+                       const RecordContext& context)
+    : device_(&device), layout_(layout), context_(&context) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -71,11 +71,11 @@ graph::Handle FeatureBit::declare(graph::Graph& graph, graph::Handle mesh,
 }
 
 void FeatureBit::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const TileRenderer renderer(*device_, layout_, commands, *context_);
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, auto&& draw) {
         renderer.bind(pipeline.get());
         renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        for (const plan::TileDraw& tile : context_->round->distance_draws) {
             if (tile.sign == SignEncoding::feature_bit) {
                 draw(tile);
             }

@@ -14,7 +14,7 @@ namespace nearfield::passes {
 class FeatureBit {
 public:
     FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-               const Frame& frame);
+               const RecordContext& context);
 
     /// Adds the pass; returns the image, sampled as one unsigned number per texel.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
@@ -24,7 +24,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> clear_;
     gpu::Owned<VkPipeline> parity_;
     gpu::Owned<VkPipeline> draw_;

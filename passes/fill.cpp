@@ -20,9 +20,9 @@ graph::Handle Fill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D 
 
 void Fill::record(VkCommandBuffer commands) const {
     using namespace stencil_bits;
-    const TileRenderer renderer(*device_, layout_, commands, *frame_);
+    const TileRenderer renderer(*device_, layout_, commands, *context_);
     const auto draw_all = [&](plan::DrawRange plan::TileDraw::*range, std::uint32_t value) {
-        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        for (const plan::TileDraw& tile : context_->round->distance_draws) {
             if (tile.sign == SignEncoding::stencil) {
                 renderer.draw(tile, tile.*range, 1.0F, value);
             }

@@ -13,8 +13,8 @@ namespace nearfield::passes {
 class Fill {
 public:
     Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,
-         const Frame& frame)
-        : device_(&device), layout_(layout), pipelines_(&pipelines), frame_(&frame) {}
+         const RecordContext& context)
+        : device_(&device), layout_(layout), pipelines_(&pipelines), context_(&context) {}
 
     /// Adds the pass; returns the sign image.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
@@ -25,7 +25,7 @@ private:
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const StencilPipelines* pipelines_;
-    const Frame* frame_;
+    const RecordContext* context_;
 };
 
 /// The bits of a texel that are set inside B.

@@ -57,8 +57,8 @@ VkPipelineColorBlendAttachmentState blending(VkBlendFactor source, VkBlendFactor
 }  // namespace
 
 Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
-                   const Frame& frame)
-    : device_(&device), frame_(&frame), layout_(make_layout(device, layout.set_layout())) {
+                   const RecordContext& context)
+    : device_(&device), context_(&context), layout_(make_layout(device, layout.set_layout())) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout_.get();
@@ -91,17 +91,17 @@ graph::Handle Gradient::declare(graph::Graph& graph, graph::Handle mesh, graph::
 
 void Gradient::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
-    const TileRenderer renderer(*device_, layout_.get(), commands, *frame_);
+    const TileRenderer renderer(*device_, layout_.get(), commands, *context_);
     // The sets of all field passes bind the same buffer of values.
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
-                                      1, &frame_->gradients, 0, nullptr);
+                                      1, &context_->gradients, 0, nullptr);
     const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT
                               ? largest_half
                               : std::numeric_limits<float>::max();
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::int32_t shift) {
         renderer.bind(pipeline.get());
         renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+        for (const plan::TileDraw& tile : context_->round->distance_draws) {
             if (!tile.blended) {
                 continue;
             }

@@ -15,7 +15,7 @@ namespace nearfield::passes {
 class Gradient {
 public:
     Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
-             const Frame& frame);
+             const RecordContext& context);
 
     /// Adds the pass; returns the gradient image.
     graph::Handle declare(graph::Graph& graph, graph::Handle mesh, graph::Handle field,
@@ -25,7 +25,7 @@ private:
     void record(VkCommandBuffer commands) const;
 
     const gpu::Device* device_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipelineLayout> layout_;
     gpu::Owned<VkPipeline> shifted_;
     gpu::Owned<VkPipeline> subtract_;

@@ -29,8 +29,8 @@ graph::Handle Intersect::declare(graph::Graph& graph, graph::Handle mesh, VkExte
 void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
     using namespace stencil_bits;
     const StrategySteps& steps = strategies_->steps(strategy);
-    const TileRenderer renderer(*device_, layout_, commands, *frame_);
-    const auto& tiles = frame_->round->overlap_draws[static_cast<std::size_t>(strategy)];
+    const TileRenderer renderer(*device_, layout_, commands, *context_);
+    const auto& tiles = context_->round->overlap_draws[static_cast<std::size_t>(strategy)];
 
     renderer.bind(steps.clear);
     renderer.stencil(all, all, 0);

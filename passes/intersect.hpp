@@ -17,12 +17,12 @@ class Intersect {
 public:
     Intersect(const gpu::Device& device, VkPipelineLayout layout,
               const IntersectionStrategies& strategies, const EarlyOut& early_out,
-              const Frame& frame)
+              const RecordContext& context)
         : device_(&device),
           layout_(layout),
           strategies_(&strategies),
           early_out_(&early_out),
-          frame_(&frame) {}
+          context_(&context) {}
 
     /// Adds the pass that draws every overlap tile of one strategy. Reads the mesh; returns the hit
     /// image: a colour in the low byte (plan::white: an intersection) and, if A takes part by its
@@ -37,7 +37,7 @@ private:
     VkPipelineLayout layout_;
     const IntersectionStrategies* strategies_;
     const EarlyOut* early_out_;
-    const Frame* frame_;
+    const RecordContext* context_;
 };
 
 }  // namespace nearfield::passes

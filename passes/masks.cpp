@@ -16,10 +16,10 @@ constexpr std::uint32_t of_a_flag = 256;
 
 }  // namespace
 
-Masks::Masks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame)
+Masks::Masks(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       edges_(gpu::make_compute_pipeline(device, layout_, shaders::mask_edges_comp,
                                         "nearfield mask edges")),
       rows_(gpu::make_compute_pipeline(device, layout_, shaders::mask_rows_comp,
@@ -33,7 +33,7 @@ void Masks::bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipelin
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &frame_->masks, 0, nullptr);
+                                      &context_->masks, 0, nullptr);
 }
 
 template <std::size_t Count>
@@ -63,7 +63,7 @@ graph::Handle Masks::declare_clear(graph::Graph& graph, graph::Handle scratch) c
 
 void Masks::record_clear(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
-    const plan::ComputeWork& work = frame_->round->compute;
+    const plan::ComputeWork& work = context_->round->compute;
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
@@ -73,7 +73,7 @@ void Masks::record_clear(VkCommandBuffer commands) const {
                                    nullptr);
     const auto fill = [&](std::uint64_t first, std::uint64_t words, std::uint32_t value) {
         if (words > 0) {
-            functions.vkCmdFillBuffer(commands, frame_->scratch, first * sizeof(value),
+            functions.vkCmdFillBuffer(commands, context_->scratch, first * sizeof(value),
                                       words * sizeof(value), value);
         }
     };
@@ -93,13 +93,13 @@ graph::Handle Masks::declare_fill(graph::Graph& graph, graph::Handle input,
             std::move(record));
     };
     add("mark edges", [this](VkCommandBuffer commands) {
-        const auto ranges = frame_->round->compute.ranges();
+        const auto ranges = context_->round->compute.ranges();
         bind(commands, edges_);
         dispatch(commands, ranges.edges.count,
-                 {ranges.edges.first_word, ranges.masks.first_word, frame_->subpixel_bits});
+                 {ranges.edges.first_word, ranges.masks.first_word, context_->subpixel_bits});
     });
     add("fill rows", [this](VkCommandBuffer commands) {
-        const auto ranges = frame_->round->compute.ranges();
+        const auto ranges = context_->round->compute.ranges();
         bind(commands, rows_);
         dispatch(commands, ranges.rows.count, {ranges.rows.first_word});
     });
@@ -131,14 +131,14 @@ graph::Handle Masks::declare_boundaries_a(graph::Graph& graph, graph::Handle inp
 }
 
 void Masks::record_polygons(VkCommandBuffer commands, bool of_a) const {
-    const plan::ComputeWork& work = frame_->round->compute;
+    const plan::ComputeWork& work = context_->round->compute;
     const auto ranges = work.ranges();
     const plan::WorkRange& polygons = of_a ? ranges.polygons_a : ranges.polygons_b;
     bind(commands, polygons_);
     dispatch(commands, polygons.count,
              {polygons.first_word, ranges.masks.first_word, ranges.overlaps.first_word,
               static_cast<std::uint32_t>(work.mask_words),
-              frame_->subpixel_bits | (of_a ? of_a_flag : 0U)});
+              context_->subpixel_bits | (of_a ? of_a_flag : 0U)});
 }
 
 graph::Handle Masks::declare_collect(graph::Graph& graph, graph::Handle input,
@@ -151,13 +151,13 @@ graph::Handle Masks::declare_collect(graph::Graph& graph, graph::Handle input,
             samples = pass.write(samples, graph::Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) {
-            const plan::ComputeWork& work = frame_->round->compute;
+            const plan::ComputeWork& work = context_->round->compute;
             const auto ranges = work.ranges();
             bind(commands, collect_);
             dispatch(commands, ranges.overlap_rows.count,
                      {ranges.overlap_rows.first_word, ranges.masks.first_word,
                       ranges.overlaps.first_word, static_cast<std::uint32_t>(work.mask_words),
-                      frame_->sample_capacity});
+                      context_->sample_capacity});
         });
     return samples;
 }

@@ -17,7 +17,7 @@ namespace nearfield::passes {
 /// draw, so the result equals that of its fill and its strategies bit for bit.
 class Masks {
 public:
-    Masks(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    Masks(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context);
 
     /// Adds the pass that clears masks and runs; the first of all passes that use the scratch
     /// memory. It waits for earlier use of that memory on the device, so tile batches may follow
@@ -48,7 +48,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> edges_;
     gpu::Owned<VkPipeline> rows_;
     gpu::Owned<VkPipeline> polygons_;

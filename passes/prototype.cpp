@@ -20,8 +20,8 @@ gpu::Owned<VkRenderPass> make_prototype(const gpu::Device& device, VkFormat colo
         },
         [](VkCommandBuffer) {});
     const Expected<graph::BakedGraph> baked = graph::bake(graph);
-    if (!baked.ok()) {
-        throw StatusException(baked.status());
+    if (!baked) {
+        throw StatusException(baked.error());
     }
     return graph::make_render_pass(device, graph, baked->passes.front());
 }

@@ -14,7 +14,7 @@ inline constexpr std::size_t sign_encodings = 3;
 
 /// The input that all passes record from. One object lives as long as the passes; its contents
 /// change from tile batch to tile batch while commands are recorded.
-struct Frame {
+struct RecordContext {
     const plan::TileBatch* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;
     VkDeviceSize mesh_offset = 0;             ///< start of the tile batch's mesh, in bytes

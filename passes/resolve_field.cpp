@@ -37,16 +37,17 @@ std::uint32_t sign_mask(SignEncoding encoding) {
 }
 
 void bind_field_set(const gpu::Functions& functions, VkCommandBuffer commands,
-                    VkPipelineLayout layout, const Frame& frame, SignEncoding encoding) {
+                    VkPipelineLayout layout, const RecordContext& context, SignEncoding encoding) {
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
-                                      &frame.field[static_cast<std::size_t>(encoding)], 0, nullptr);
+                                      &context.field[static_cast<std::size_t>(encoding)], 0,
+                                      nullptr);
 }
 
 ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layout,
-                           const Frame& frame)
+                           const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_field_comp,
                                            "nearfield resolve field")) {}
 
@@ -66,13 +67,13 @@ graph::Handle ResolveField::declare(graph::Graph& graph, graph::Handle input,
 void ResolveField::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    for (const plan::TileDraw& tile : frame_->round->distance_draws) {
+    for (const plan::TileDraw& tile : context_->round->distance_draws) {
         if (tile.first_value == plan::not_asked && tile.first_feature == plan::not_asked) {
             continue;
         }
-        bind_field_set(functions, commands, layout_, *frame_, tile.sign);
+        bind_field_set(functions, commands, layout_, *context_, tile.sign);
         const std::uint32_t push[5] = {tile.tile, sign_mask(tile.sign), tile.first_value,
-                                       tile.first_feature, frame_->round->resident ? 1U : 0U};
+                                       tile.first_feature, context_->round->resident ? 1U : 0U};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
         dispatch_cells(functions, commands, tile.width, tile.height);

@@ -27,7 +27,7 @@ struct FieldImages {
 
 /// Binds the descriptor set for the field tiles of an encoding.
 void bind_field_set(const gpu::Functions& functions, VkCommandBuffer commands,
-                    VkPipelineLayout layout, const Frame& frame, SignEncoding encoding);
+                    VkPipelineLayout layout, const RecordContext& context, SignEncoding encoding);
 
 /// The requested outputs at every cell of the field tiles (section 2.2.2 of the paper): the signed
 /// distance at its centre, in cells, and the nearest of B's edges (a word of plan::point_inside and
@@ -35,7 +35,8 @@ void bind_field_set(const gpu::Functions& functions, VkCommandBuffer commands,
 /// buffer, tile after tile.
 class ResolveField {
 public:
-    ResolveField(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    ResolveField(const gpu::Device& device, const ComputeLayout& layout,
+                 const RecordContext& context);
 
     /// Adds the pass; returns the new version of `field`.
     [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
@@ -46,7 +47,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> pipeline_;
 };
 

@@ -6,10 +6,10 @@
 namespace nearfield::passes {
 
 ResolveFieldPoints::ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout,
-                                       const Frame& frame)
+                                       const RecordContext& context)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_field_points_comp,
                                            "nearfield resolve field points")) {}
 
@@ -29,8 +29,8 @@ graph::Handle ResolveFieldPoints::declare(graph::Graph& graph, graph::Handle inp
 void ResolveFieldPoints::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    for (const plan::FieldPointRun& run : frame_->round->field_point_runs) {
-        bind_field_set(functions, commands, layout_, *frame_, run.sign);
+    for (const plan::FieldPointRun& run : context_->round->field_point_runs) {
+        bind_field_set(functions, commands, layout_, *context_, run.sign);
         dispatch_points(
             functions, commands, run.first, run.first + run.count, [&](std::uint32_t first) {
                 const std::uint32_t push[7] = {

@@ -14,7 +14,8 @@ namespace nearfield::passes {
 /// edge lists and points; writes a few words per point (plan::FieldParts).
 class ResolveFieldPoints {
 public:
-    ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame);
+    ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout,
+                       const RecordContext& context);
 
     /// Adds the pass; returns the new version of `field`.
     [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
@@ -25,7 +26,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     gpu::Owned<VkPipeline> pipeline_;
 };
 

@@ -7,10 +7,10 @@
 namespace nearfield::passes {
 
 ResolvePoints::ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
-                             const Frame& frame, Source source)
+                             const RecordContext& context, Source source)
     : device_(&device),
       layout_(layout.pipeline_layout()),
-      frame_(&frame),
+      context_(&context),
       source_(source),
       pipeline_(source == Source::images
                     ? gpu::make_compute_pipeline(device, layout_, shaders::resolve_points_comp,
@@ -38,14 +38,14 @@ void ResolvePoints::declare(graph::Graph& graph, graph::Handle input, graph::Han
 void ResolvePoints::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     const VkDescriptorSet set =
-        source_ == Source::images ? frame_->points : frame_->points_by_lists;
+        source_ == Source::images ? context_->points : context_->points_by_lists;
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &set,
                                       0, nullptr);
-    const auto count = static_cast<std::uint32_t>(frame_->round->points.size());
+    const auto count = static_cast<std::uint32_t>(context_->round->points.size());
     dispatch_points(functions, commands, 0, count, [&](std::uint32_t first) {
         const std::uint32_t push[3] = {first, count,
-                                       frame_->round->resident ? count : plan::not_asked};
+                                       context_->round->resident ? count : plan::not_asked};
         functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), push);
     });

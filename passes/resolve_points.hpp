@@ -19,8 +19,8 @@ public:
         images,  ///< the feature and sign images (the raster technique)
         lists,   ///< the edge lists alone (the compute technique)
     };
-    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, const Frame& frame,
-                  Source source);
+    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
+                  const RecordContext& context, Source source);
 
     /// Adds the pass. The caller provides the buffers and images in the descriptor set of the
     /// record context. Without images, leave out the last two parameters.
@@ -32,7 +32,7 @@ private:
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const Frame* frame_;
+    const RecordContext* context_;
     Source source_;
     gpu::Owned<VkPipeline> pipeline_;
 };

@@ -40,9 +40,9 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
 }
 
 TileRenderer::TileRenderer(const gpu::Device& device, VkPipelineLayout layout,
-                           VkCommandBuffer commands, const Frame& frame)
+                           VkCommandBuffer commands, const RecordContext& context)
     : functions_(&device.functions()), layout_(layout), commands_(commands) {
-    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &frame.mesh, &frame.mesh_offset);
+    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &context.mesh, &context.mesh_offset);
 }
 
 void TileRenderer::bind(VkPipeline pipeline) const {

@@ -21,7 +21,7 @@ class TileRenderer {
 public:
     /// Binds the mesh of the record context.
     TileRenderer(const gpu::Device& device, VkPipelineLayout layout, VkCommandBuffer commands,
-                 const Frame& frame);
+                 const RecordContext& context);
 
     void bind(VkPipeline pipeline) const;
     /// Sets the stencil state of the following draws: compare mask, write mask and reference value.

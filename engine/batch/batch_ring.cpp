@@ -44,8 +44,8 @@ BatchRing::Frame& BatchRing::free_frame() {
         }
     }
     throw StatusException(
-        {StatusCode::ring_full, "all " + std::to_string(frames_.size()) +
-                                    " frames are in flight; collect one of them before "
+        {StatusCode::ring_full, "batches_in_flight is " + std::to_string(frames_.size()) +
+                                    ", and as many are in flight; collect one of them before "
                                     "the next batch is submitted"});
 }
 

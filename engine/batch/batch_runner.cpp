@@ -15,10 +15,10 @@ std::span<const Vector2> points_of(const AnyQuery& query) {
 }
 
 /// Index of a query's entry among those that stay on the device.
-template <class HandedOver>
-std::size_t place_of(const std::vector<HandedOver>& all, std::uint32_t query) {
+template <class Output>
+std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
     const auto found = std::find_if(all.begin(), all.end(),
-                                    [query](const HandedOver& one) { return one.query == query; });
+                                    [query](const Output& one) { return one.query == query; });
     return static_cast<std::size_t>(found - all.begin());
 }
 

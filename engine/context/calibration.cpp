@@ -119,10 +119,10 @@ public:
         for (Star* star : {&few_, &many_}) {
             const Ring rings[] = {Ring(star->ring)};
             Expected<ShapeHandle> handle = context.add_shape(rings);
-            if (!handle.ok()) {
-                throw StatusException(handle.status());
+            if (!handle) {
+                throw StatusException(handle.error());
             }
-            star->handle = handle.value();
+            star->handle = *handle;
         }
     }
     ~Calibration() {
@@ -243,8 +243,8 @@ TechniqueCost Calibration::measure(Technique technique) {
 
 }  // namespace
 
-CostModel measure_costs(Context& context, const DeviceTechniques& techniques,
-                        const std::function<void(double)>& progress) {
+CostModel calibrate(Context& context, const DeviceTechniques& techniques,
+                    const std::function<void(double)>& progress) {
     return Calibration(context, progress).run(techniques);
 }
 

@@ -11,7 +11,7 @@ namespace nearfield {
 /// Adds shapes to the context and removes them again. Techniques that the context does not have
 /// keep the context's costs. `progress`, if any, receives the completed fraction, up to 1. Throws
 /// StatusException if a workload is rejected.
-[[nodiscard]] CostModel measure_costs(Context& context, const DeviceTechniques& techniques,
-                                      const std::function<void(double)>& progress);
+[[nodiscard]] CostModel calibrate(Context& context, const DeviceTechniques& techniques,
+                                  const std::function<void(double)>& progress);
 
 }  // namespace nearfield

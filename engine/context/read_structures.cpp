@@ -76,7 +76,7 @@ Settings read_versioned(const Settings& given) {
         {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
          offsetof(Settings, costs), offsetof(Settings, jobs), offsetof(Settings, techniques)});
     if (settings.batches_in_flight < 1 || settings.batches_in_flight > max_batches_in_flight) {
-        refuse_setting("frames_in_flight is " + std::to_string(settings.batches_in_flight) +
+        refuse_setting("batches_in_flight is " + std::to_string(settings.batches_in_flight) +
                        "; it must be at least 1 and at most " +
                        std::to_string(max_batches_in_flight));
     }

@@ -1,6 +1,6 @@
 #include <engine/base/catch_to_status.hpp>
 #include <engine/gpu/instance.hpp>
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <string>
 #include <utility>

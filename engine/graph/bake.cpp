@@ -34,8 +34,8 @@ Expected<BakedGraph> bake(const Graph& graph) {
         return status;
     }
     const Expected<std::vector<std::uint32_t>> order = order_passes(graph);
-    if (!order.ok()) {
-        return order.status();
+    if (!order) {
+        return order.error();
     }
     BakedGraph baked;
     for (const std::uint32_t pass : *order) {

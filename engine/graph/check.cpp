@@ -40,7 +40,7 @@ std::optional<string> misfit(PassKind kind, const Resource& resource, const Use&
         return resource.is_image ? "which is an image, and that access is for buffers"
                                  : "which is a buffer, and that access is for images";
     }
-    if (use.access == Access::handed_over_buffer || use.access == Access::handed_over_image) {
+    if (use.access == Access::exported_buffer || use.access == Access::exported_image) {
         return "which is no pass's: it happens after the graph";
     }
     if (access.pass_kind != kind) {

@@ -302,8 +302,8 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
 
 std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {
     Expected<BakedGraph> baked = bake(graph);
-    if (!baked.ok()) {
-        throw StatusException(baked.status());
+    if (!baked) {
+        throw StatusException(baked.error());
     }
     return std::make_unique<Executor>(device, graph, std::move(*baked));
 }

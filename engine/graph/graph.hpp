@@ -24,8 +24,8 @@ enum class Access : std::uint8_t {
     transfer_read,             ///< buffer, read by a copy
     storage_image_in_compute,  ///< image, written by a compute shader
     // Uses outside any graph, between this one and its next execution (ExternalAccess).
-    handed_over_buffer,  ///< buffer, read by the shaders of the library's user
-    handed_over_image,   ///< image, sampled by the shaders of the library's user
+    exported_buffer,  ///< buffer, read by the shaders of the library's user
+    exported_image,   ///< image, sampled by the shaders of the library's user
 };
 
 /// A resource at one version. A write yields a new version and invalidates the old one. A reader

@@ -2,7 +2,7 @@
 
 #include <engine/graph/bake.hpp>
 #include <engine/graph/graph.hpp>
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <string>
 

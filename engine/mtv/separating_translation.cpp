@@ -225,14 +225,14 @@ double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
             return std::min({square.nearest, open, length_});
         }
         const CellState word = cover_.ask(square);
-        if (word == CellState::meet) {
+        if (word == CellState::overlapping) {
             continue;
         }
-        if (word == CellState::alike) {
+        if (word == CellState::uniform) {
             open = std::min(open, nearest_open());
             continue;
         }
-        if (word == CellState::nothing && accept(cover_.rest().middle())) {
+        if (word == CellState::unknown && accept(cover_.rest().middle())) {
             descend(best_.normalized());
         }
         cover_.cut(square);

@@ -223,7 +223,7 @@ CellState TranslationSearch::ask(const TranslationCell& square) {
         const double reach =
             asked.radius - asked.spread + depth_in(other, place_of(certificate, square.centre));
         if (reach >= radius) {
-            return CellState::meet;
+            return CellState::overlapping;
         }
         if (reach + 2.0 * asked.spread > -radius) {
             left_.push_back({certificate, reach});
@@ -232,21 +232,21 @@ CellState TranslationSearch::ask(const TranslationCell& square) {
     // The deepest certificates usually decide the parts as well.
     std::sort(left_.begin(), left_.end(),
               [](const Asked& i, const Asked& j) { return i.reach > j.reach; });
-    const bool is_alike = cut_off_walls(square, radius);
+    const bool is_uniform = cut_off_walls(square, radius);
     if (rest_.is_empty()) {
-        return CellState::meet;
+        return CellState::overlapping;
     }
     piece_count_ = 0;
     add_piece(rest_);
-    if (is_alike) {
-        return CellState::alike;
+    if (is_uniform) {
+        return CellState::uniform;
     }
     if (split_rest(square, radius)) {
-        return CellState::alike;
+        return CellState::uniform;
     }
     return !left_.empty() && left_.front().reach > roundings_of_depth * rounding_
-               ? CellState::touched
-               : CellState::nothing;
+               ? CellState::touching
+               : CellState::unknown;
 }
 
 void TranslationSearch::list_parts(const Asked& asked, double half) {

@@ -22,10 +22,10 @@ struct TranslationCell {
 
 /// The state of a cell as decided by certificates.
 enum class CellState : std::uint8_t {
-    meet,     ///< the shapes overlap after all of its translations
-    alike,    ///< per piece of the rest, the shapes overlap after all translations or after none
-    touched,  ///< the shapes overlap at its centre
-    nothing,  ///< undecided
+    overlapping,  ///< the shapes overlap after all of its translations
+    uniform,   ///< per piece of the rest, the shapes overlap after all translations or after none
+    touching,  ///< the shapes overlap at its centre
+    unknown,   ///< undecided
 };
 
 /// The undecided cells of translation space, nearest to 0 first. Reuses its memory between pairs.
@@ -47,9 +47,9 @@ public:
     [[nodiscard]] bool is_empty() const { return squares_.empty(); }
     [[nodiscard]] TranslationCell take_nearest();
     [[nodiscard]] CellState ask(const TranslationCell& square);
-    /// The rest of the last cell queried. Not empty unless its state was `meet`.
+    /// The rest of the last cell queried. Not empty unless its state was `overlapping`.
     [[nodiscard]] const ConvexPiece& rest() const { return rest_; }
-    /// The pieces of the rest, if the state was `alike`.
+    /// The pieces of the rest, if the state was `uniform`.
     [[nodiscard]] std::span<const ConvexPiece> pieces() const {
         return std::span(pieces_).first(piece_count_);
     }

@@ -124,7 +124,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
         std::visit(
             [&](const auto& query) {
                 using Query = std::decay_t<decltype(query)>;
-                auto& result = reuse<typename ResultOf<Query>::type>(results[query_]);
+                auto& result = reuse<typename Query::Result>(results[query_]);
                 if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
                     result.tolerance = query.tolerance;
                 }

@@ -81,16 +81,16 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     std::uint64_t mesh_end = 0;
     std::uint64_t input_end = 0;
     for (std::size_t i = 0; i < tile_batches.size(); ++i) {
-        passes::Frame& frame = tile_batches_[i].frame;
-        frame.round = &tile_batches[i];
-        frame.subpixel_bits = device_->limits().subPixelPrecisionBits;
-        sets_[i].hand_to(frame);
+        passes::RecordContext& context = tile_batches_[i].context;
+        context.round = &tile_batches[i];
+        context.subpixel_bits = device_->limits().subPixelPrecisionBits;
+        sets_[i].bind_to(context);
         if (tile_batches[i].by_compute) {
             if (compute_[i] == nullptr) {
                 compute_[i] = std::make_unique<ComputeBuffers>(*device_);
             }
             compute_[i]->upload(tile_batches[i]);
-            frame.scratch = compute_[i]->scratch();
+            context.scratch = compute_[i]->scratch();
         } else {
             lay_out_input(tile_batches_[i], input_end, mesh_end);
         }
@@ -98,7 +98,7 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     input_.reserve(input_end);
     mesh_.reserve(mesh_end);
     for (const TileBatchOnDevice& round : tile_batches_) {
-        if (!round.frame.round->by_compute) {
+        if (!round.context.round->by_compute) {
             copy_input(round);
         }
     }
@@ -108,7 +108,7 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
 
 void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
                                    std::uint64_t& mesh_end) const {
-    const plan::TileBatch& round = *on_device.frame.round;
+    const plan::TileBatch& round = *on_device.context.round;
     const auto& geometry = round.lists.geometry();
     require_range(*device_, bytes_of(geometry), "the edges");
     require_range(*device_, std::max(bytes_of(round.points), bytes_of(round.field_points)),
@@ -120,18 +120,18 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
     parts.field_points = align(parts.points + bytes_of(round.points));
     parts.end = parts.field_points + bytes_of(round.field_points);
     input_end = parts.end + smallest_part;
-    on_device.frame.mesh_offset = mesh_end;
+    on_device.context.mesh_offset = mesh_end;
     mesh_end = align(mesh_end + bytes_of(round.mesh));
 }
 
 void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
-    const plan::TileBatch& round = *on_device.frame.round;
+    const plan::TileBatch& round = *on_device.context.round;
     const InputParts& parts = on_device.input;
     copy_to(input_.data() + parts.tiles, round.tiles);
     copy_to(input_.data() + parts.geometry, round.lists.geometry());
     copy_to(input_.data() + parts.points, round.points);
     copy_to(input_.data() + parts.field_points, round.field_points);
-    copy_to(mesh_.data() + on_device.frame.mesh_offset, round.mesh);
+    copy_to(mesh_.data() + on_device.context.mesh_offset, round.mesh);
 }
 
 void BatchResources::run(std::uint32_t count) {
@@ -145,7 +145,7 @@ void BatchResources::run_those_without_room() {
     has_resident_outputs_ = false;
     std::erase_if(running_, [&](std::uint32_t number) { return tile_batches_[number].had_room(); });
     for (const std::uint32_t number : running_) {
-        tile_batches_[number].frame.sample_capacity = tile_batches_[number].sample_count;
+        tile_batches_[number].context.sample_capacity = tile_batches_[number].sample_count;
     }
 }
 
@@ -215,19 +215,19 @@ void BatchResources::release() {
 std::span<const std::uint32_t> BatchResources::points(std::uint32_t number) const {
     const TileBatchOnDevice& round = tile_batches_[number];
     return elements_at<std::uint32_t>(read_back_, round.output.points,
-                                      round.frame.round->points.size());
+                                      round.context.round->points.size());
 }
 
 std::span<const std::uint32_t> BatchResources::field_words(std::uint32_t number) const {
     const TileBatchOnDevice& round = tile_batches_[number];
     return elements_at<std::uint32_t>(read_back_, round.output.field,
-                                      round.frame.round->field_words);
+                                      round.context.round->field_words);
 }
 
 std::span<const plan::TileSummary> BatchResources::summaries(std::uint32_t number) const {
     const TileBatchOnDevice& round = tile_batches_[number];
     return elements_at<plan::TileSummary>(read_back_, round.output.summaries,
-                                          round.frame.round->tiles.size());
+                                          round.context.round->tiles.size());
 }
 
 std::span<const plan::SampleData> BatchResources::samples(std::uint32_t number) const {

@@ -39,12 +39,12 @@ enum class SubmissionState {
 /// The device's side of one tile batch.
 struct TileBatchOnDevice {
     std::shared_ptr<CompiledGraph> graph;  ///< kept for as long as the device may use its images
-    passes::Frame frame;                   ///< what its passes record from
+    passes::RecordContext context;         ///< what its passes record from
     InputParts input;
     OutputParts output;
-    std::uint32_t sample_count = 0;  ///< found; only frame.sample_capacity of them were stored
+    std::uint32_t sample_count = 0;  ///< found; only context.sample_capacity of them were stored
 
-    [[nodiscard]] bool had_room() const { return sample_count <= frame.sample_capacity; }
+    [[nodiscard]] bool had_room() const { return sample_count <= context.sample_capacity; }
 };
 
 /// The device's side of one batch in flight: everything that the host must not touch before the
@@ -77,7 +77,7 @@ public:
         return tile_batches_[number];
     }
     /// Points a compiled graph to the buffers of a tile batch, for what is recorded next.
-    void hand_buffers_to(CompiledGraph& graph, std::uint32_t number) const;
+    void bind_buffers(CompiledGraph& graph, std::uint32_t number) const;
 
     /// The resident outputs; their commands are part of a batch's first submission.
     [[nodiscard]] const ResidentBuffers& resident() const { return resident_; }

@@ -16,7 +16,7 @@ constexpr graph::ExternalAccess read_once_more{{}, graph::Access::storage_read_i
 }  // namespace
 
 RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                 const passes::Frame& frame)
+                                 const passes::RecordContext& context)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
                                                   device.stencil_format(), "stencil")),
       distance_render_pass_(passes::make_prototype(device, passes::number_format,
@@ -31,24 +31,24 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
       stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
                "stencil"),
       strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
-      fill(device, draw_layout_.get(), stencil_, frame),
-      color_fill(device, draw_layout_.get(), white_render_pass_.get(), frame),
-      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), frame),
-      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get(), frame),
-      gradient(device, layout, gradient_render_pass_.get(), frame),
-      early_out(device, frame),
-      intersect(device, draw_layout_.get(), strategies_, early_out, frame),
-      resolve_points(device, layout, frame, passes::ResolvePoints::Source::images),
-      resolve_field(device, layout, frame),
-      resolve_field_points(device, layout, frame),
-      collect_gradients(device, layout, frame),
-      collect(device, layout, frame) {}
+      fill(device, draw_layout_.get(), stencil_, context),
+      color_fill(device, draw_layout_.get(), white_render_pass_.get(), context),
+      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), context),
+      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get(), context),
+      gradient(device, layout, gradient_render_pass_.get(), context),
+      early_out(device, context),
+      intersect(device, draw_layout_.get(), strategies_, early_out, context),
+      resolve_points(device, layout, context, passes::ResolvePoints::Source::images),
+      resolve_field(device, layout, context),
+      resolve_field_points(device, layout, context),
+      collect_gradients(device, layout, context),
+      collect(device, layout, context) {}
 
 ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                   const passes::Frame& frame)
-    : resolve_points(device, layout, frame, passes::ResolvePoints::Source::lists),
-      masks(device, layout, frame),
-      blocks(device, layout, frame) {}
+                                   const passes::RecordContext& context)
+    : resolve_points(device, layout, context, passes::ResolvePoints::Source::lists),
+      masks(device, layout, context),
+      blocks(device, layout, context) {}
 
 CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
                              VkExtent2D extent)
@@ -191,26 +191,27 @@ void CompiledGraph::set_buffers(const Buffers& buffers) {
 }
 
 void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
-                                const passes::Frame& frame) const {
+                                const passes::RecordContext& context) const {
     using Layout = passes::ComputeLayout;
     const auto bind_pair = [&](VkDescriptorSet set, const passes::FieldImages::Pair& images) {
         layout.write_image(set, Layout::image, executor_->sampled_view(images.features));
         layout.write_image(set, Layout::sign_image, executor_->sampled_view(images.sign));
     };
     if (needs_.points) {
-        bind_pair(frame.points, images_.by_encoding.front());
+        bind_pair(context.points, images_.by_encoding.front());
     }
     for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
         if (needs_.field[encoding]) {
-            bind_pair(frame.field[encoding], images_.by_encoding[encoding]);
+            bind_pair(context.field[encoding], images_.by_encoding[encoding]);
         }
     }
     if (needs_.blended) {
-        layout.write_image(frame.gradients, Layout::image, executor_->sampled_view(gradients_));
+        layout.write_image(context.gradients, Layout::image, executor_->sampled_view(gradients_));
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs_.overlap[i]) {
-            layout.write_image(frame.samples[i], Layout::image, executor_->sampled_view(hits_[i]));
+            layout.write_image(context.samples[i], Layout::image,
+                               executor_->sampled_view(hits_[i]));
         }
     }
 }

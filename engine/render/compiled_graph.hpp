@@ -4,7 +4,7 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/execute.hpp>
 #include <engine/graph/graph.hpp>
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 #include <passes/blocks.hpp>
 #include <passes/collect.hpp>
 #include <passes/collect_gradients.hpp>
@@ -69,7 +69,7 @@ struct GraphKey {
 class RasterPipelines {
 public:
     RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                    const passes::Frame& frame);
+                    const passes::RecordContext& context);
 
 private:
     // Render passes that pipelines are made for; compatible with those that graphs make.
@@ -100,7 +100,7 @@ public:
 /// The passes of the compute technique with their pipelines.
 struct ComputePipelines {
     ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                     const passes::Frame& frame);
+                     const passes::RecordContext& context);
 
     passes::ResolvePoints resolve_points;
     passes::Masks masks;
@@ -132,8 +132,9 @@ public:
         VkBuffer read_back = VK_NULL_HANDLE;  ///< of summaries and samples
     };
     void set_buffers(const Buffers& buffers);
-    /// Points the images of the frame's descriptor sets to this graph's images.
-    void bind_images(const passes::ComputeLayout& layout, const passes::Frame& frame) const;
+    /// Points the images of the record context's descriptor sets to this graph's images.
+    void bind_images(const passes::ComputeLayout& layout,
+                     const passes::RecordContext& context) const;
 
     void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
         executor_->execute(graph_, commands, timestamps);

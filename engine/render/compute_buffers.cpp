@@ -55,7 +55,7 @@ void ComputeBuffers::upload(const plan::TileBatch& round) {
     input_.flush();
 }
 
-void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Frame& frame,
+void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::RecordContext& context,
                           const Output& output) const {
     using Layout = passes::ComputeLayout;
     const auto write = [&](VkDescriptorSet set, Layout::Binding binding, const BufferPart& part) {
@@ -63,22 +63,22 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Fra
                             std::max(part.bytes, smallest_part));
     };
     const BufferPart scratch = scratch_part();
-    write(frame.points_by_lists, Layout::tiles, tiles_);
-    write(frame.points_by_lists, Layout::geometry, geometry_);
-    write(frame.points_by_lists, Layout::points, points_);
-    write(frame.points_by_lists, Layout::output, output.points);
-    write(frame.masks, Layout::work, work_);
-    write(frame.masks, Layout::scratch_of_masks, scratch);
-    write(frame.masks, Layout::summaries, output.summaries);
-    write(frame.masks, Layout::output, output.samples);
-    write(frame.blocks, Layout::blocks, blocks_);
-    write(frame.blocks, Layout::segments, segments_);
-    write(frame.blocks, Layout::scratch_of_blocks, scratch);
-    write(frame.blocks, Layout::output, output.field);
-    write(frame.feature_blocks, Layout::tiles, feature_blocks_);
-    write(frame.feature_blocks, Layout::geometry, geometry_);
-    write(frame.feature_blocks, Layout::scratch_of_blocks, scratch);
-    write(frame.feature_blocks, Layout::output, output.field);
+    write(context.points_by_lists, Layout::tiles, tiles_);
+    write(context.points_by_lists, Layout::geometry, geometry_);
+    write(context.points_by_lists, Layout::points, points_);
+    write(context.points_by_lists, Layout::output, output.points);
+    write(context.masks, Layout::work, work_);
+    write(context.masks, Layout::scratch_of_masks, scratch);
+    write(context.masks, Layout::summaries, output.summaries);
+    write(context.masks, Layout::output, output.samples);
+    write(context.blocks, Layout::blocks, blocks_);
+    write(context.blocks, Layout::segments, segments_);
+    write(context.blocks, Layout::scratch_of_blocks, scratch);
+    write(context.blocks, Layout::output, output.field);
+    write(context.feature_blocks, Layout::tiles, feature_blocks_);
+    write(context.feature_blocks, Layout::geometry, geometry_);
+    write(context.feature_blocks, Layout::scratch_of_blocks, scratch);
+    write(context.feature_blocks, Layout::output, output.field);
 }
 
 }  // namespace nearfield::render

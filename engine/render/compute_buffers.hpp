@@ -36,8 +36,9 @@ public:
     struct Output {
         BufferPart points, field, summaries, samples;
     };
-    /// Points the frame's descriptor sets of the compute technique to the last uploaded tile batch.
-    void bind(const passes::ComputeLayout& layout, const passes::Frame& frame,
+    /// Points the record context's descriptor sets of the compute technique to the last uploaded
+    /// tile batch.
+    void bind(const passes::ComputeLayout& layout, const passes::RecordContext& context,
               const Output& output) const;
 
 private:

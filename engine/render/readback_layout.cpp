@@ -11,14 +11,14 @@ void BatchResources::lay_out_output() {
     std::uint64_t end = 0;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& round = *on_device.frame.round;
+        const plan::TileBatch& round = *on_device.context.round;
         const std::uint64_t point_bytes =
             round.points.size() *
             (sizeof(std::uint32_t) + (round.resident ? sizeof(plan::PointDetails) : 0));
         const std::uint64_t field_bytes = round.field_words * sizeof(std::uint32_t);
         const std::uint64_t summary_bytes = round.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =
-            sizeof(std::uint32_t) + on_device.frame.sample_capacity * sizeof(plan::SampleData);
+            sizeof(std::uint32_t) + on_device.context.sample_capacity * sizeof(plan::SampleData);
         require_range(*device_, std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
                       "the results");
         OutputParts& parts = on_device.output;
@@ -37,11 +37,11 @@ void BatchResources::lay_out_output() {
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         find_copies(on_device);
-        on_device.frame.mesh = mesh_.handle();
-        on_device.frame.read_back = read_back_.handle();
-        on_device.frame.summaries_offset = on_device.output.summaries;
+        on_device.context.mesh = mesh_.handle();
+        on_device.context.read_back = read_back_.handle();
+        on_device.context.summaries_offset = on_device.output.summaries;
         empty_output(on_device);
-        if (on_device.frame.round->by_compute) {
+        if (on_device.context.round->by_compute) {
             bind_compute(number);
         } else {
             bind(on_device);
@@ -58,7 +58,7 @@ void BatchResources::lay_out_words(std::uint64_t end) {
     bool any_resident = has_resident_outputs_;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& round = *on_device.frame.round;
+        const plan::TileBatch& round = *on_device.context.round;
         const std::uint64_t hit_bytes = std::uint64_t{round.hit_words} * sizeof(std::uint32_t);
         require_range(*device_, hit_bytes, "the cells of intersections that stay");
         any_resident = any_resident || round.resident || hit_bytes > 0;
@@ -72,7 +72,7 @@ void BatchResources::lay_out_words(std::uint64_t end) {
 
 BufferPart BatchResources::hits_of(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
-    const plan::TileBatch& round = *on_device.frame.round;
+    const plan::TileBatch& round = *on_device.context.round;
     if (round.by_compute) {
         return compute_[number]->scratch_part();
     }
@@ -81,11 +81,11 @@ BufferPart BatchResources::hits_of(std::uint32_t number) const {
 }
 
 VkBuffer BatchResources::words_of(const TileBatchOnDevice& on_device) const {
-    return on_device.frame.round->resident ? words_.handle() : read_back_.handle();
+    return on_device.context.round->resident ? words_.handle() : read_back_.handle();
 }
 
 void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
-    const plan::TileBatch& round = *on_device.frame.round;
+    const plan::TileBatch& round = *on_device.context.round;
     if (!round.resident) {
         return;
     }
@@ -111,7 +111,7 @@ void BatchResources::bind_export() {
              {buffer, parts.field, parts.summaries - parts.field},
              {read_back_.handle(), parts.summaries, parts.samples - parts.summaries},
              hits_of(number),
-             static_cast<std::uint32_t>(round.frame.round->points.size())});
+             static_cast<std::uint32_t>(round.context.round->points.size())});
     }
     resident_.bind(export_words_, {words_.handle(), 0, smallest_part}, read_back_.handle());
 }
@@ -120,15 +120,15 @@ void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
     const plan::TileSummary empty;
     const OutputParts& parts = on_device.output;
     std::memset(read_back_.data() + parts.samples, 0, sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < on_device.frame.round->tiles.size(); ++i) {
+    for (std::size_t i = 0; i < on_device.context.round->tiles.size(); ++i) {
         std::memcpy(read_back_.data() + parts.summaries + i * sizeof(empty), &empty, sizeof(empty));
     }
 }
 
 void BatchResources::bind(const TileBatchOnDevice& on_device) const {
     using Layout = passes::ComputeLayout;
-    const plan::TileBatch& round = *on_device.frame.round;
-    const passes::Frame& frame = on_device.frame;
+    const plan::TileBatch& round = *on_device.context.round;
+    const passes::RecordContext& context = on_device.context;
     const InputParts& input = on_device.input;
     const OutputParts& output = on_device.output;
     const GraphKey needs = on_device.graph->needs();
@@ -144,9 +144,9 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
               input.geometry + bytes_of(round.lists.geometry()));
     };
     if (needs.points) {
-        write_tiles(frame.points);
-        write(frame.points, Layout::points, input_.handle(), input.points, input.field_points);
-        write(frame.points, Layout::output, words_of(on_device), output.points, output.field);
+        write_tiles(context.points);
+        write(context.points, Layout::points, input_.handle(), input.points, input.field_points);
+        write(context.points, Layout::output, words_of(on_device), output.points, output.field);
     }
     const auto write_field = [&](VkDescriptorSet set) {
         write_tiles(set);
@@ -155,26 +155,26 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
     };
     for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
         if (needs.field[encoding]) {
-            write_field(frame.field[encoding]);
+            write_field(context.field[encoding]);
         }
     }
     if (needs.blended) {
-        write_field(frame.gradients);
+        write_field(context.gradients);
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs.overlap[i]) {
-            write_tiles(frame.samples[i]);
-            write(frame.samples[i], Layout::summaries, read_back_.handle(), output.summaries,
+            write_tiles(context.samples[i]);
+            write(context.samples[i], Layout::summaries, read_back_.handle(), output.summaries,
                   output.samples);
-            write(frame.samples[i], Layout::output, read_back_.handle(), output.samples,
+            write(context.samples[i], Layout::output, read_back_.handle(), output.samples,
                   output.end);
             if (round.hit_words > 0) {
-                write(frame.samples[i], Layout::kept_hits, words_.handle(), output.hits,
+                write(context.samples[i], Layout::kept_hits, words_.handle(), output.hits,
                       output.hits + round.hit_words * sizeof(std::uint32_t));
             }
         }
     }
-    on_device.graph->bind_images(*layout_, frame);
+    on_device.graph->bind_images(*layout_, context);
 }
 
 void BatchResources::bind_compute(std::uint32_t number) const {
@@ -182,16 +182,16 @@ void BatchResources::bind_compute(std::uint32_t number) const {
     const OutputParts& parts = on_device.output;
     const VkBuffer words = words_of(on_device);
     const VkBuffer read_back = read_back_.handle();
-    compute_[number]->bind(*layout_, on_device.frame,
+    compute_[number]->bind(*layout_, on_device.context,
                            {{words, parts.points, parts.field - parts.points},
                             {words, parts.field, parts.summaries - parts.field},
                             {read_back, parts.summaries, parts.samples - parts.summaries},
                             {read_back, parts.samples, parts.end - parts.samples}});
 }
 
-void BatchResources::hand_buffers_to(CompiledGraph& graph, std::uint32_t number) const {
+void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) const {
     const VkBuffer words = words_of(tile_batches_[number]);
-    if (tile_batches_[number].frame.round->by_compute) {
+    if (tile_batches_[number].context.round->by_compute) {
         const ComputeBuffers& compute = *compute_[number];
         graph.set_buffers({VK_NULL_HANDLE, compute.input(), compute.scratch(), words,
                            VK_NULL_HANDLE, read_back_.handle()});

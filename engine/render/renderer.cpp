@@ -57,10 +57,10 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
       export_records_(device, layout_),
       export_samples_(device, layout_) {
     if (techniques.raster) {
-        passes_.raster.emplace(device, layout_, frame_);
+        passes_.raster.emplace(device, layout_, context_);
     }
     if (techniques.compute) {
-        passes_.compute.emplace(device, layout_, frame_);
+        passes_.compute.emplace(device, layout_, context_);
     }
 }
 
@@ -126,7 +126,7 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     for (const std::uint32_t number : slot.running()) {
         TileBatchOnDevice& round = slot.round(number);
         round.graph = graph_for(key_of(tile_batches[number]), extent);
-        round.frame.sample_capacity = sample_capacity(tile_batches[number], room);
+        round.context.sample_capacity = sample_capacity(tile_batches[number], room);
         last_graph_ = round.graph;
     }
     slot.lay_out_output();
@@ -164,11 +164,11 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
     slot.timestamps().reset(commands);
     for (const std::uint32_t number : slot.running()) {
         const TileBatchOnDevice& round = slot.round(number);
-        frame_ = round.frame;
-        if (!frame_.round->by_compute) {
+        context_ = round.context;
+        if (!context_.round->by_compute) {
             passes_.raster->early_out.reset(commands);
         }
-        slot.hand_buffers_to(*round.graph, number);
+        slot.bind_buffers(*round.graph, number);
         round.graph->execute(commands, slot.timestamps());
     }
     record_exports(slot, commands);

@@ -71,7 +71,7 @@ private:
     void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
-    passes::Frame frame_;  // of the tile batch that is being recorded
+    passes::RecordContext context_;  // of the tile batch that is being recorded
     passes::ComputeLayout layout_;
     PipelineSet passes_;
     passes::CopyBack copy_back_;

@@ -11,7 +11,7 @@ namespace {
 
 using Layout = passes::ComputeLayout;
 
-constexpr std::array<const char*, 1> set_names{"nearfield hand over set"};
+constexpr std::array<const char*, 1> set_names{"nearfield export set"};
 
 std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
     return sizeof(SummaryData) + std::uint64_t{records.capacity} * sizeof(RecordData);
@@ -40,7 +40,7 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
     : device_(&device),
       layout_(&layout),
       tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-              "nearfield hand over tables"),
+              "nearfield export tables"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                gpu::Direction::none, "nearfield resident records") {}
 
@@ -100,7 +100,7 @@ ResidentBuffers::Place ResidentBuffers::place_at(std::uint64_t end, std::uint64_
 
 void ResidentBuffers::upload_tables() {
     const std::vector<std::uint32_t>& tables = resident_->tables;
-    require_range(*device_, bytes_of(tables), "the tables of what is handed over");
+    require_range(*device_, bytes_of(tables), "the tables of the resident outputs");
     tables_.reserve(std::max(bytes_of(tables), smallest_part));
     if (!tables.empty()) {
         std::memcpy(tables_.data(), tables.data(), bytes_of(tables));
@@ -235,7 +235,7 @@ passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
             records_.handle()};
 }
 
-HandedOver ResidentBuffers::state(graph::Access access) const {
+ResidentState ResidentBuffers::state(graph::Access access) const {
     const graph::AccessTraits& traits = graph::traits(access);
     return {traits.stages, traits.access(), traits.layout, device_->queue_family()};
 }
@@ -254,7 +254,7 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
             geometry::to_public(field.origin),
             field.cell,
             field.error_bound,
-            state(graph::Access::handed_over_image)};
+            state(graph::Access::exported_image)};
 }
 
 ResidentRecords ResidentBuffers::records(std::size_t i) const {
@@ -265,7 +265,7 @@ ResidentRecords ResidentBuffers::records(std::size_t i) const {
             records.capacity,
             geometry::to_public(records.origin),
             records.error_bound,
-            state(graph::Access::handed_over_buffer)};
+            state(graph::Access::exported_buffer)};
 }
 
 ResidentSamples ResidentBuffers::samples(std::size_t i) const {
@@ -277,7 +277,7 @@ ResidentSamples ResidentBuffers::samples(std::size_t i) const {
             geometry::to_public(samples.origin),
             samples.cell,
             samples.error_bound,
-            state(graph::Access::handed_over_buffer)};
+            state(graph::Access::exported_buffer)};
 }
 
 }  // namespace nearfield::render

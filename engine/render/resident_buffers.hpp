@@ -78,7 +78,7 @@ private:
                       std::span<const VkDescriptorSet>& sets) const;
     void bind_words(VkDescriptorSet set, const BufferPart& words) const;
     void bind_records(VkDescriptorSet set, const Place& place) const;
-    [[nodiscard]] HandedOver state(graph::Access access) const;
+    [[nodiscard]] ResidentState state(graph::Access access) const;
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;

@@ -5,9 +5,9 @@
 namespace nearfield::examples {
 namespace {
 
-Settings settings(std::uint32_t batches_in_flight) {
+Settings settings(std::uint32_t frames_in_flight) {
     Settings settings;
-    settings.batches_in_flight = batches_in_flight;
+    settings.batches_in_flight = frames_in_flight;
     return settings;
 }
 
@@ -19,10 +19,10 @@ void require_ok(const Status& status) {
 
 }  // namespace
 
-LiveContacts::LiveContacts(const HostDevice& host, std::uint32_t batches_in_flight,
+LiveContacts::LiveContacts(const HostDevice& host, std::uint32_t frames_in_flight,
                            const Scene& scene)
-    : context_(value_of(Context::create(host, settings(batches_in_flight)))),
-      frames_in_flight_(batches_in_flight),
+    : context_(value_of(Context::create(host, settings(frames_in_flight)))),
+      frames_in_flight_(frames_in_flight),
       snapshot_{0, scene.poses(), {}} {
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
         shapes_[i] = value_of(context_.add_shape(scene.bodies()[i].rings));

@@ -28,10 +28,10 @@ struct Snapshot {
 /// Use it on the host's render thread only.
 class LiveContacts {
 public:
-    LiveContacts(const HostDevice& host, std::uint32_t batches_in_flight, const Scene& scene);
+    LiveContacts(const HostDevice& host, std::uint32_t frames_in_flight, const Scene& scene);
 
     /// Records the contact query for the current scene. The contacts of the frame
-    /// `batches_in_flight` earlier, which the host knows to be complete, become the snapshot to
+    /// `frames_in_flight` earlier, which the host knows to be complete, become the snapshot to
     /// draw.
     void record(VkCommandBuffer commands, std::uint64_t frame, const Scene& scene);
 

@@ -116,12 +116,12 @@ Pipeline make_pipeline(VkDevice device, VkPipelineLayout layout, VkRenderPass re
 }  // namespace
 
 Painter::Painter(VkPhysicalDevice physical_device, VkDevice device, VkRenderPass render_pass,
-                 std::uint32_t batches_in_flight)
+                 std::uint32_t frames_in_flight)
     : physical_device_(physical_device),
       device_(device),
       layout_(make_layout(device)),
       pipeline_(make_pipeline(device, layout_.get(), render_pass)),
-      slots_(batches_in_flight) {}
+      slots_(frames_in_flight) {}
 
 void Painter::upload(std::uint32_t slot, std::span<const Vertex> triangles) {
     Slot& to = slots_.at(slot);

@@ -15,7 +15,7 @@ public:
     /// Draws in the first subpass of `render_pass`, or of a compatible one: one colour attachment,
     /// one sample per pixel, with or without depth (which is not used).
     Painter(VkPhysicalDevice physical_device, VkDevice device, VkRenderPass render_pass,
-            std::uint32_t batches_in_flight);
+            std::uint32_t frames_in_flight);
 
     /// Copies the triangles to a slot. Precondition: the device has finished the slot's previous
     /// frame.

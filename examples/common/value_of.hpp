@@ -10,8 +10,8 @@ namespace nearfield::examples {
 /// Returns the value or throws the library's error; examples have no better error handling.
 template <class Value>
 Value value_of(Expected<Value> expected) {
-    if (!expected.ok()) {
-        throw std::runtime_error(expected.status().text());
+    if (!expected) {
+        throw std::runtime_error(expected.error().text());
     }
     return std::move(*expected);
 }

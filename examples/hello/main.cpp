@@ -6,8 +6,8 @@
 
 int main() {
     auto context = nearfield::Context::create_cpu();
-    if (!context.ok()) {
-        std::printf("%s\n", context.status().text().c_str());
+    if (!context) {
+        std::printf("%s\n", context.error().text().c_str());
         return 1;
     }
     // A shape is a list of rings: outer boundaries and holes, in any order and orientation.
@@ -16,8 +16,8 @@ int main() {
                                   {0, 3},  {8, 3},   {8, -3}, {0, -3}};
     const auto a = context->add_shape({&arrow, 1});
     const auto b = context->add_shape({&channel, 1});
-    if (!a.ok() || !b.ok()) {
-        std::printf("%s\n", (a.ok() ? b : a).status().text().c_str());
+    if (!a || !b) {
+        std::printf("%s\n", (a.has_value() ? b : a).error().text().c_str());
         return 1;
     }
     // The vertices of the arrow that lie in the channel's wall when the arrow stands at (1.5, 0.5).
@@ -26,8 +26,8 @@ int main() {
         .b = {.shape = *b},
         .tolerance = 0.1,
         .points = nearfield::PenetrationPoints::vertices});
-    if (!answer.ok()) {
-        std::printf("%s\n", answer.status().text().c_str());
+    if (!answer) {
+        std::printf("%s\n", answer.error().text().c_str());
         return 1;
     }
     for (const nearfield::PenetrationRecord& record : answer->records) {

@@ -48,7 +48,7 @@ void choose_device(nearfield::HostDevice& host) {
         candidate.physical_device = device;
         candidate.get_instance_proc_addr = vkGetInstanceProcAddr;
         const auto requirements = nearfield::requirements(candidate);
-        if (requirements.ok() && requirements->met()) {
+        if (requirements && requirements->met()) {
             host.physical_device = device;
             host.queue_family = *requirements->queue_family;
             return;
@@ -96,7 +96,7 @@ void run_frame(nearfield::Context& context, const nearfield::HostDevice& host,
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     const auto ticket = context.record(batch, {.commands = commands, .frame = frame});
-    check(ticket.status());
+    check(ticket.error());
     check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
 
     VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO};
@@ -129,10 +129,10 @@ int main() {
     check(vkCreateFence(host.device, &fence_info, nullptr, &fence), "vkCreateFence");
     {
         auto context = nearfield::Context::create(host);
-        check(context.status());
+        check(context.error());
         const nearfield::Ring square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
         const auto shape = context->add_shape({&square, 1});
-        check(shape.status());
+        check(shape.error());
         run_frame(*context, host, commands, fence,
                   {.a = {*shape, {}},
                    .b = {*shape, {.translation = {1, 0.5}}},

@@ -36,7 +36,7 @@ HostDevice host_device(QQuickWindow& window) {
     return host;
 }
 
-std::uint32_t batches_in_flight(QQuickWindow& window) {
+std::uint32_t frames_in_flight(QQuickWindow& window) {
     return static_cast<std::uint32_t>(window.graphicsStateInfo().framesInFlight);
 }
 
@@ -44,10 +44,10 @@ std::uint32_t batches_in_flight(QQuickWindow& window) {
 
 RenderSide::Guest::Guest(QQuickWindow& window, const Scene& scene)
     : device(resource<VkDevice>(window, QSGRendererInterface::DeviceResource)),
-      contacts(host_device(window), batches_in_flight(window), scene),
+      contacts(host_device(window), frames_in_flight(window), scene),
       painter(resource<VkPhysicalDevice>(window, QSGRendererInterface::PhysicalDeviceResource),
               device, resource<VkRenderPass>(window, QSGRendererInterface::RenderPassResource),
-              batches_in_flight(window)) {}
+              frames_in_flight(window)) {}
 
 RenderSide::Guest::~Guest() {
     vkDeviceWaitIdle(device);  // Qt's last frames may still use the objects destroyed next
@@ -59,7 +59,7 @@ const Snapshot* RenderSide::snapshot() const {
 
 // Qt numbers frames only modulo those in flight; it has waited for the slot's previous frame.
 void RenderSide::record() {
-    catch_to_status([this] {
+    keep_error([this] {
         if (!guest_) {
             guest_.emplace(window_, scene_);
         }
@@ -73,7 +73,7 @@ void RenderSide::record() {
 }
 
 void RenderSide::draw() {
-    catch_to_status([this] {
+    keep_error([this] {
         const QSize size = window_.size() * window_.effectiveDevicePixelRatio();
         const auto slot = static_cast<std::uint32_t>(window_.graphicsStateInfo().currentFrameSlot);
         guest_->painter.upload(slot, examples::draw(scene_, guest_->contacts.snapshot(),
@@ -92,7 +92,7 @@ void RenderSide::leave() {
     has_left_ = true;
 }
 
-void RenderSide::catch_to_status(const std::function<void()>& work) {
+void RenderSide::keep_error(const std::function<void()>& work) {
     if (has_left_ || !error_.empty()) {
         return;
     }

@@ -49,7 +49,7 @@ private:
         std::uint64_t frame = 0;
     };
 
-    void catch_to_status(const std::function<void()>& work);
+    void keep_error(const std::function<void()>& work);
 
     QQuickWindow& window_;
     Scene scene_;

@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     CLI::App application("Live contacts of two shapes in a window");
     // Enough for the scripted mouse, for the frames in flight, and for all of these again after a
     // resize.
-    const int fewest = 2 * (drag_steps + 2 * static_cast<int>(Renderer::batches_in_flight));
+    const int fewest = 2 * (drag_steps + 2 * static_cast<int>(Renderer::frames_in_flight));
     CLI::Option* frames =
         application.add_option("--frames", options.frames, "play a script and leave after so many")
             ->check(CLI::Range(fewest, 1'000'000));

@@ -56,8 +56,8 @@ Renderer::Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR su
                    VkExtent2D extent, const Scene& scene)
     : device_(device),
       screen_(device, surface, extent),
-      painter_(device.physical_device(), device.device(), screen_.render_pass(), batches_in_flight),
-      contacts_(host_device(instance, device), batches_in_flight, scene),
+      painter_(device.physical_device(), device.device(), screen_.render_pass(), frames_in_flight),
+      contacts_(host_device(instance, device), frames_in_flight, scene),
       pool_(make_pool(device)) {
     for (Frame& frame : frames_) {
         frame.commands = make_command_buffer(device.device(), pool_.get());
@@ -75,7 +75,7 @@ bool Renderer::draw(const Scene& scene, VkExtent2D window_extent, const std::str
     if (window_extent.width != extent.width || window_extent.height != extent.height) {
         resize(window_extent);
     }
-    const auto slot = static_cast<std::uint32_t>(frame_ % batches_in_flight);
+    const auto slot = static_cast<std::uint32_t>(frame_ % frames_in_flight);
     const Frame& frame = frames_.at(slot);
     const VkFence done = frame.done.get();
     require(vkWaitForFences(device_.device(), 1, &done, VK_TRUE, UINT64_MAX), "vkWaitForFences");

@@ -14,7 +14,7 @@ namespace nearfield::examples {
 /// A minimal engine: three frames in flight, with nearfield's work at the start of each.
 class Renderer {
 public:
-    static constexpr std::uint32_t batches_in_flight = 3;
+    static constexpr std::uint32_t frames_in_flight = 3;
 
     Renderer(const OwnDevice& device, VkInstance instance, VkSurfaceKHR surface, VkExtent2D extent,
              const Scene& scene);
@@ -43,7 +43,7 @@ private:
     Painter painter_;
     LiveContacts contacts_;
     CommandPool pool_;
-    std::array<Frame, batches_in_flight> frames_;
+    std::array<Frame, frames_in_flight> frames_;
     std::uint64_t frame_ = 0;
 };
 

@@ -6,16 +6,13 @@
 #include <nearfield/jobs.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
-#include <nearfield/requirements.hpp>
 #include <nearfield/resident.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
 #include <nearfield/submission.hpp>
-#include <nearfield/tile.hpp>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -57,9 +54,9 @@ struct Settings {
     std::uint32_t hierarchy_height = 12;
     /// Bounding volumes of these hierarchies; docs/performance.md compares the settings.
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
-    /// Costs by which Technique::automatic selects, as measured by Context::measure_costs on this
-    /// machine; every time finite and at least 0. Unset: defaults for the class of device, see
-    /// docs/performance.md.
+    /// Costs by which Technique::automatic selects, as measured by measure_costs() of
+    /// diagnostics.hpp on this machine; every time finite and at least 0. Unset: defaults for the
+    /// class of device, see docs/performance.md.
     std::optional<CostModel> costs = std::nullopt;
     /// Host threads for the queries that the CPU answers. Its function and `user` must stay valid
     /// for the lifetime of the context. Default: everything runs on the calling thread.
@@ -69,28 +66,6 @@ struct Settings {
     /// StatusCode::unsupported_technique in its own result. Ignored by a context without a device.
     DeviceTechniques techniques = {};
 };
-
-/// The requirements of one intersection strategy that a device does not meet.
-struct StrategyReport {
-    IntersectionStrategy strategy{};   ///< the strategy that the report is about
-    std::vector<std::string> missing;  ///< unmet requirements; empty: the strategy is available
-};
-
-/// One Vulkan device: whether nearfield can use it, and every reason if not.
-struct DeviceReport {
-    std::string name;                  ///< as reported by the driver
-    std::string driver;                ///< driver version and Vulkan version
-    bool usable = false;               ///< `missing` is empty
-    std::vector<std::string> missing;  ///< unmet base requirements
-    /// Optional parts (Requirements::optional).
-    std::vector<OptionalPart> optional;
-    /// Every strategy, as in a headless context, which enables the features that the device has.
-    std::vector<StrategyReport> strategies;
-};
-
-/// Lists the devices of all installed Vulkan drivers, without creating a device on any of them.
-/// Fails only if there is no Vulkan loader or no instance can be created. Thread-safe.
-[[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<DeviceReport>> list_devices();
 
 /// Names a batch in flight of one context. The default value names none.
 struct Ticket {
@@ -104,12 +79,6 @@ struct Ticket {
 struct MemoryUse {
     std::uint64_t in_use = 0;  ///< now
     std::uint64_t peak = 0;    ///< maximum since the context was created
-};
-
-/// Output format of Context::describe_graph.
-enum class GraphFormat {
-    text,      ///< plain text
-    graphviz,  ///< a graph in the DOT language
 };
 
 /// Answers queries, on one Vulkan device or on the CPU alone.
@@ -143,7 +112,7 @@ public:
     /// Creates a context without a device: opens no Vulkan loader and needs no driver. It answers
     /// every query that Technique::cpu answers, and Technique::automatic means Technique::cpu. A
     /// query that needs a device (raster, compute, resident, blended gradients) fails in its own
-    /// result (unsupported_technique). record(), reload_shaders(), and submit() with semaphores
+    /// result (unsupported_technique). record(), submit() with semaphores, and reload_shaders()
     /// fail with no_device. Settings that concern the device are ignored.
     [[nodiscard]] static Expected<Context> create_cpu(const Settings& settings = {});
 
@@ -181,12 +150,13 @@ public:
     /// are answered as if the shape were still there.
     Status remove_shape(ShapeHandle shape);
 
-    /// Broad phase: finds the pairs of instances whose bounding boxes are at most `reach` apart
-    /// along both axes (world units, >= 0; 0: the closed boxes overlap). Replaces `pairs`, in
-    /// ascending order. The time grows with the number of instances and of pairs found. Fails with
-    /// invalid_query (the reach or a pose) or unknown_shape; `pairs` is unchanged then.
-    Status find_pairs(std::span<const Instance> instances, double reach,
-                      std::vector<InstancePair>& pairs);
+    /// Broad phase: the pairs of instances whose bounding boxes are at most `reach` apart along
+    /// both axes (world units, >= 0; 0: the closed boxes overlap), in ascending order. The time
+    /// grows with the number of instances and of pairs found. The pairs are borrowed from the
+    /// context, which keeps their memory, until the next call. Fails with invalid_query (the reach
+    /// or a pose), unknown_shape or out_of_memory.
+    [[nodiscard]] Expected<std::span<const InstancePair>> find_pairs(
+        std::span<const Instance> instances, double reach);
 
     /// Answers a batch and returns when all results are available: submit(), then collect(). Fails
     /// with ring_full if Settings::batches_in_flight batches are in flight.
@@ -202,15 +172,15 @@ public:
     /// A program with many queries per frame puts them into one Batch, which is submitted once and
     /// keeps its memory.
     template <class Query>
-    [[nodiscard]] Expected<typename ResultOf<Query>::type> answer(const Query& query) {
+    [[nodiscard]] Expected<typename Query::Result> answer(const Query& query) {
         Batch batch;
         const QueryHandle<Query> handle = batch.add(query);
         Results results;
         if (Status status = run(batch, results); !status.ok()) {
             return status;
         }
-        auto& result = results[handle];
-        return result.status.ok() ? Expected<typename ResultOf<Query>::type>(std::move(result))
+        auto& result = *std::get_if<typename Query::Result>(&results.results[handle.index]);
+        return result.status.ok() ? Expected<typename Query::Result>(std::move(result))
                                   : result.status;
     }
 
@@ -305,14 +275,6 @@ public:
     [[nodiscard]] Expected<ResidentSamples> resident(Ticket ticket,
                                                      QueryHandle<IntersectionQuery> query);
 
-    /// Measures what each technique costs on this machine, by small synthetic workloads. The result
-    /// is for Settings::costs of later contexts; nothing changes in this one. Techniques that this
-    /// context does not have keep their costs(). Takes seconds, during which the machine should be
-    /// otherwise idle. `progress`, if given, is called with the fraction done, up to 1. Fails with
-    /// ring_full if no further batch can be in flight, and as run() does.
-    [[nodiscard]] Expected<CostModel> measure_costs(
-        const std::function<void(double)>& progress = {});
-
     /// The costs by which Technique::automatic selects in this context.
     [[nodiscard]] const CostModel& costs() const noexcept;
 
@@ -322,34 +284,9 @@ public:
     /// The device memory of this context, now and at its peak.
     [[nodiscard]] MemoryUse memory_use() const noexcept;
 
-    /// The render graph of the last batch submitted or recorded: passes, resources, lifetimes,
-    /// barriers. Empty before the first batch; an error text if `format` is not a valid enumerator.
-    [[nodiscard]] std::string describe_graph(GraphFormat format) const;
-
-    /// Reports the tiles of the last batch submitted or recorded, collected or not; costs nothing
-    /// unless called. Replaces `tiles`: ordered by query, and within a query by its points or row
-    /// by row. Empty before the first batch, after a batch that failed as a whole, and if the CPU
-    /// answered everything. The field around contacts with gradient normals, which is a submission
-    /// of its own, is not included. Fails only with out_of_memory.
-    Status list_tiles(std::vector<TileReport>& tiles) const;
-
-    /// Development aid: recompiles the shaders whose sources changed since this context last loaded
-    /// them and rebuilds the pipelines of those whose code differs from the code in use; later
-    /// batches use the new pipelines. Returns the number of shaders replaced; 0: nothing changed.
-    /// Waits for the compiler that the library was built with, run as a separate process; the first
-    /// call compiles all shaders, which takes seconds. Does not wait for the device.
-    ///
-    /// `folder`: the folder of the sources; null: the folder that the library was built from.
-    ///
-    /// Fails with unavailable if the library was built without the CMake option
-    /// NEARFIELD_SHADER_RELOAD, as release builds are; with not_ready while batches are in flight;
-    /// with invalid_shader if a source cannot be read or compiled (the compiler's messages are the
-    /// reasons and go to the log); as create() does if the device rejects a pipeline. The shaders
-    /// in use then stay in use.
-    [[nodiscard]] Expected<std::uint32_t> reload_shaders(const char* folder = nullptr);
-
 private:
     class NEARFIELD_HIDDEN Implementation;
+    friend struct ContextAccess;  // of diagnostics.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

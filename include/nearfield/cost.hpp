@@ -24,8 +24,8 @@ struct TechniqueCost {
     WorkCost features = {};
 };
 
-/// Costs of every technique on one machine, as measured by Context::measure_costs. The model is
-/// coarse: it only has to separate techniques that differ by factors.
+/// Costs of every technique on one machine, as measured by measure_costs() of diagnostics.hpp. The
+/// model is coarse: it only has to separate techniques that differ by factors.
 struct CostModel {
     TechniqueCost raster = {};   ///< Technique::raster
     TechniqueCost compute = {};  ///< Technique::compute

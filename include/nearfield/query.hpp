@@ -19,6 +19,17 @@
 
 namespace nearfield {
 
+// Defined in result.hpp.
+struct PenetrationResult;
+struct IntersectionResult;
+struct DistanceFieldResult;
+struct ContactResult;
+struct ClosestPointResult;
+struct SeparationResult;
+struct IntersectionTestResult;
+struct TimeOfImpactResult;
+struct SeparationVectorResult;
+
 /// Upper limit of the deviations of a query's two shapes (Context::add_shape) added together, as a
 /// fraction of its tolerance; above it the query fails (invalid_query).
 inline constexpr double max_deviation = 0.25;
@@ -66,6 +77,8 @@ enum class PenetrationPoints {
 /// Point depth: for points of A's boundary inside B, the distance and direction to the nearest
 /// point of B's boundary (section 2.2.4 of the paper, "Penetration Depth and Direction").
 struct PenetrationQuery {
+    using Result = PenetrationResult;  ///< its answer (result.hpp)
+
     Instance a = {};         ///< the shape whose points are examined
     Instance b = {};         ///< the shape that they penetrate
     double tolerance = 0.0;  ///< d, world units, > 0: half the diagonal of a grid cell
@@ -116,6 +129,8 @@ inline constexpr std::size_t intersection_strategies = 4;
 
 /// The samples of a grid that lie in both shapes (section 2.2.1 and Table 1 of the paper).
 struct IntersectionQuery {
+    using Result = IntersectionResult;  ///< its answer (result.hpp)
+
     Instance a = {};                                          ///< its boundary or volume, by `kind`
     Instance b = {};                                          ///< likewise
     double tolerance = 0.0;                                   ///< d, world units, > 0
@@ -159,6 +174,8 @@ enum class GradientMethod {
 /// cell centres of a grid, negative inside B. Optionally also the nearest features (the Voronoi
 /// diagram) and the gradient (section 2.2.3). Fails (invalid_query) if it requests no output.
 struct DistanceFieldQuery {
+    using Result = DistanceFieldResult;  ///< its answer (result.hpp)
+
     /// Defines the grid together with B; may be left out (the default) if `rectangle` is set.
     Instance a = {};
     Instance b = {};         ///< the shape whose distance is computed
@@ -194,6 +211,8 @@ enum class ContactNormals {
 /// Contact points and normals: the points of either boundary that are close to the other boundary,
 /// inside and outside it (section 2.2.4 of the paper, "Contact Points and Normals").
 struct ContactQuery {
+    using Result = ContactResult;  ///< its answer (result.hpp)
+
     Instance a = {};                ///< first shape
     Instance b = {};                ///< second shape; normals are those of its boundary
     double tolerance = 0.0;         ///< d, world units, > 0; contacts are at most a cell apart
@@ -207,6 +226,8 @@ struct ContactQuery {
 
 /// The point of A that is closest to B (section 2.2.4 of the paper, "Closest Point").
 struct ClosestPointQuery {
+    using Result = ClosestPointResult;  ///< its answer (result.hpp)
+
     Instance a = {};  ///< the shape whose closest point is computed
     Instance b = {};  ///< the shape that it is closest to
     /// d, world units, > 0: half the diagonal of a cell of the grid on which the search is
@@ -219,6 +240,8 @@ struct ClosestPointQuery {
 /// The minimum distance between two shapes and where it occurs (section 2.2.4 of the paper,
 /// "Separation Distance and Direction").
 struct SeparationQuery {
+    using Result = SeparationResult;  ///< its answer (result.hpp)
+
     Instance a = {};                             ///< first shape
     Instance b = {};                             ///< second shape
     double tolerance = 0.0;                      ///< as for ClosestPointQuery
@@ -229,6 +252,8 @@ struct SeparationQuery {
 /// Exact up to the rounding of transformed vertices, so it has no tolerance. Always answered on the
 /// CPU: Technique::automatic or cpu; raster and compute fail (invalid_query).
 struct IntersectionTestQuery {
+    using Result = IntersectionTestResult;  ///< its answer (result.hpp)
+
     Instance a = {};                             ///< first shape
     Instance b = {};                             ///< second shape
     Technique technique = Technique::automatic;  ///< automatic or cpu
@@ -240,6 +265,8 @@ struct IntersectionTestQuery {
 /// much. A shape whose end pose equals its instance's pose does not move. Goes beyond the paper.
 /// Always answered on the CPU, as IntersectionTestQuery.
 struct TimeOfImpactQuery {
+    using Result = TimeOfImpactResult;  ///< its answer (result.hpp)
+
     Instance a = {};  ///< with A's pose at time 0
     Instance b = {};  ///< with B's pose at time 0
     Pose end_a = {};  ///< A's pose at time 1
@@ -265,6 +292,8 @@ struct TimeOfImpactQuery {
 /// penetration depth is that of single points. Always answered on the CPU, as
 /// IntersectionTestQuery.
 struct SeparationVectorQuery {
+    using Result = SeparationVectorResult;  ///< its answer (result.hpp)
+
     Instance a = {};  ///< the shape that moves
     Instance b = {};  ///< the shape that stays
     /// d, world units, > 0: the search ends when the translation is known to be at most this much
@@ -279,7 +308,7 @@ struct SeparationVectorQuery {
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
-/// Names a query of a batch. The type gives the kind of its result.
+/// Names a query of a batch. Its result is a Query::Result.
 template <class Query>
 struct QueryHandle {
     std::uint32_t index = UINT32_MAX;  ///< position in the batch; UINT32_MAX: no query

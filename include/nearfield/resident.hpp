@@ -13,7 +13,7 @@
 ///
 /// Images and buffers belong to the batch of the query. Their contents are valid once the device
 /// has executed the batch. Commands that the host submits to the same queue after Context::submit()
-/// see them without a barrier, in the stages and by the accesses that HandedOver states. Other
+/// see them without a barrier, in the stages and by the accesses that ResidentState states. Other
 /// stages, accesses, layouts or queues take a barrier, semaphore or ownership transfer by the host,
 /// which must return the images to the stated state.
 ///
@@ -23,7 +23,7 @@
 namespace nearfield {
 
 /// The synchronisation state in which the host's commands find a resident output.
-struct HandedOver {
+struct ResidentState {
     VkPipelineStageFlags stages = 0;                   ///< vertex, fragment and compute shader
     VkAccessFlags access = 0;                          ///< VK_ACCESS_SHADER_READ_BIT
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
@@ -59,7 +59,7 @@ struct ResidentField {
     /// known before the field is computed and so assumes the largest possible distance: slightly
     /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    HandedOver state;  ///< once the device has executed the batch
+    ResidentState state;  ///< once the device has executed the batch
 };
 
 /// The records of a penetration or contact query (PenetrationQuery::resident,
@@ -94,7 +94,7 @@ struct ResidentRecords {
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger.
     double error_bound = 0.0;
-    HandedOver state;  ///< once the device has executed the batch
+    ResidentState state;  ///< once the device has executed the batch
 };
 
 /// The samples of an intersection query (IntersectionQuery::resident): a buffer range with an
@@ -118,7 +118,7 @@ struct ResidentSamples {
     /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
     /// one as near.
     double error_bound = 0.0;
-    HandedOver state;  ///< once the device has executed the batch
+    ResidentState state;  ///< once the device has executed the batch
 };
 
 /// A feature id: a word that names the nearest part of a boundary, with two flags.

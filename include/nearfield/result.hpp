@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/export.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/shape.hpp>
@@ -326,63 +327,38 @@ using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFi
                                ContactResult, ClosestPointResult, SeparationResult,
                                IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
 
-/// The type of the result of a kind of query: ResultOf<Query>::type.
-template <class Query>
-struct ResultOf;
-
-/// \cond
-template <>
-struct ResultOf<PenetrationQuery> {
-    using type = PenetrationResult;
-};
-template <>
-struct ResultOf<IntersectionQuery> {
-    using type = IntersectionResult;
-};
-template <>
-struct ResultOf<DistanceFieldQuery> {
-    using type = DistanceFieldResult;
-};
-
-template <>
-struct ResultOf<ContactQuery> {
-    using type = ContactResult;
-};
-template <>
-struct ResultOf<ClosestPointQuery> {
-    using type = ClosestPointResult;
-};
-template <>
-struct ResultOf<SeparationQuery> {
-    using type = SeparationResult;
-};
-
-template <>
-struct ResultOf<IntersectionTestQuery> {
-    using type = IntersectionTestResult;
-};
-template <>
-struct ResultOf<TimeOfImpactQuery> {
-    using type = TimeOfImpactResult;
-};
-
-template <>
-struct ResultOf<SeparationVectorQuery> {
-    using type = SeparationVectorResult;
-};
-/// \endcond
-
 /// The results of one batch, in the order of its queries. Reusing the object from frame to frame
 /// keeps its memory.
 struct Results {
     std::vector<AnyResult> results;  ///< one per query, in order
     Timings timings;                 ///< of the batch as a whole
 
-    /// The result of a query. Precondition: the handle is from the batch that was answered.
+    /// The result of a query. If the handle names none of these results, because its position is
+    /// out of range or its query is of another kind, a result whose status is invalid_query and
+    /// says so. Borrowed from the results.
     template <class Query>
-    [[nodiscard]] const typename ResultOf<Query>::type& operator[](
-        QueryHandle<Query> handle) const {
-        return std::get<typename ResultOf<Query>::type>(results[handle.index]);
+    [[nodiscard]] const typename Query::Result& operator[](
+        QueryHandle<Query> handle) const noexcept {
+        using Result = typename Query::Result;
+        if (handle.index >= results.size()) {
+            static const Result out_of_range = no_result<Result>(NoResult::out_of_range);
+            return out_of_range;
+        }
+        if (const auto* const result = std::get_if<Result>(&results[handle.index])) {
+            return *result;
+        }
+        static const Result other_kind = no_result<Result>(NoResult::other_kind);
+        return other_kind;
+    }
+
+private:
+    enum class NoResult : std::uint8_t { out_of_range, other_kind };
+    NEARFIELD_EXPORT static Status status_of(NoResult fault) noexcept;
+    template <class Result>
+    static Result no_result(NoResult fault) noexcept {
+        Result result;
+        result.status = status_of(fault);
+        return result;
     }
 };
 

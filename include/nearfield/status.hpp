@@ -76,29 +76,27 @@ private:
     std::shared_ptr<const Words> words_;
 };
 
-/// A value, or the error that prevented it.
+/// A value, or the error that prevented it. Its members are named and mean what they do in
+/// std::expected of C++23, except value(), which would throw, and error(), which can be called
+/// either way.
 ///
-/// Precondition of value(), `*` and `->`: ok() is true.
+/// Precondition of `*` and `->`: has_value() is true.
 template <class Value>
 class [[nodiscard]] Expected {
 public:
     /// A value. Not explicit, so that a function can return it directly.
     Expected(Value value) : value_(std::move(value)) {}
     /// An error. Precondition: `error` is not success.
-    Expected(Status error) : status_(std::move(error)) {}
+    Expected(Status error) : error_(std::move(error)) {}
 
     /// True if there is a value.
-    [[nodiscard]] bool ok() const noexcept { return value_.has_value(); }
-    /// The error; success if there is a value.
-    [[nodiscard]] const Status& status() const noexcept { return status_; }
+    [[nodiscard]] bool has_value() const noexcept { return value_.has_value(); }
+    /// As has_value().
+    [[nodiscard]] explicit operator bool() const noexcept { return has_value(); }
+    /// The error; success (Status::ok()) if there is a value.
+    [[nodiscard]] const Status& error() const noexcept { return error_; }
 
     /// The value, by reference; an rvalue if the Expected is a temporary.
-    [[nodiscard]] Value& value() & noexcept { return *value_; }
-    /// Likewise.
-    [[nodiscard]] const Value& value() const& noexcept { return *value_; }
-    /// Likewise.
-    [[nodiscard]] Value&& value() && noexcept { return std::move(*value_); }
-    /// As value().
     [[nodiscard]] Value& operator*() & noexcept { return *value_; }
     /// Likewise.
     [[nodiscard]] const Value& operator*() const& noexcept { return *value_; }
@@ -111,7 +109,7 @@ public:
 
 private:
     std::optional<Value> value_;
-    Status status_;
+    Status error_;
 };
 
 }  // namespace nearfield

@@ -8,7 +8,7 @@
 
 /// \file
 /// How a batch was divided into tiles for the device: a report for visualisation and tuning
-/// (Context::list_tiles).
+/// (list_tiles() of diagnostics.hpp).
 
 namespace nearfield {
 
@@ -28,7 +28,7 @@ struct TileReport {
     std::uint32_t height = 0;  ///< cells along y
     /// Number of its tile batch: one filling of the atlas, or one dispatch of the compute
     /// technique. Numbered from 0 within a batch, those of the raster first.
-    std::uint32_t round = 0;
+    std::uint32_t tile_batch = 0;
     /// First column of the tile in the atlas image, in which a cell is a pixel; 0 for compute.
     std::uint32_t x = 0;
     std::uint32_t y = 0;  ///< first row, likewise

@@ -27,8 +27,8 @@ constexpr int frames = 60;
 
 template <class Value>
 Value take(nearfield::Expected<Value> value) {
-    if (!value.ok()) {
-        throw std::runtime_error(value.status().text());
+    if (!value) {
+        throw std::runtime_error(value.error().text());
     }
     return std::move(*value);
 }

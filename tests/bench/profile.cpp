@@ -145,8 +145,8 @@ nearfield::test_support::Lies counting() {
 
 template <class Value>
 Value take(nearfield::Expected<Value> value) {
-    if (!value.ok()) {
-        throw std::runtime_error(value.status().text());
+    if (!value) {
+        throw std::runtime_error(value.error().text());
     }
     return std::move(*value);
 }

@@ -31,8 +31,8 @@ constexpr double tolerance = 0.05;
 
 template <class Value>
 Value take(Expected<Value> value) {
-    if (!value.ok()) {
-        throw std::runtime_error(value.status().text());
+    if (!value) {
+        throw std::runtime_error(value.error().text());
     }
     return std::move(*value);
 }

@@ -16,10 +16,10 @@ TEST(DescriptorSets, NameNothingThatIsGone) {
     Settings settings;
     settings.batches_in_flight = 1;
     Expected<Context> context = Context::create(driver.host(), settings);
-    ASSERT_TRUE(context.ok()) << context.status().text();
+    ASSERT_TRUE(context.has_value()) << context.error().text();
     const std::vector<Ring> square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}};
     const Expected<ShapeHandle> shape = context->add_shape(square);
-    ASSERT_TRUE(shape.ok());
+    ASSERT_TRUE(shape.has_value());
     const Instance a{*shape, {}};
     const Instance b{*shape, {{1.0, 1.0}, 0.0}};
     Results results;

@@ -1,3 +1,5 @@
+#include <nearfield/diagnostics.hpp>
+
 #include <gtest/gtest.h>
 #include <tests/driver/world.hpp>
 #include <tests/support/driver_errors.hpp>
@@ -17,13 +19,13 @@ using test_support::name_of;
 constexpr Technique techniques[] = {Technique::raster, Technique::compute};
 
 /// One way in which a driver can fail.
-struct StatusException {
+struct DriverFailure {
     World::Step step{};
     std::string_view call;
     std::size_t successes = 0;  ///< of that call in the step before the failure
     VkResult error = VK_SUCCESS;
 
-    friend std::ostream& operator<<(std::ostream& out, const StatusException& failure) {
+    friend std::ostream& operator<<(std::ostream& out, const DriverFailure& failure) {
         return out << "call " << failure.successes << " of " << failure.call << " says "
                    << name_of(failure.error) << " in: " << to_string(failure.step);
     }
@@ -32,8 +34,8 @@ struct StatusException {
 /// All failures to try, derived from a run without failures, for the steps that call the driver:
 /// each call is made to fail with the first of its errors, and with every one of its errors if it
 /// is the first such call in a step, creates the context, or allocates memory.
-std::vector<StatusException> all_failures(Technique technique) {
-    std::vector<StatusException> failures;
+std::vector<DriverFailure> all_failures(Technique technique) {
+    std::vector<DriverFailure> failures;
     World world(technique);
     for (const World::Step step : World::steps) {
         world.driver().forget_calls();
@@ -58,27 +60,26 @@ std::vector<StatusException> all_failures(Technique technique) {
 void expect_lost(World& world, Ticket in_flight) {
     Context& context = world.context();
     Results results;
-    EXPECT_EQ(context.submit(world.batch(8)).status().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.submit(world.batch(8)).error().code(), StatusCode::device_lost);
     EXPECT_EQ(context.run(world.batch(8), results).code(), StatusCode::device_lost);
     const Recording recording{.commands = world.driver().begin_commands(), .frame = 100};
-    EXPECT_EQ(context.record(world.recordable(8), recording).status().code(),
+    EXPECT_EQ(context.record(world.recordable(8), recording).error().code(),
               StatusCode::device_lost);
-    EXPECT_EQ(context.resident(in_flight, QueryHandle<ContactQuery>{}).status().code(),
+    EXPECT_EQ(context.resident(in_flight, QueryHandle<ContactQuery>{}).error().code(),
               StatusCode::device_lost);
     context.frame_completed(recording.frame);
     EXPECT_TRUE(context.is_ready(in_flight));
-    EXPECT_EQ(context.add_shape({}).status().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.add_shape({}).error().code(), StatusCode::device_lost);
     EXPECT_EQ(context.update_shape({}, {}).code(), StatusCode::device_lost);
     EXPECT_EQ(context.remove_shape({}).code(), StatusCode::device_lost);
-    std::vector<InstancePair> pairs;
-    EXPECT_EQ(context.find_pairs({}, 1.0, pairs).code(), StatusCode::device_lost);
-    EXPECT_EQ(context.measure_costs().status().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.find_pairs({}, 1.0).error().code(), StatusCode::device_lost);
+    EXPECT_EQ(measure_costs(context).error().code(), StatusCode::device_lost);
     EXPECT_TRUE(world.take(World::Step::destroy).ok());
     EXPECT_EQ(world.driver().work_after_loss(), std::vector<std::string>{});
 }
 
 /// Injects one failure and checks the state of the context afterwards.
-void try_failure(Technique technique, const StatusException& failure,
+void try_failure(Technique technique, const DriverFailure& failure,
                  const std::vector<double>& expected) {
     World world(technique);
     MockDriver& driver = world.driver();
@@ -123,8 +124,8 @@ void try_failure(Technique technique, const StatusException& failure,
 TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
     for (const Technique technique : techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
-        const std::vector<StatusException> failures = all_failures(technique);
-        for (const StatusException& failure : failures) {
+        const std::vector<DriverFailure> failures = all_failures(technique);
+        for (const DriverFailure& failure : failures) {
             if (technique == Technique::compute && failure.step == World::Step::create) {
                 continue;  // the same whatever the later request
             }
@@ -141,7 +142,7 @@ TEST(FailingCalls, AreNamedLeakNothingAndLeaveAContextThatAnswers) {
 TEST(FailingCalls, CoverEveryEntryPointThatCanFail) {
     std::set<std::string_view> covered;
     for (const Technique technique : techniques) {
-        for (const StatusException& failure : all_failures(technique)) {
+        for (const DriverFailure& failure : all_failures(technique)) {
             covered.insert(failure.call);
         }
     }
@@ -161,7 +162,7 @@ TEST(FailingCalls, EveryEntryPointThatIsLoadedIsUsed) {
         World world(technique);
         world.take_all_before(World::Step::record_last);
         // Large enough for occlusion queries to pay off.
-        EXPECT_TRUE(world.context().submit(world.batch(600)).ok());
+        EXPECT_TRUE(world.context().submit(world.batch(600)).has_value());
         EXPECT_TRUE(world.take(World::Step::destroy).ok());
         used.insert(world.driver().calls().begin(), world.driver().calls().end());
     }
@@ -175,7 +176,7 @@ TEST(FailingCalls, MemoryThatIsRefusedOnceIsTakenElsewhere) {
     for (const Technique technique : techniques) {
         const std::vector<double> expected = World::undisturbed(technique);
         int taken_elsewhere = 0;
-        for (const StatusException& failure : all_failures(technique)) {
+        for (const DriverFailure& failure : all_failures(technique)) {
             if (failure.call != "vkAllocateMemory" ||
                 failure.error != VK_ERROR_OUT_OF_DEVICE_MEMORY) {
                 continue;
@@ -222,7 +223,7 @@ TEST(LostDevice, GivesUpEveryBatchInFlightAndCanBeMadeAgain) {
         world.take_all_before(World::Step::submit_first);
         const Expected<Ticket> first = world.context().submit(world.batch(8));
         const Expected<Ticket> second = world.context().submit(world.batch(9));
-        ASSERT_TRUE(first.ok() && second.ok());
+        ASSERT_TRUE(first.has_value() && second.has_value());
         world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
         Results results;
         const Status status = world.context().collect(*second, results);
@@ -241,7 +242,7 @@ TEST(LostDevice, TakesWhatWasRecordedAlong) {
     const VkCommandBuffer commands = world.driver().begin_commands();
     const Expected<Ticket> recorded =
         world.context().record(world.recordable(9), {.commands = commands, .frame = 1});
-    ASSERT_TRUE(submitted.ok() && recorded.ok());
+    ASSERT_TRUE(submitted.has_value() && recorded.has_value());
     world.driver().fail("vkWaitForFences", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
     Results results;
     EXPECT_EQ(world.context().collect(*submitted, results).code(), StatusCode::device_lost);
@@ -256,7 +257,7 @@ TEST(LostDevice, IsNoticedWhereABatchIsAskedForAndNotWaitedFor) {
     World world(Technique::compute);
     world.take_all_before(World::Step::submit_first);
     const Expected<Ticket> ticket = world.context().submit(world.batch(8));
-    ASSERT_TRUE(ticket.ok());
+    ASSERT_TRUE(ticket.has_value());
     world.driver().fail("vkGetFenceStatus", 0, VK_ERROR_DEVICE_LOST, MockDriver::Failing::once);
     EXPECT_TRUE(world.context().is_ready(*ticket));
     Results results;

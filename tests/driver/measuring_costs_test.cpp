@@ -1,3 +1,5 @@
+#include <nearfield/diagnostics.hpp>
+
 #include <gtest/gtest.h>
 #include <tests/driver/world.hpp>
 #include <tests/support/driver_errors.hpp>
@@ -19,7 +21,7 @@ std::set<std::string_view> calls_of_measuring() {
     world.driver().forget_calls();
     world.driver().fail("vkQueueSubmit", 40, VK_ERROR_OUT_OF_DEVICE_MEMORY,
                         MockDriver::Failing::once);
-    EXPECT_EQ(world.context().measure_costs().status().code(), StatusCode::out_of_memory);
+    EXPECT_EQ(measure_costs(world.context()).error().code(), StatusCode::out_of_memory);
     return {world.driver().calls().begin(), world.driver().calls().end()};
 }
 
@@ -32,7 +34,7 @@ TEST(MeasuringCosts, NamesWhatFailsAndChangesNothing) {
             World world(Technique::raster);
             world.take_all_before(World::Step::submit_first);
             world.driver().fail(call, 0, error, MockDriver::Failing::from_then_on);
-            const Status status = world.context().measure_costs().status();
+            const Status status = measure_costs(world.context()).error();
             world.driver().work_again();
             ASSERT_TRUE(world.driver().has_failed());
             EXPECT_EQ(status.code(), code_of(error)) << status.text();

@@ -52,7 +52,7 @@ TEST(MockDriver, ComplainsOfEveryCallWithoutTheHostsAllocator) {
     const MockDriver driver;
     HostDevice host = driver.host();
     host.allocator = nullptr;
-    EXPECT_TRUE(Context::create(host).ok());
+    EXPECT_TRUE(Context::create(host).has_value());
     const auto makes_or_destroys = [](std::string_view call) {
         return call.starts_with("vkCreate") || call.starts_with("vkDestroy") ||
                call == "vkAllocateMemory" || call == "vkFreeMemory";
@@ -101,7 +101,7 @@ TEST(MockDriver, FindsAllThatWasRecordedThereThoughLaterBatchesAreLarger) {
         const VkCommandBuffer commands = world.driver().begin_commands();
         const Expected<Ticket> recorded =
             context.record(world.recordable(8), {.commands = commands, .frame = 1});
-        ASSERT_TRUE(recorded.ok()) << recorded.status().text();
+        ASSERT_TRUE(recorded.has_value()) << recorded.error().text();
         Results results;
         for (const double cells : {100.0, 200.0}) {
             const Status status = context.run(world.batch(cells), results);

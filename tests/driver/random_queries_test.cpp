@@ -47,13 +47,13 @@ TEST(RandomQueries, TouchNoMemoryThatIsNotTheirs) {
     const test_support::MockDriver driver;
     {
         Expected<Context> context = Context::create(driver.host());
-        ASSERT_TRUE(context.ok()) << context.status().text();
+        ASSERT_TRUE(context.has_value()) << context.error().text();
         for (int i = 0; i < cases; ++i) {
             SCOPED_TRACE("seed " + std::to_string(seed) + " case " + std::to_string(i));
             Random random(seed + static_cast<std::uint64_t>(i));
             const Expected<ShapeHandle> a = context->add_shape(coast(random, 20 + 60 * i, 0.5));
             const Expected<ShapeHandle> b = context->add_shape(with_holes(random, i % 4));
-            ASSERT_TRUE(a.ok() && b.ok());
+            ASSERT_TRUE(a.has_value() && b.has_value());
             Results results;
             const Status status = context->run(
                 every_query({*a, {{0.1 * i, 0.2}, 0.5 * i}}, {*b, {{0.6, 0.1}, 0.0}}, 0.05),

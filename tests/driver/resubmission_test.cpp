@@ -24,8 +24,8 @@ public:
         world_.take_all_before(World::Step::submit_first);
         driver().let_shaders_find({passes::ComputeLayout::output, samples});
         const Expected<Ticket> ticket = world_.context().submit(world_.overlap(cells_to_a_unit));
-        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-        ticket_ = ticket.ok() ? *ticket : Ticket{};
+        EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+        ticket_ = ticket.has_value() ? *ticket : Ticket{};
     }
 
     [[nodiscard]] World& world() { return world_; }

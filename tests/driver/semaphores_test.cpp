@@ -52,8 +52,8 @@ protected:
     [[nodiscard]] Batch batch() const { return GetParam() ? world_.overlap(8) : Batch(); }
     Status run(const Submission& submission) {
         const Expected<Ticket> ticket = world_.context().submit(batch(), submission);
-        if (!ticket.ok()) {
-            return ticket.status();
+        if (!ticket) {
+            return ticket.error();
         }
         Results results;
         return world_.context().collect(*ticket, results);

@@ -89,20 +89,20 @@ void World::take_all_before(Step step) {
 
 Status World::create() {
     Expected<Context> made = Context::create(driver_.host());
-    if (made.ok()) {
+    if (made.has_value()) {
         context_.emplace(std::move(*made));
     }
-    return made.status();
+    return made.error();
 }
 
 Status World::add_shapes() {
     const Expected<ShapeHandle> a = context_->add_shape(rings_a);
-    if (!a.ok()) {
-        return a.status();
+    if (!a) {
+        return a.error();
     }
     const Expected<ShapeHandle> b = context_->add_shape(rings_b);
-    if (!b.ok()) {
-        return b.status();
+    if (!b) {
+        return b.error();
     }
     a_ = *a;
     b_ = *b;
@@ -111,8 +111,8 @@ Status World::add_shapes() {
 
 Status World::submit(const Batch& queries, const Submission& submission) {
     const Expected<Ticket> ticket = context_->submit(queries, submission);
-    if (!ticket.ok()) {
-        return ticket.status();
+    if (!ticket) {
+        return ticket.error();
     }
     ticket_ = *ticket;
     return {};
@@ -128,24 +128,24 @@ Status World::record() {
     commands_ = driver_.begin_commands();
     const Expected<Ticket> ticket =
         context_->record(queries, {.commands = commands_, .frame = ++frame_});
-    if (!ticket.ok()) {
-        return ticket.status();
+    if (!ticket) {
+        return ticket.error();
     }
     ticket_ = *ticket;
     return look_at_residents();
 }
 
 Status World::look_at_residents() {
-    if (Status status = context_->resident(ticket_, resident_penetration).status(); !status.ok()) {
+    if (Status status = context_->resident(ticket_, resident_penetration).error(); !status.ok()) {
         return status;
     }
-    if (Status status = context_->resident(ticket_, resident_contacts).status(); !status.ok()) {
+    if (Status status = context_->resident(ticket_, resident_contacts).error(); !status.ok()) {
         return status;
     }
-    if (Status status = context_->resident(ticket_, resident_samples).status(); !status.ok()) {
+    if (Status status = context_->resident(ticket_, resident_samples).error(); !status.ok()) {
         return status;
     }
-    return context_->resident(ticket_, resident_field).status();
+    return context_->resident(ticket_, resident_field).error();
 }
 
 Status World::collect() {

@@ -100,15 +100,15 @@ MinimalEngine::MinimalEngine(const HostDevice& host, VkExtent2D extent)
     : host_(host),
       first_pass_(make_pass(host.device, true)),
       second_pass_(make_pass(host.device, false)),
-      first_painter_(host.physical_device, host.device, first_pass_.get(), batches_in_flight),
-      second_painter_(host.physical_device, host.device, second_pass_.get(), batches_in_flight),
-      frames_(host, batches_in_flight) {
+      first_painter_(host.physical_device, host.device, first_pass_.get(), frames_in_flight),
+      second_painter_(host.physical_device, host.device, second_pass_.get(), frames_in_flight),
+      frames_(host, frames_in_flight) {
     resize(extent);
 }
 
 void MinimalEngine::resize(VkExtent2D extent) {
     for (std::uint64_t frame = next_frame_;
-         frame-- > 0 && frame + batches_in_flight >= next_frame_;) {
+         frame-- > 0 && frame + frames_in_flight >= next_frame_;) {
         frames_.wait(frame);
     }
     extent_ = extent;
@@ -134,7 +134,7 @@ void MinimalEngine::resize(VkExtent2D extent) {
 
 void MinimalEngine::draw(std::uint64_t frame, const Guest& guest) {
     VkCommandBuffer commands = frames_.begin(frame);
-    const auto slot = static_cast<std::uint32_t>(frame % batches_in_flight);
+    const auto slot = static_cast<std::uint32_t>(frame % frames_in_flight);
     first_painter_.upload(slot, triangle(frame, 10.0F, {200, 40, 60, 255}));
     second_painter_.upload(slot, triangle(frame, 40.0F, {60, 200, 40, 255}));
 

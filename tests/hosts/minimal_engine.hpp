@@ -27,7 +27,7 @@ struct EngineFrame {
 /// commands, then another pass that continues with colour and depth of the first, then copies.
 class MinimalEngine {
 public:
-    static constexpr std::uint32_t batches_in_flight = 3;
+    static constexpr std::uint32_t frames_in_flight = 3;
     /// Records commands between the engine's passes.
     using Guest = std::function<void(VkCommandBuffer)>;
 
@@ -36,10 +36,10 @@ public:
     /// Waits only for its own frames, then recreates its images.
     void resize(VkExtent2D extent);
 
-    /// Waits for the frame `batches_in_flight` before, records this one and submits it.
+    /// Waits for the frame `frames_in_flight` before, records this one and submits it.
     void draw(std::uint64_t frame, const Guest& guest);
 
-    /// Waits for one of the last `batches_in_flight` frames and returns its images. Every frame
+    /// Waits for one of the last `frames_in_flight` frames and returns its images. Every frame
     /// looks different.
     [[nodiscard]] EngineFrame look_at(std::uint64_t frame);
 
@@ -52,7 +52,7 @@ private:
     void begin(VkCommandBuffer commands, VkRenderPass pass);
     void clear_square(VkCommandBuffer commands, std::uint32_t at);
     void copy(VkCommandBuffer commands, const Slot& slot);
-    [[nodiscard]] Slot& slot_of(std::uint64_t frame) { return slots_[frame % batches_in_flight]; }
+    [[nodiscard]] Slot& slot_of(std::uint64_t frame) { return slots_[frame % frames_in_flight]; }
 
     HostDevice host_;
     VkExtent2D extent_{};
@@ -63,7 +63,7 @@ private:
     examples::DeviceImage color_;
     examples::DeviceImage depth_;
     examples::Framebuffer framebuffer_;
-    std::array<Slot, batches_in_flight> slots_;
+    std::array<Slot, frames_in_flight> slots_;
     std::uint64_t next_frame_ = 0;
     test_support::HostFrames frames_;  // last member: waits for what is in flight before the rest
                                        // is destroyed

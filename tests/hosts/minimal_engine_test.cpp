@@ -29,8 +29,8 @@ constexpr int batches = 2;
 class Guest {
 public:
     explicit Guest(Expected<Context> context) {
-        if (!context.ok()) {
-            throw std::runtime_error(context.status().text());
+        if (!context) {
+            throw std::runtime_error(context.error().text());
         }
         context_.emplace(std::move(*context));
         Random random(seed);
@@ -81,8 +81,8 @@ FramesDrawn draw_frames(MinimalEngine& engine, Guest* guest) {
         }
         const Expected<Ticket> ticket =
             guest->context().record(guest->batch(frame), {.commands = commands, .frame = frame});
-        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-        tickets.push_back(ticket.ok() ? *ticket : Ticket{});
+        EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+        tickets.push_back(ticket.has_value() ? *ticket : Ticket{});
     };
     const auto finish_until = [&](std::uint64_t end) {
         for (std::uint64_t frame = drawn.looks.size(); frame < end; ++frame) {
@@ -94,8 +94,8 @@ FramesDrawn draw_frames(MinimalEngine& engine, Guest* guest) {
         }
     };
     for (std::uint64_t frame = 0; frame < all_frames; ++frame) {
-        if (frame >= MinimalEngine::batches_in_flight) {
-            finish_until(frame - MinimalEngine::batches_in_flight + 1);
+        if (frame >= MinimalEngine::frames_in_flight) {
+            finish_until(frame - MinimalEngine::frames_in_flight + 1);
         }
         if (frame == resized_frame) {
             finish_until(frame);
@@ -144,7 +144,7 @@ TEST(MinimalEngine, AndItsGuestLeaveEachOtherAloneOnADeviceAndOnTheNext) {
         test_support::VulkanHost host;
         std::optional<MinimalEngine> engine(std::in_place, host.device(), small);
         Settings settings;
-        settings.batches_in_flight = MinimalEngine::batches_in_flight;
+        settings.batches_in_flight = MinimalEngine::frames_in_flight;
         std::optional<Guest> guest(std::in_place, Context::create(host.device(), settings));
         const FramesDrawn drawn = draw_frames(*engine, &*guest);
         EXPECT_TRUE(drawn.looks == alone);

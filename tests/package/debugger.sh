@@ -26,5 +26,5 @@ feature: vertex 4
 success: ok
 error: unsupported_device: "no such device" = {reason 0 = "no queue", reason 1 = "no memory"}
 value: value = {value = shape 7, generation 2}
-no_value: error = {status = unsupported_device: "no such device" = {reason 0 = "no queue", reason 1 = "no memory"}}
+no_value: error = {error = unsupported_device: "no such device" = {reason 0 = "no queue", reason 1 = "no memory"}}
 EXPECTED

@@ -1,5 +1,5 @@
 #include <tests/query/field_laws.hpp>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <algorithm>
@@ -97,10 +97,10 @@ TEST_F(ComputeFields, HoldForEveryFamilyAndARealOutline) {
 }
 
 /// Vertices on samples and on rows of samples, slivers, folds: signs must equal the raster's.
-TEST_F(ComputeFields, HoldForNastyPolygons) {
+TEST_F(ComputeFields, HoldForDegeneratePolygons) {
     constexpr std::uint32_t cells = 40;
     int checked = 0;
-    for (const support::NastyPolygon& degenerate :
+    for (const support::DegeneratePolygon& degenerate :
          support::degenerate_polygons(cells, cells, seed)) {
         SCOPED_TRACE(degenerate.name);
         std::vector<Ring> rings;
@@ -111,7 +111,7 @@ TEST_F(ComputeFields, HoldForNastyPolygons) {
             }
         }
         // Some are invalid as shapes.
-        if (const auto shape = context().add_shape(rings); shape.ok()) {
+        if (const auto shape = context().add_shape(rings); shape.has_value()) {
             EXPECT_TRUE(context().remove_shape(*shape).ok());
             check(rings, 1.0 / std::numbers::sqrt2, {{0, 0}, {cells, cells}}, false);
             ++checked;
@@ -182,7 +182,7 @@ TEST_F(ComputeFields, HoldFarAwayAndBeyondATile) {
 TEST_F(ComputeFields, HoldOverManyRounds) {
     // So little memory that a tile batch has 256 x 256 cells.
     Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 24U << 20U}));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     Random random(seed);
     const PlacedShape shape(*small, star(random, 60, 0.4), {});
     DistanceFieldQuery query;
@@ -236,7 +236,7 @@ TEST_F(ComputeFields, StandBesideAllOtherQueriesInOneBatch) {
         EXPECT_GT(results[contacts[i]].count, 0U);
     }
     // The graph of the last tile batch, which is the compute technique's.
-    const std::string graph = context().describe_graph(GraphFormat::text);
+    const std::string graph = *describe_graph(context(), GraphFormat::text);
     EXPECT_NE(graph.find("mark edges"), std::string::npos) << graph;
 }
 
@@ -258,7 +258,7 @@ TEST_F(ComputeFields, BlendedGradientsAreRefusedByName) {
 TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
     // More kinds of batches than cached compiled graphs: images of the first ones are destroyed.
     Expected<Context> made = Context::create(host_device(), drawing());
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     Random random(seed);
     const PlacedPair pair(
         *made,
@@ -292,7 +292,7 @@ TEST_F(ComputeFields, PointsAfterTheRastersImagesAreGone) {
         points.add(computed);
         const Expected<Ticket> first = made->submit(points);
         const Expected<Ticket> second = made->submit(batch);
-        ASSERT_TRUE(first.ok() && second.ok());
+        ASSERT_TRUE(first.has_value() && second.has_value());
         ASSERT_TRUE(made->collect(*first, results).ok());
         EXPECT_EQ(std::get<PenetrationResult>(results.results.front()).count, drawn.count);
         ASSERT_TRUE(made->collect(*second, results).ok());
@@ -303,7 +303,7 @@ TEST_F(ComputeFields, MasksCountTowardsTheMemoryLimit) {
     Settings settings;
     settings.memory_limit = std::uint64_t{64} << 20U;
     Expected<Context> small = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedPair pair(
         *small, {{"A", rectangle({0, 0}, {1, 1})}, {"B", rectangle({0, 0}, {1, 1})}, {}, {}, 2e-5});
     IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);

@@ -69,8 +69,8 @@ void expect_answers(const Results& results) {
 }
 
 Ticket require(const Expected<Ticket>& ticket) {
-    EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-    return ticket.ok() ? *ticket : Ticket{};
+    EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+    return ticket.has_value() ? *ticket : Ticket{};
 }
 
 }  // namespace
@@ -80,14 +80,14 @@ void CountedContext::make(const Settings& settings) {
     loader_.reset();
     loader_.emplace(host_device(), counting());
     Expected<Context> made = Context::create(loader_->host(), drawing(settings));
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     counted_.emplace(std::move(*made));
     Random random(seed);
     rings_a_ = coast(random, 120, 0.5);
     rings_b_ = with_holes(random, 3);
     const Expected<ShapeHandle> a = counted_->add_shape(rings_a_);
     const Expected<ShapeHandle> b = counted_->add_shape(rings_b_);
-    ASSERT_TRUE(a.ok() && b.ok());
+    ASSERT_TRUE(a.has_value() && b.has_value());
     a_ = *a;
     b_ = *b;
     calls = {};

@@ -32,9 +32,9 @@ class Curves : public QueryTest {
 protected:
     Instance add(const Circle& circle, double deviation) {
         const auto rings = tessellate(CurvePath().circle(circle.centre, circle.radius), deviation);
-        EXPECT_TRUE(rings.ok()) << rings.status().text();
+        EXPECT_TRUE(rings.has_value()) << rings.error().text();
         auto shape = context().add_shape(*rings, deviation);
-        EXPECT_TRUE(shape.ok()) << shape.status().text();
+        EXPECT_TRUE(shape.has_value()) << shape.error().text();
         added_.push_back(*shape);
         return {*shape, {}};
     }
@@ -197,7 +197,7 @@ TEST_F(Curves, TooMuchDeviationIsRefusedByName) {
     for (const double bad : {-1.0, std::nan(""), 1e300}) {
         EXPECT_EQ(context().update_shape(query.a.shape, rings, bad).code(),
                   StatusCode::invalid_shape);
-        EXPECT_EQ(context().add_shape(rings, bad).status().code(), StatusCode::invalid_shape);
+        EXPECT_EQ(context().add_shape(rings, bad).error().code(), StatusCode::invalid_shape);
     }
 }
 

@@ -17,15 +17,15 @@ PhysicalDevice physical_device_of(const HostDevice& host) {
 
 bool offers(const HostDevice& host, const char* part) {
     const Expected<Requirements> found = requirements(physical_device_of(host));
-    EXPECT_TRUE(found.ok()) << found.status().text();
-    const OptionalPart* const optional = found.ok() ? found->find(part) : nullptr;
+    EXPECT_TRUE(found.has_value()) << found.error().text();
+    const OptionalPart* const optional = found.has_value() ? found->find(part) : nullptr;
     EXPECT_NE(optional, nullptr) << part << " is no optional part";
     return optional != nullptr && optional->available;
 }
 
 std::uint32_t sub_pixel_bits(const HostDevice& host) {
     const Expected<Requirements> found = requirements(physical_device_of(host));
-    EXPECT_TRUE(found.ok()) << found.status().text();
+    EXPECT_TRUE(found.has_value()) << found.error().text();
     for (const RequiredLimit& limit : found->limits) {
         if (std::string_view(limit.name) == "subPixelPrecisionBits") {
             return limit.offered;

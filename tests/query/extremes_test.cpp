@@ -41,7 +41,7 @@ protected:
     static void expect_samples(double low, double deepest, double tolerance) {
         const auto a = context().add_shape(rectangle({-1e6, low}, {1e6, 0.001}));
         const auto b = context().add_shape(rectangle({-0.05, -0.05}, {0.05, 0.05}));
-        ASSERT_TRUE(a.ok() && b.ok());
+        ASSERT_TRUE(a.has_value() && b.has_value());
         PenetrationQuery query;
         query.a.shape = *a;
         query.b.shape = *b;
@@ -82,7 +82,7 @@ TEST_F(LongStrip, IsSampledWhereItMattersAlongAnEdge) {
 
 TEST_F(Extremes, AFieldFarAwayStatesWhatSinglePrecisionLeavesOrIsRefused) {
     const auto b = context().add_shape(rectangle({0.0, 0.0}, {1.0, 2.0}));
-    ASSERT_TRUE(b.ok());
+    ASSERT_TRUE(b.has_value());
     for (const double x : {1e3, 1e5, 1e6, 1e7}) {
         SCOPED_TRACE(x);
         DistanceFieldQuery query;
@@ -111,7 +111,7 @@ TEST_F(Extremes, TolerancesThatCoordinatesCannotResolveAreRefused) {
     // Its own coordinates are huge; in the world it is near the origin.
     const auto far = context().add_shape(rectangle({5e11, 5e11}, {5e11 + 1.0, 5e11 + 1.0}));
     const auto near = context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-    ASSERT_TRUE(far.ok() && near.ok());
+    ASSERT_TRUE(far.has_value() && near.has_value());
     PenetrationQuery query;
     query.technique = Technique::raster;
     query.a.shape = *far;
@@ -142,9 +142,9 @@ TEST_F(Extremes, ManyOverlapTilesFillABufferToItsEnd) {
     // Only tiles in the input buffer, of about the size to which it grows.
     for (const int count : {1360, 1365, 4092, 4096}) {
         auto fresh = Context::create(host_device(), drawing());
-        ASSERT_TRUE(fresh.ok());
+        ASSERT_TRUE(fresh.has_value());
         const auto square = fresh->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
-        ASSERT_TRUE(square.ok());
+        ASSERT_TRUE(square.has_value());
         IntersectionQuery query;
         query.a.shape = query.b.shape = *square;
         query.b.pose.translation = {0.5, 0.5};

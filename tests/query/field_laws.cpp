@@ -96,8 +96,8 @@ double distance_to_feature(const oracle::ShapeOracle& b, Feature feature, const 
 PlacedShape::PlacedShape(Context& context, const Rings& rings, const Pose& pose)
     : context_(&context), pose_(pose), oracle_(rings, pose) {
     Expected<ShapeHandle> handle = context.add_shape(rings);
-    EXPECT_TRUE(handle.ok()) << handle.status().text();
-    handle_ = handle.ok() ? *handle : ShapeHandle{};
+    EXPECT_TRUE(handle.has_value()) << handle.error().text();
+    handle_ = handle.has_value() ? *handle : ShapeHandle{};
 }
 
 PlacedShape::~PlacedShape() {

@@ -15,9 +15,9 @@ protected:
     static DistanceFieldResult check(const Rings& rings, const Pose& pose, double tolerance,
                                      const Rectangle& rectangle) {
         Expected<ShapeHandle> handle = context().add_shape(rings);
-        EXPECT_TRUE(handle.ok()) << handle.status().text();
+        EXPECT_TRUE(handle.has_value()) << handle.error().text();
         DistanceFieldQuery query;
-        query.b = {handle.value(), pose};
+        query.b = {*handle, pose};
         query.tolerance = tolerance;
         query.rectangle = rectangle;
         DistanceFieldResult result = run_alone(context(), query);
@@ -29,7 +29,7 @@ protected:
         EXPECT_EQ(exact.technique, Technique::cpu);
         check_field(oracle::ShapeOracle(rings, pose), tolerance, exact, 2000);
         check_agree(result, exact);
-        EXPECT_TRUE(context().remove_shape(handle.value()).ok());
+        EXPECT_TRUE(context().remove_shape(*handle).ok());
         return result;
     }
 
@@ -159,7 +159,7 @@ TEST_F(Field, OfTheCpuSaysTheSameHoweverItIsAsked) {
     Random random(seed);
     const Rings rings = coast(random, 2000, 0.5);
     const oracle::ShapeOracle oracle(rings, {});
-    const ShapeHandle shape = context().add_shape(rings).value();
+    const ShapeHandle shape = *context().add_shape(rings);
     DistanceFieldQuery query;
     query.b = {shape, {}};
     query.tolerance = 0.01;

@@ -140,7 +140,7 @@ TEST_F(Frames, OfTenThousandPairsTakeOneSubmission) {
     std::vector<ShapeHandle> shapes;
     for (int i = 0; i < 30; ++i) {
         const Expected<ShapeHandle> shape = counted().add_shape(star(random, 9, 0.4));
-        ASSERT_TRUE(shape.ok());
+        ASSERT_TRUE(shape.has_value());
         shapes.push_back(*shape);
     }
     Batch batch;

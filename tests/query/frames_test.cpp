@@ -52,7 +52,7 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
         for (std::uint32_t i = 0; i < frames; ++i) {
             tickets.push_back(submit(small));
         }
-        EXPECT_EQ(counted().submit(small).status().code(), StatusCode::ring_full);
+        EXPECT_EQ(counted().submit(small).error().code(), StatusCode::ring_full);
         Results results;
         EXPECT_EQ(counted().run(small, results).code(), StatusCode::ring_full);
         EXPECT_EQ(calls.submissions, static_cast<int>(frames));
@@ -67,11 +67,11 @@ TEST_F(Frames, AreNoMoreThanTheRingHolds) {
         Settings settings;
         settings.batches_in_flight = frames;
         const Expected<Context> made = Context::create(host_device(), drawing(settings));
-        ASSERT_FALSE(made.ok());
-        EXPECT_EQ(made.status().code(), StatusCode::invalid_settings);
-        EXPECT_NE(made.status().message().find("frames_in_flight is " + std::to_string(frames)),
+        ASSERT_FALSE(made.has_value());
+        EXPECT_EQ(made.error().code(), StatusCode::invalid_settings);
+        EXPECT_NE(made.error().message().find("batches_in_flight is " + std::to_string(frames)),
                   std::string::npos);
-        EXPECT_EQ(Context::create_headless({}, settings).status().code(),
+        EXPECT_EQ(Context::create_headless({}, settings).error().code(),
                   StatusCode::invalid_settings);
     }
 }
@@ -102,7 +102,7 @@ TEST_F(Frames, ThatAreRefusedLeaveNothing) {
     Batch too_large;
     too_large.add(field);
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(counted().submit(too_large).status().code(), StatusCode::too_large);
+        EXPECT_EQ(counted().submit(too_large).error().code(), StatusCode::too_large);
     }
     EXPECT_EQ(collect(submit(batch(0))), run(batch(0)));
 }
@@ -132,7 +132,7 @@ TEST_F(Frames, AnswerForShapesAsTheyWereSubmitted) {
     const Batch stale = batch(0);
     ASSERT_TRUE(counted().remove_shape(a_).ok());
     const Expected<ShapeHandle> next = counted().add_shape(other);
-    ASSERT_TRUE(next.ok());
+    ASSERT_TRUE(next.has_value());
     EXPECT_EQ(next->index, a_.index);
     EXPECT_EQ(collect(ticket), before[0]);
     Results results;
@@ -167,13 +167,13 @@ TEST_F(Frames, OfTwoContextsDoNotMeet) {
     Settings settings;
     settings.batches_in_flight = 1;
     Expected<Context> second = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(second.ok()) << second.status().text();
-    ASSERT_TRUE(second->add_shape(rings_a_).ok() && second->add_shape(rings_b_).ok());
+    ASSERT_TRUE(second.has_value()) << second.error().text();
+    ASSERT_TRUE(second->add_shape(rings_a_).has_value() && second->add_shape(rings_b_).has_value());
     const std::vector<double> expected = run(batch(0));
     // The handles of the first two shapes are equal in both contexts.
     const Ticket here = submit(batch(0));
     const Expected<Ticket> there = second->submit(batch(0));
-    ASSERT_TRUE(there.ok()) << there.status().text();
+    ASSERT_TRUE(there.has_value()) << there.error().text();
     Results results;
     EXPECT_EQ(collect(here), expected);
     ASSERT_TRUE(second->collect(*there, results).ok());
@@ -198,12 +198,12 @@ TEST_F(Frames, OfALostDeviceAllSaySo) {
     EXPECT_EQ(first.code(), StatusCode::device_lost);
     EXPECT_NE(first.message().find("vkWaitForFences"), std::string::npos) << first.message();
     EXPECT_TRUE(counted().is_ready(tickets[0]));
-    EXPECT_EQ(counted().resident(tickets[0], QueryHandle<DistanceFieldQuery>{0}).status().code(),
+    EXPECT_EQ(counted().resident(tickets[0], QueryHandle<DistanceFieldQuery>{0}).error().code(),
               StatusCode::device_lost);
     EXPECT_EQ(counted().collect(tickets[0], results).code(), StatusCode::device_lost);
     EXPECT_EQ(counted().collect(tickets[2], results).code(), StatusCode::device_lost);
     EXPECT_EQ(counted().collect(tickets[2], results).code(), StatusCode::unknown_ticket);
-    EXPECT_EQ(counted().submit(batch(0)).status().code(), StatusCode::device_lost);
+    EXPECT_EQ(counted().submit(batch(0)).error().code(), StatusCode::device_lost);
     EXPECT_EQ(counted().run(batch(0), results).code(), StatusCode::device_lost);
     destroy();
 }

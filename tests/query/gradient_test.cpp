@@ -104,7 +104,7 @@ TEST_F(Gradients, HalfPrecisionIsWithinWhatItStates) {
     };
     const test_support::FakeLoader loader(host_device(), std::move(lies));
     Expected<Context> half = Context::create(loader.host(), drawing());
-    ASSERT_TRUE(half.ok()) << half.status().text();
+    ASSERT_TRUE(half.has_value()) << half.error().text();
     Random random(seed);
     const Rings rings = star(random, 30, 0.4);
     const PlacedShape shape(*half, rings, {});
@@ -155,7 +155,7 @@ TEST_F(Gradients, HoldAcrossTilesAndRounds) {
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;  // a small atlas
     Expected<Context> small = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
     DistanceFieldQuery query;
     query.b = shape.instance();

@@ -65,7 +65,7 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
         EXPECT_EQ(status.code(), StatusCode::not_ready);
         EXPECT_NE(status.message().find("frame 11"), std::string::npos) << status.message();
     }
-    EXPECT_EQ(counted().record(small(), {.commands = host.begin(13), .frame = 12}).status().code(),
+    EXPECT_EQ(counted().record(small(), {.commands = host.begin(13), .frame = 12}).error().code(),
               StatusCode::ring_full);
     host.abandon(13);
     host.wait(12);
@@ -80,7 +80,7 @@ TEST_F(Recorded, TicketsAreReadyWhenTheHostSaysSo) {
     // Recording for frame 15 implies that frame 12 is complete, whatever happens to it.
     const Expected<Ticket> next =
         counted().record(small(), {.commands = host.begin(15), .frame = 15});
-    EXPECT_TRUE(next.ok()) << next.status().text();
+    EXPECT_TRUE(next.has_value()) << next.error().text();
     host.submit(15);
     EXPECT_TRUE(counted().is_ready(tickets[2]));
     EXPECT_EQ(collect(tickets[2]), expected);
@@ -146,7 +146,7 @@ TEST_F(Recorded, BatchesAndSubmittedOnesShareImagesInAnyOrder) {
     const Ticket second = record(batch(1), commands, 0);
     const Expected<Ticket> between = counted().submit(batch(2));
     const Ticket third = record(batch(3), host.begin(1), 1);
-    ASSERT_TRUE(between.ok()) << between.status().text();
+    ASSERT_TRUE(between.has_value()) << between.error().text();
     host.submit(1);
     host.submit(0);
     EXPECT_EQ(collect(*between), expected[2]);
@@ -226,7 +226,7 @@ TEST_F(Recorded, NothingIsRecordedWhereItIsRefused) {
     HostFrames host(host_device(), 1);
     VkCommandBuffer commands = host.begin(5);
     const auto code = [&](const Batch& batch, const Recording& where) {
-        return counted().record(batch, where).status().code();
+        return counted().record(batch, where).error().code();
     };
     DistanceFieldQuery field;
     field.b = {b_, {}};

@@ -27,7 +27,7 @@ Scene::Scene(Context& owner) : context(&owner) {
     Random random(seed);
     const Expected<ShapeHandle> first = owner.add_shape(coast(random, 100, 0.5));
     const Expected<ShapeHandle> second = owner.add_shape(with_holes(random, 3));
-    EXPECT_TRUE(first.ok() && second.ok());
+    EXPECT_TRUE(first.has_value() && second.has_value());
     a = *first;
     b = *second;
 }
@@ -59,8 +59,8 @@ std::vector<double> Scene::run(const Batch& batch) const {
 }
 
 std::vector<double> Scene::collect(const Expected<Ticket>& ticket) const {
-    EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-    if (!ticket.ok()) {
+    EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+    if (!ticket) {
         return {};
     }
     Results results;
@@ -83,15 +83,15 @@ Context HostTable::make(const HostDevice& device, std::uint32_t frames) {
     Settings settings;
     settings.batches_in_flight = frames;
     Expected<Context> made = Context::create(device, drawing(settings));
-    if (!made.ok()) {
-        throw std::runtime_error(made.status().text());
+    if (!made) {
+        throw std::runtime_error(made.error().text());
     }
     return std::move(*made);
 }
 
 void expect_timelines_refused(Context& context, const Batch& batch) {
     const SemaphoreSignal timeline{reinterpret_cast<VkSemaphore>(std::uintptr_t{1}), 7};
-    const Status refused = context.submit(batch, {.signals = {&timeline, 1}}).status();
+    const Status refused = context.submit(batch, {.signals = {&timeline, 1}}).error();
     EXPECT_EQ(refused.code(), StatusCode::invalid_submission);
     EXPECT_NE(refused.message().find("Submission::signals[0].value"), std::string::npos);
     EXPECT_NE(refused.message().find("HostDevice::timeline_semaphore"), std::string::npos);

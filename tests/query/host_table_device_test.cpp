@@ -26,7 +26,7 @@ TEST_F(HostTable, Loader) {
         return std::string(name) == "vkGetPhysicalDeviceMemoryProperties" ? nullptr
                                                                           : below(instance, name);
     };
-    const Status status = Context::create(lacking).status();
+    const Status status = Context::create(lacking).error();
     EXPECT_EQ(status.code(), StatusCode::unsupported_device);
     ASSERT_EQ(status.reasons().size(), 1U);
     EXPECT_EQ(status.reasons()[0].find("entry point vkGetPhysicalDeviceMemoryProperties: "), 0U);
@@ -45,7 +45,7 @@ TEST_F(HostTable, Requirements) {
     // and a queue of the named family.
     make_host();
     const Expected<Requirements> needed = requirements(physical_device_of(host()));
-    ASSERT_TRUE(needed.ok()) << needed.status().text();
+    ASSERT_TRUE(needed.has_value()) << needed.error().text();
     EXPECT_TRUE(needed->met());
     EXPECT_EQ(needed->queue_family, host().queue_family);
     {

@@ -115,13 +115,12 @@ TEST_F(HostTable, Errors) {
         for (int i = 0; i < 2; ++i) {
             EXPECT_EQ(context.run(scene.small(), results).code(), StatusCode::device_lost);
         }
-        EXPECT_EQ(context.submit(scene.small()).status().code(), StatusCode::device_lost);
-        EXPECT_EQ(context.record(scene.small(), {.commands = frames.begin(1), .frame = 1})
-                      .status()
-                      .code(),
-                  StatusCode::device_lost);
+        EXPECT_EQ(context.submit(scene.small()).error().code(), StatusCode::device_lost);
+        EXPECT_EQ(
+            context.record(scene.small(), {.commands = frames.begin(1), .frame = 1}).error().code(),
+            StatusCode::device_lost);
         frames.abandon(1);
-        ASSERT_TRUE(recorded.ok());
+        ASSERT_TRUE(recorded.has_value());
         EXPECT_TRUE(context.is_ready(*recorded));
         EXPECT_EQ(context.collect(*recorded, results).code(), StatusCode::device_lost);
         EXPECT_EQ(context.collect(*recorded, results).code(), StatusCode::unknown_ticket);

@@ -62,7 +62,7 @@ TEST_F(HostTable, Threads) {
                 answers[i] = scene.run(scene.small());
             }
             const Expected<Ticket> in_flight = context.submit(scene.small());
-            EXPECT_TRUE(in_flight.ok());
+            EXPECT_TRUE(in_flight.has_value());
         });
     }
     for (std::thread& thread : threads) {
@@ -79,7 +79,7 @@ TEST_F(HostTable, Threads) {
     // Half of a lock is an error.
     HostDevice half = locking;
     half.queue_access.unlock = nullptr;
-    const Status status = Context::create(half).status();
+    const Status status = Context::create(half).error();
     EXPECT_EQ(status.code(), StatusCode::unsupported_device);
     ASSERT_EQ(status.reasons().size(), 1U);
     EXPECT_NE(status.reasons()[0].find("queue_access.unlock"), std::string::npos);

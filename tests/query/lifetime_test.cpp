@@ -23,55 +23,55 @@ TEST_F(Lifetime, AnUpdatedShapeIsAsGoodAsNew) {
     const Rings first = star(random, 10, 0.4);
     Expected<ShapeHandle> changing = context().add_shape(first);
     Expected<ShapeHandle> still = context().add_shape(coast(random, 400, 0.5));
-    ASSERT_TRUE(changing.ok() && still.ok());
+    ASSERT_TRUE(changing.has_value() && still.has_value());
     for (const int n : {5, 300, 40, 3000, 7}) {
         SCOPED_TRACE(n);
         const Rings now = scaled_and_moved(star(random, n, 0.3), 1.0, {0.1 * n / 300, 0.2});
-        ASSERT_TRUE(context().update_shape(changing.value(), now).ok());
+        ASSERT_TRUE(context().update_shape(*changing, now).ok());
         Expected<ShapeHandle> fresh = context().add_shape(now);
-        ASSERT_TRUE(fresh.ok());
+        ASSERT_TRUE(fresh.has_value());
         PenetrationQuery query;
         query.technique = Technique::raster;
         query.tolerance = 0.03;
         for (const bool as_a : {true, false}) {
             const auto ask = [&](ShapeHandle shape) {
-                query.a.shape = as_a ? shape : still.value();
-                query.b.shape = as_a ? still.value() : shape;
+                query.a.shape = as_a ? shape : *still;
+                query.b.shape = as_a ? *still : shape;
                 return run_alone(context(), query);
             };
-            expect_same(ask(changing.value()), ask(fresh.value()));
+            expect_same(ask(*changing), ask(*fresh));
         }
-        EXPECT_TRUE(context().remove_shape(fresh.value()).ok());
+        EXPECT_TRUE(context().remove_shape(*fresh).ok());
     }
-    EXPECT_TRUE(context().remove_shape(changing.value()).ok());
-    EXPECT_TRUE(context().remove_shape(still.value()).ok());
+    EXPECT_TRUE(context().remove_shape(*changing).ok());
+    EXPECT_TRUE(context().remove_shape(*still).ok());
 }
 
 TEST_F(Lifetime, ARemovedShapeStaysUnknown) {
     const Rings square = rectangle({0, 0}, {1, 1});
     Expected<ShapeHandle> removed = context().add_shape(square);
-    ASSERT_TRUE(removed.ok());
-    ASSERT_TRUE(context().remove_shape(removed.value()).ok());
+    ASSERT_TRUE(removed.has_value());
+    ASSERT_TRUE(context().remove_shape(*removed).ok());
     // The next shape may reuse the memory, but not the handle.
     Expected<ShapeHandle> next = context().add_shape(square);
-    ASSERT_TRUE(next.ok());
-    EXPECT_FALSE(next.value() == removed.value());
-    EXPECT_EQ(context().remove_shape(removed.value()).code(), StatusCode::unknown_shape);
-    EXPECT_EQ(context().update_shape(removed.value(), square).code(), StatusCode::unknown_shape);
+    ASSERT_TRUE(next.has_value());
+    EXPECT_FALSE(*next == *removed);
+    EXPECT_EQ(context().remove_shape(*removed).code(), StatusCode::unknown_shape);
+    EXPECT_EQ(context().update_shape(*removed, square).code(), StatusCode::unknown_shape);
     EXPECT_EQ(context().remove_shape({}).code(), StatusCode::unknown_shape);
     PenetrationQuery query;
     query.technique = Technique::raster;
-    query.a.shape = removed.value();
-    query.b.shape = next.value();
+    query.a.shape = *removed;
+    query.b.shape = *next;
     query.tolerance = 0.1;
     EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::unknown_shape);
-    EXPECT_TRUE(context().remove_shape(next.value()).ok());
+    EXPECT_TRUE(context().remove_shape(*next).ok());
 }
 
 TEST_F(Lifetime, AHeadlessContextAnswersLikeAHostedOne) {
     Expected<Context> made = Context::create_headless();
-    ASSERT_TRUE(made.ok()) << made.status().text();
-    Context headless = std::move(made.value());
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    Context headless = std::move(*made);
     EXPECT_FALSE(headless.device_name().empty());
     for (const Pair& pair : family_pairs(seed)) {
         SCOPED_TRACE(describe(pair));
@@ -85,31 +85,31 @@ TEST_F(Lifetime, AHeadlessContextNamesTheDeviceItCannotFind) {
     HeadlessOptions options;
     options.device_name = "no device is called this";
     const Expected<Context> made = Context::create_headless(options);
-    ASSERT_FALSE(made.ok());
-    EXPECT_EQ(made.status().code(), StatusCode::no_device);
-    EXPECT_NE(made.status().text().find(options.device_name), std::string::npos);
+    ASSERT_FALSE(made.has_value());
+    EXPECT_EQ(made.error().code(), StatusCode::no_device);
+    EXPECT_NE(made.error().text().find(options.device_name), std::string::npos);
 }
 
 TEST_F(Lifetime, TwoContextsOnOneDeviceDoNotMeet) {
     Expected<Context> second = Context::create(host_device(), drawing());
-    ASSERT_TRUE(second.ok()) << second.status().text();
+    ASSERT_TRUE(second.has_value()) << second.error().text();
     const std::vector<Pair> pairs = family_pairs(seed + 1);
     for (std::size_t i = 0; i < 4; ++i) {
         const PlacedPair here(context(), pairs[i]);
-        const PlacedPair there(second.value(), pairs[i]);
+        const PlacedPair there(*second, pairs[i]);
         expect_same(run_alone(context(), here.penetration()),
-                    run_alone(second.value(), there.penetration()));
+                    run_alone(*second, there.penetration()));
     }
 }
 
 TEST_F(Lifetime, TheGraphDescribesItself) {
     Expected<Context> fresh = Context::create(host_device(), drawing());
-    ASSERT_TRUE(fresh.ok()) << fresh.status().text();
-    EXPECT_TRUE(fresh->describe_graph(GraphFormat::text).empty());
-    const PlacedPair pair(fresh.value(), family_pairs(seed)[3]);
-    ASSERT_TRUE(run_alone(fresh.value(), pair.penetration()).status.ok());
-    EXPECT_FALSE(fresh->describe_graph(GraphFormat::text).empty());
-    EXPECT_NE(fresh->describe_graph(GraphFormat::graphviz).find("digraph"), std::string::npos);
+    ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
+    EXPECT_TRUE(describe_graph(*fresh, GraphFormat::text)->empty());
+    const PlacedPair pair(*fresh, family_pairs(seed)[3]);
+    ASSERT_TRUE(run_alone(*fresh, pair.penetration()).status.ok());
+    EXPECT_FALSE(describe_graph(*fresh, GraphFormat::text)->empty());
+    EXPECT_NE(describe_graph(*fresh, GraphFormat::graphviz)->find("digraph"), std::string::npos);
 }
 
 }  // namespace

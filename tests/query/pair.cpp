@@ -12,8 +12,8 @@ namespace {
 
 ShapeHandle add(Context& context, const NamedRings& shape) {
     Expected<ShapeHandle> handle = context.add_shape(shape.rings);
-    EXPECT_TRUE(handle.ok()) << shape.name << ": " << handle.status().text();
-    return handle.ok() ? handle.value() : ShapeHandle{};
+    EXPECT_TRUE(handle.has_value()) << shape.name << ": " << handle.error().text();
+    return handle.has_value() ? *handle : ShapeHandle{};
 }
 
 Vector2 any_offset(Random& random) {

@@ -10,36 +10,36 @@ class Pairs : public QueryTest {};
 
 TEST_F(Pairs, AreThoseWhoseBoxesAreWithinReach) {
     const auto square = context().add_shape(rectangle({0, 0}, {1, 1}));
-    ASSERT_TRUE(square.ok());
+    ASSERT_TRUE(square.has_value());
     const std::vector<Instance> instances{{*square, {{0, 0}, 0.0}},
                                           {*square, {{1, 0.5}, 0.0}},  // touches the first
                                           {*square, {{3, 0}, 0.0}},
                                           {*square, {{3.9, 0.2}, 0.0}}};
-    std::vector<InstancePair> pairs;
-    ASSERT_TRUE(context().find_pairs(instances, 0.0, pairs).ok());
-    EXPECT_EQ(pairs, (std::vector<InstancePair>{{0, 1}, {2, 3}}));
-    ASSERT_TRUE(context().find_pairs(instances, 1.0, pairs).ok());
-    EXPECT_EQ(pairs, (std::vector<InstancePair>{{0, 1}, {1, 2}, {2, 3}}));
-    ASSERT_TRUE(context().find_pairs({}, 1.0, pairs).ok());
-    EXPECT_TRUE(pairs.empty());
+    const auto pairs_within = [&](std::span<const Instance> all, double reach) {
+        const Expected<std::span<const InstancePair>> pairs = context().find_pairs(all, reach);
+        EXPECT_TRUE(pairs.has_value()) << pairs.error().text();
+        return std::vector<InstancePair>(pairs->begin(), pairs->end());
+    };
+    EXPECT_EQ(pairs_within(instances, 0.0), (std::vector<InstancePair>{{0, 1}, {2, 3}}));
+    EXPECT_EQ(pairs_within(instances, 1.0), (std::vector<InstancePair>{{0, 1}, {1, 2}, {2, 3}}));
+    EXPECT_TRUE(pairs_within({}, 1.0).empty());
     ASSERT_TRUE(context().remove_shape(*square).ok());
 }
 
 TEST_F(Pairs, OfBadInstancesAreRefusedByPosition) {
     const auto square = context().add_shape(rectangle({0, 0}, {1, 1}));
-    ASSERT_TRUE(square.ok());
+    ASSERT_TRUE(square.has_value());
     std::vector<Instance> instances(3, {*square, {}});
-    std::vector<InstancePair> pairs;
     instances[1].pose.angle = std::nan("");
-    Status status = context().find_pairs(instances, 0.0, pairs);
+    Status status = context().find_pairs(instances, 0.0).error();
     EXPECT_EQ(status.code(), StatusCode::invalid_query);
     EXPECT_NE(status.message().find("instance 1"), std::string::npos) << status.message();
     instances[1] = {};
-    status = context().find_pairs(instances, 0.0, pairs);
+    status = context().find_pairs(instances, 0.0).error();
     EXPECT_EQ(status.code(), StatusCode::unknown_shape);
     const double bad[] = {-1.0, std::nan(""), std::numeric_limits<double>::infinity()};
     for (const double reach : bad) {
-        EXPECT_EQ(context().find_pairs({}, reach, pairs).code(), StatusCode::invalid_query);
+        EXPECT_EQ(context().find_pairs({}, reach).error().code(), StatusCode::invalid_query);
     }
     ASSERT_TRUE(context().remove_shape(*square).ok());
 }

@@ -25,8 +25,8 @@ public:
     Context& context() {
         if (!context_) {
             Expected<Context> made = Context::create(host_->device(), drawing());
-            if (!made.ok()) {
-                throw std::runtime_error(made.status().text());
+            if (!made) {
+                throw std::runtime_error(made.error().text());
             }
             context_.emplace(std::move(*made));
         }

@@ -46,13 +46,13 @@ protected:
 
 /// Runs a batch of one query. If the whole batch fails, the result contains its status.
 template <class Query>
-typename ResultOf<Query>::type run_alone(Context& context, const Query& query) {
+typename Query::Result run_alone(Context& context, const Query& query) {
     Batch batch;
     Results results;
     const auto handle = batch.add(query);
     const Status status = context.run(batch, results);
     if (!status.ok()) {
-        typename ResultOf<Query>::type failed;
+        typename Query::Result failed;
         failed.status = status;
         return failed;
     }

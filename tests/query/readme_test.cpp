@@ -24,8 +24,8 @@ TEST(Readme, TheExampleWorks) {
 
     auto answer = context->answer(nearfield::PenetrationQuery{
         .a = {*a, {}}, .b = {*b, {.translation = {120, 20}, .angle = 0.5}}, .tolerance = 0.8});
-    if (!answer.ok()) {
-        std::puts(answer.status().text().c_str());
+    if (!answer) {
+        std::puts(answer.error().text().c_str());
         return;
     }
     for (const nearfield::PenetrationRecord& record : answer->records) {

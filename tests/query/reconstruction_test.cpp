@@ -279,7 +279,7 @@ TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
     Settings settings;
     settings.memory_limit = std::uint64_t{24} << 20U;
     Expected<Context> small = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     const PlacedShape shape(*small, scaled_and_moved(star(random, 12, 0.3), 20.0, {}), {});
     const Rectangle box{{-20.0, 3.0}, {20.0, 5.0}};
     for (const auto method :

@@ -106,9 +106,9 @@ TEST_F(Refusal, OfFieldsThatNeedTooMuch) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
     Expected<Context> small = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     const Expected<ShapeHandle> shape = small->add_shape(rectangle({0, 0}, {1, 1}));
-    ASSERT_TRUE(shape.ok());
+    ASSERT_TRUE(shape.has_value());
     // A size that fits for distances alone does not fit with features and gradients.
     DistanceFieldQuery query{{}, {*shape, {}}, 0.0005, Rectangle{{0, 0}, {1, 1}}};
     EXPECT_TRUE(run_alone(*small, query).status.ok());
@@ -150,8 +150,8 @@ TEST_F(Refusal, OfShapes) {
     for (std::size_t i = 0; i < bad.size(); ++i) {
         SCOPED_TRACE(i);
         const auto handle = context().add_shape(bad[i]);
-        EXPECT_EQ(handle.status().code(), StatusCode::invalid_shape);
-        EXPECT_FALSE(handle.status().message().empty());
+        EXPECT_EQ(handle.error().code(), StatusCode::invalid_shape);
+        EXPECT_FALSE(handle.error().message().empty());
         EXPECT_EQ(context().update_shape(before, bad[i]).code(), StatusCode::invalid_shape);
     }
     // A rejected update leaves the shape as it was.
@@ -178,16 +178,16 @@ TEST_F(Refusal, OfTolerancesTooSmallNamesTheSmallestPossible) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;
     Expected<Context> small = Context::create(host_device(), drawing(settings));
-    ASSERT_TRUE(small.ok()) << small.status().text();
+    ASSERT_TRUE(small.has_value()) << small.error().text();
     Random random(1);
     const PlacedPair pair(
-        small.value(),
+        *small,
         {{"A", star(random, 20, 0.5)}, {"B", star(random, 20, 0.5)}, {}, {{0.4, 0.2}, 0.5}, 1e-9});
     const auto refuse_then_run = [&](auto query) {
         Batch batch;
         batch.add(query);
         Results results;
-        const Status refused = small.value().run(batch, results);
+        const Status refused = small->run(batch, results);
         ASSERT_EQ(refused.code(), StatusCode::too_large) << refused.text();
         EXPECT_EQ(results.timings.device + results.timings.decode, 0.0) << "refused after the work";
         bool works = false;
@@ -195,7 +195,7 @@ TEST_F(Refusal, OfTolerancesTooSmallNamesTheSmallestPossible) {
         for (const double named : numbers_in(refused.text())) {
             if (named > query.tolerance && named < 1.0 && !works) {
                 query.tolerance = named * 1.01;
-                const Status status = run_alone(small.value(), query).status;
+                const Status status = run_alone(*small, query).status;
                 works = status.ok();
                 tried += "\n  with " + std::to_string(query.tolerance) + ": " + status.text();
                 query.tolerance = 1e-9;

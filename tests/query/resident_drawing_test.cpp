@@ -135,11 +135,11 @@ TEST_F(ResidentDrawing, AHostDrawsFieldContactsAndOverlapWithoutAnyReadBack) {
         const auto contacts_handle = batch.add(contacts);
         const auto overlap_handle = batch.add(overlap);
         const Expected<Ticket> ticket = context().submit(batch);
-        ASSERT_TRUE(ticket.ok()) << ticket.status().text();
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
         const Expected<ResidentField> images = context().resident(*ticket, field_handle);
         const Expected<ResidentRecords> records = context().resident(*ticket, contacts_handle);
         const Expected<ResidentSamples> samples = context().resident(*ticket, overlap_handle);
-        ASSERT_TRUE(images.ok() && records.ok() && samples.ok());
+        ASSERT_TRUE(images.has_value() && records.has_value() && samples.has_value());
         // Drawn before anything is collected: nothing has been read back to the CPU.
         const Picture picture = view.draw({*images, *records, *samples}, scene.shot);
         Results results;

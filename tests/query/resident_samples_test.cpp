@@ -197,7 +197,7 @@ Pair pair_of_many_rounds() {
 
 TEST_F(ResidentIntersections, SamplesOfManyRoundsStayInOrder) {
     Expected<Context> made = context_of_many_rounds(host_device());
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     for (const Technique technique : on_device) {
         const PlacedPair pair(*made, pair_of_many_rounds(), technique);
         for (const IntersectionKind kind :
@@ -255,7 +255,7 @@ TEST_F(ResidentIntersections, WhereNothingMeetsTheSummaryIsEmpty) {
 
 TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
     Expected<Context> made = context_of_many_rounds(host_device());
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     const PlacedPair drawn(*made, pair_of_many_rounds(), Technique::raster);
     const PlacedPair computed(*made, pair_of_many_rounds(), Technique::compute);
     const auto submit = [&](int number) {
@@ -274,8 +274,8 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
             }
         }
         const Expected<Ticket> ticket = made->submit(batch);
-        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-        return ticket.ok() ? *ticket : Ticket{};
+        EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+        return ticket.has_value() ? *ticket : Ticket{};
     };
     Ticket former = submit(0);
     for (int number = 1; number < 5; ++number) {
@@ -284,7 +284,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
         for (std::uint32_t i = 0; i < 8; ++i) {
             if (i % 4 != 0) {
                 const auto resident = made->resident(former, QueryHandle<IntersectionQuery>{i});
-                ASSERT_TRUE(resident.ok()) << resident.status().text();
+                ASSERT_TRUE(resident.has_value()) << resident.error().text();
                 kept[i].resident = *resident;
                 kept[i].contents = contents_of(*resident);
             }
@@ -305,7 +305,7 @@ TEST_F(ResidentIntersections, OfManyQueriesInFlightEachHasItsOwn) {
 
 TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
     Expected<Context> made = Context::create(host_device(), drawing());
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     test_support::HostFrames host(host_device(), 1);
     std::uint64_t number = 0;
     for (const Technique technique : on_device) {
@@ -319,10 +319,10 @@ TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
             const VkCommandBuffer commands = host.begin(number);
             const Expected<Ticket> ticket =
                 made->record(batch, {.commands = commands, .frame = number});
-            ASSERT_TRUE(ticket.ok()) << ticket.status().text();
+            ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
             host.submit(number);
             const auto resident = made->resident(*ticket, handle);
-            ASSERT_TRUE(resident.ok()) << resident.status().text();
+            ASSERT_TRUE(resident.has_value()) << resident.error().text();
             Kept kept{*resident, contents_of(*resident), {}, 0};
             host.wait(number);
             made->frame_completed(number++);
@@ -336,7 +336,7 @@ TEST_F(ResidentIntersections, RecordedIntoAHostsCommandsTheyAreTheSame) {
 }
 
 TEST_F(ResidentIntersections, RefusesByName) {
-    const ShapeHandle square = context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0})).value();
+    const ShapeHandle square = *context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     IntersectionQuery query{{square, {}}, {square, {}}, 0.1};
     Batch batch;
     const auto not_resident = batch.add(query);
@@ -348,14 +348,13 @@ TEST_F(ResidentIntersections, RefusesByName) {
     query.records = false;
     const auto of_huge = batch.add(query);
     const Expected<Ticket> ticket = context().submit(batch);
-    ASSERT_TRUE(ticket.ok()) << ticket.status().text();
+    ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
     const auto expect = [&](const QueryHandle<IntersectionQuery>& handle, StatusCode code,
                             const char* words) {
         const auto answer = context().resident(*ticket, handle);
-        EXPECT_FALSE(answer.ok());
-        EXPECT_EQ(answer.status().code(), code) << answer.status().text();
-        EXPECT_NE(answer.status().message().find(words), std::string::npos)
-            << answer.status().text();
+        EXPECT_FALSE(answer.has_value());
+        EXPECT_EQ(answer.error().code(), code) << answer.error().text();
+        EXPECT_NE(answer.error().message().find(words), std::string::npos) << answer.error().text();
     };
     expect(not_resident, StatusCode::invalid_query, "did not ask");
     expect(of_cpu, StatusCode::invalid_query, "technique cpu");

@@ -25,22 +25,22 @@ protected:
 
     /// Submits a batch of one query and reads its resident output before it is collected.
     template <class Query, class Read>
-    typename ResultOf<Query>::type ask(Context& context, const Query& query, Read&& read) {
+    typename Query::Result ask(Context& context, const Query& query, Read&& read) {
         Batch batch;
         const auto handle = batch.add(query);
         Results results;
         const Expected<Ticket> ticket = context.submit(batch);
-        EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-        if (ticket.ok()) {
+        EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+        if (ticket.has_value()) {
             const auto resident = context.resident(*ticket, handle);
-            EXPECT_TRUE(resident.ok()) << resident.status().text();
-            if (resident.ok()) {
+            EXPECT_TRUE(resident.has_value()) << resident.error().text();
+            if (resident.has_value()) {
                 read(*resident);
             }
             const Status status = context.collect(*ticket, results);
             EXPECT_TRUE(status.ok()) << status.text();
         }
-        return results.results.empty() ? typename ResultOf<Query>::type() : results[handle];
+        return results.results.empty() ? typename Query::Result() : results[handle];
     }
 
     FieldContents contents_of(const ResidentField& field) { return reader().read(field); }

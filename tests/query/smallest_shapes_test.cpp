@@ -86,8 +86,8 @@ TEST_F(SmallestShapes, AreAnsweredAsLargerOnes) {
     const Expected<ShapeHandle> b = context().add_shape(rings_b);
     const Expected<ShapeHandle> small_a = context().add_shape(scaled(rings_a));
     const Expected<ShapeHandle> small_b = context().add_shape(scaled(rings_b));
-    ASSERT_TRUE(a.ok() && b.ok()) << "as they are";
-    ASSERT_TRUE(small_a.ok() && small_b.ok()) << small_a.status().text();
+    ASSERT_TRUE(a.has_value() && b.has_value()) << "as they are";
+    ASSERT_TRUE(small_a.has_value() && small_b.has_value()) << small_a.error().text();
     const Batch batch = every_query(*a, *b, 1, false);
     std::vector<std::vector<Vector2>> points;
     points.reserve(batch.queries().size());

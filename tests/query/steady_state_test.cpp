@@ -28,7 +28,7 @@ protected:
     void SetUp() override {
         loader_.emplace(host_device(), test_support::watched(host_device(), note_call));
         Expected<Context> made = Context::create(loader_->host(), drawing());
-        ASSERT_TRUE(made.ok()) << made.status().text();
+        ASSERT_TRUE(made.has_value()) << made.error().text();
         watched_.emplace(std::move(*made));
         EXPECT_FALSE(created.empty()) << "nothing is counted";
         Random random(31);
@@ -38,7 +38,7 @@ protected:
         }
         const Expected<ShapeHandle> a = watched_->add_shape(rings_a_.front());
         const Expected<ShapeHandle> b = watched_->add_shape(rings_b_.front());
-        ASSERT_TRUE(a.ok() && b.ok());
+        ASSERT_TRUE(a.has_value() && b.has_value());
         a_ = *a;
         b_ = *b;
         batch_ = frame(a_, b_);
@@ -183,8 +183,8 @@ TEST_F(SteadyState, AThousandFramesInFlightAllocateAndCreateNothing) {
         }
         const Expected<Ticket> ticket = watched().submit(batch());
         const bool ok =
-            ticket.ok() && (former == Ticket{} || watched().collect(former, results).ok());
-        former = ticket.ok() ? *ticket : Ticket{};
+            ticket.has_value() && (former == Ticket{} || watched().collect(former, results).ok());
+        former = ticket.has_value() ? *ticket : Ticket{};
         return ok;
     });
     expect_answers(results);
@@ -216,8 +216,8 @@ TEST_F(SteadyState, AThousandRecordedFramesAllocateAndCreateNothing) {
         }
         const Expected<Ticket> next =
             watched().record(recordable, {.commands = commands, .frame = number});
-        ok = ok && next.ok();
-        ticket = next.ok() ? *next : Ticket{};
+        ok = ok && next.has_value();
+        ticket = next.has_value() ? *next : Ticket{};
         by_others([&] { host.submit(number++); });
         return ok;
     });
@@ -242,13 +242,13 @@ TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
             return false;
         }
         const Expected<Ticket> ticket = watched().submit(batch);
-        const bool handed_over =
-            ticket.ok() && watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).ok() &&
-            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).ok() &&
-            watched().resident(*ticket, QueryHandle<IntersectionQuery>{4}).ok();
-        const bool ok =
-            handed_over && (former == Ticket{} || watched().collect(former, results).ok());
-        former = ticket.ok() ? *ticket : Ticket{};
+        const bool exported =
+            ticket.has_value() &&
+            watched().resident(*ticket, QueryHandle<DistanceFieldQuery>{0}).has_value() &&
+            watched().resident(*ticket, QueryHandle<PenetrationQuery>{2}).has_value() &&
+            watched().resident(*ticket, QueryHandle<IntersectionQuery>{4}).has_value();
+        const bool ok = exported && (former == Ticket{} || watched().collect(former, results).ok());
+        former = ticket.has_value() ? *ticket : Ticket{};
         return ok;
     });
     expect_answers(results);

@@ -40,7 +40,7 @@ protected:
     }
     static Context make(const Settings& settings) {
         Expected<Context> made = Context::create(host_->device(), drawing(settings));
-        EXPECT_TRUE(made.ok()) << made.status().text();
+        EXPECT_TRUE(made.has_value()) << made.error().text();
         return std::move(*made);
     }
 
@@ -353,7 +353,7 @@ TEST_F(MissingStrategies, CountingAloneNeedsNoMemoryForCells) {
         {{"A", rectangle({0, 0}, {10, 10})}, {"B", rectangle({5, 5}, {20, 20})}, {}, {}, 0.008});
     IntersectionQuery query = pair.intersection(IntersectionKind::volume_volume);
     Expected<Context> small = Context::create(host_device(), drawing({.memory_limit = 10U << 20U}));
-    ASSERT_TRUE(small.ok());
+    ASSERT_TRUE(small.has_value());
     const PlacedPair in_small(*small, pair.pair());
     query = in_small.intersection(IntersectionKind::volume_volume);
     EXPECT_EQ(run_alone(*small, query).status.code(), StatusCode::too_large);

@@ -10,11 +10,10 @@ namespace {
 
 constexpr std::uint64_t seed = 1944;
 
-std::vector<TileReport> list_tiles(const Context& context) {
-    std::vector<TileReport> tiles(3);  // its contents are replaced
-    const Status status = context.list_tiles(tiles);
-    EXPECT_TRUE(status.ok()) << status.text();
-    return tiles;
+std::vector<TileReport> tiles_of(const Context& context) {
+    const Expected<std::vector<TileReport>> tiles = list_tiles(context);
+    EXPECT_TRUE(tiles.has_value()) << tiles.error().text();
+    return *tiles;
 }
 
 bool holds(const TileReport& tile, const Vector2& point) {
@@ -59,7 +58,8 @@ protected:
                 },
                 results.results[tile.query]);
             for (const TileReport& other : tiles) {
-                const bool drawn_together = &other != &tile && other.round == tile.round &&
+                const bool drawn_together = &other != &tile &&
+                                            other.tile_batch == tile.tile_batch &&
                                             tile.technique == Technique::raster;
                 EXPECT_FALSE(drawn_together && overlap_in_atlas(tile, other));
             }
@@ -82,7 +82,7 @@ TEST_F(Tiles, HoldWhatTheyWereMadeFor) {
             const auto samples = batch.add(placed.intersection(IntersectionKind::volume_volume));
             Results results;
             ASSERT_TRUE(context().run(batch, results).ok());
-            const std::vector<TileReport> tiles = list_tiles(context());
+            const std::vector<TileReport> tiles = tiles_of(context());
             check(tiles, results);
             EXPECT_TRUE(std::none_of(tiles.begin(), tiles.end(), [&](const TileReport& tile) {
                 return tile.query == test.index;
@@ -114,7 +114,7 @@ TEST_F(Tiles, AFieldIsCoveredWhole) {
     const auto field = batch.add(query);
     Results results;
     ASSERT_TRUE(context().run(batch, results).ok());
-    const std::vector<TileReport> tiles = list_tiles(context());
+    const std::vector<TileReport> tiles = tiles_of(context());
     check(tiles, results);
     EXPECT_GT(tiles.size(), 4U);
     double cells = 0.0;
@@ -127,15 +127,15 @@ TEST_F(Tiles, AFieldIsCoveredWhole) {
 
 TEST_F(Tiles, ThereAreNoneWhereNothingIsDrawn) {
     Expected<Context> fresh = Context::create(host_device(), drawing());
-    ASSERT_TRUE(fresh.ok()) << fresh.status().text();
-    EXPECT_TRUE(list_tiles(*fresh).empty());
+    ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
+    EXPECT_TRUE(tiles_of(*fresh).empty());
     const Pair pair = family_pairs(seed)[3];
     const PlacedPair drawn(*fresh, pair);
     const PlacedPair by_cpu(*fresh, pair, Technique::cpu);
     ASSERT_TRUE(run_alone(*fresh, drawn.penetration()).status.ok());
-    EXPECT_FALSE(list_tiles(*fresh).empty());
+    EXPECT_FALSE(tiles_of(*fresh).empty());
     ASSERT_TRUE(run_alone(*fresh, by_cpu.penetration()).status.ok());
-    EXPECT_TRUE(list_tiles(*fresh).empty());
+    EXPECT_TRUE(tiles_of(*fresh).empty());
     // The tiles of the last of several batches in flight.
     Batch first;
     first.add(drawn.penetration());
@@ -144,19 +144,19 @@ TEST_F(Tiles, ThereAreNoneWhereNothingIsDrawn) {
     second.add(drawn.intersection(IntersectionKind::volume_volume));
     const Expected<Ticket> one = fresh->submit(first);
     const Expected<Ticket> two = fresh->submit(second);
-    ASSERT_TRUE(one.ok() && two.ok());
-    const std::vector<TileReport> in_flight = list_tiles(*fresh);
+    ASSERT_TRUE(one.has_value() && two.has_value());
+    const std::vector<TileReport> in_flight = tiles_of(*fresh);
     ASSERT_FALSE(in_flight.empty());
     EXPECT_EQ(in_flight.front().query, 1U);
     Results results;
     ASSERT_TRUE(fresh->collect(*two, results).ok());
-    EXPECT_EQ(list_tiles(*fresh).size(), in_flight.size());
+    EXPECT_EQ(tiles_of(*fresh).size(), in_flight.size());
     ASSERT_TRUE(fresh->collect(*one, results).ok());
     // A batch that is too large as a whole.
     PenetrationQuery fine = drawn.penetration();
     fine.tolerance = 1e-9;
     EXPECT_EQ(run_alone(*fresh, fine).status.code(), StatusCode::too_large);
-    EXPECT_TRUE(list_tiles(*fresh).empty());
+    EXPECT_TRUE(tiles_of(*fresh).empty());
 }
 
 }  // namespace

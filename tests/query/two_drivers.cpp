@@ -19,8 +19,8 @@ void make_host(std::optional<test_support::VulkanHost>& host, const std::string&
 
 Context make_context(const HostDevice& device) {
     Expected<Context> made = Context::create(device, drawing());
-    if (!made.ok()) {
-        throw std::runtime_error(made.status().text());
+    if (!made) {
+        throw std::runtime_error(made.error().text());
     }
     return std::move(*made);
 }

@@ -22,11 +22,11 @@ protected:
                            }
                        }};
         Expected<Context> context = Context::create_headless(options);
-        if (!context.ok()) {
-            throw std::runtime_error(context.status().text());
+        if (!context) {
+            throw std::runtime_error(context.error().text());
         }
         context_.emplace(std::move(*context));
-        shape_ = context_->add_shape({{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}}).value();
+        shape_ = *context_->add_shape({{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}});
     }
 
     /// The number of common samples of two squares that overlap by a quarter, by the compute
@@ -47,9 +47,9 @@ protected:
     }
     /// Returns how many shaders changed.
     std::uint32_t reload() {
-        const Expected<std::uint32_t> changed = context_->reload_shaders(folder_.path().c_str());
-        EXPECT_TRUE(changed.ok()) << changed.status().text();
-        return changed.ok() ? *changed : UINT32_MAX;
+        const Expected<std::uint32_t> changed = reload_shaders(*context_, folder_.path().c_str());
+        EXPECT_TRUE(changed.has_value()) << changed.error().text();
+        return changed.has_value() ? *changed : UINT32_MAX;
     }
 
     ShaderFolder folder_;
@@ -61,7 +61,7 @@ protected:
 TEST_F(ShaderReload, ChangesWhatLaterBatchesAnswerAndBack) {
     const std::uint64_t count_as_built = count();
     EXPECT_GT(count_as_built, 100U);
-    ASSERT_EQ(context_->reload_shaders().value(), 0U) << "as the library was built";
+    ASSERT_EQ(*reload_shaders(*context_), 0U) << "as the library was built";
     EXPECT_EQ(reload(), 0U) << "a copy of the same";
     EXPECT_EQ(count(), count_as_built);
 
@@ -89,7 +89,7 @@ TEST_F(ShaderReload, OfWhatDoesNotCompileSaysWhyAndLeavesWhatIsInUse) {
     folder_.replace("mask_rows.comp", "void main() {", "void main() {\n    nonsense;");
     const char* const folder = folder_.path().c_str();
     for (int attempt = 0; attempt < 2; ++attempt) {
-        const Status status = context_->reload_shaders(folder).status();
+        const Status status = reload_shaders(*context_, folder).error();
         EXPECT_EQ(status.code(), StatusCode::invalid_shader);
         EXPECT_NE(status.message().find("mask_rows.comp' does not compile"), std::string::npos);
         const auto says = [](const std::string& line) {
@@ -105,7 +105,7 @@ TEST_F(ShaderReload, OfWhatDoesNotCompileSaysWhyAndLeavesWhatIsInUse) {
     EXPECT_EQ(reload(), 1U);
     EXPECT_EQ(count(), 0U);
 
-    const Status nowhere = context_->reload_shaders("/no/such/folder").status();
+    const Status nowhere = reload_shaders(*context_, "/no/such/folder").error();
     EXPECT_EQ(nowhere.code(), StatusCode::invalid_shader);
     EXPECT_NE(nowhere.message().find("/no/such/folder"), std::string::npos) << nowhere.text();
 }

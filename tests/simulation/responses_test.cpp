@@ -18,8 +18,8 @@ Context& simulation_context() {
     static Shared* const shared = [] {
         auto* made = new Shared;
         Expected<Context> context = Context::create_headless();
-        if (!context.ok()) {
-            throw std::runtime_error(context.status().text());
+        if (!context) {
+            throw std::runtime_error(context.error().text());
         }
         made->context.emplace(std::move(*context));
         testing::AddGlobalTestEnvironment(made);

@@ -70,8 +70,8 @@ public:
         Settings settings;
         settings.jobs = jobs;
         Expected<Context> made = Context::create_headless({}, settings);
-        EXPECT_TRUE(made.ok()) << made.status().text();
-        if (!made.ok()) {
+        EXPECT_TRUE(made.has_value()) << made.error().text();
+        if (!made) {
             return;
         }
         context_.emplace(std::move(*made));
@@ -91,14 +91,14 @@ public:
 private:
     void add(const Rings& rings, const Pose& pose) {
         const Expected<ShapeHandle> shape = context_->add_shape(rings);
-        EXPECT_TRUE(shape.ok()) << shape.status().text();
-        instances_.push_back({shape.ok() ? *shape : ShapeHandle{}, pose});
+        EXPECT_TRUE(shape.has_value()) << shape.error().text();
+        instances_.push_back({shape.has_value() ? *shape : ShapeHandle{}, pose});
     }
     void fill() {
-        std::vector<InstancePair> pairs;
-        EXPECT_TRUE(context_->find_pairs(instances_, 0.0, pairs).ok());
-        EXPECT_GT(pairs.size(), 60U);
-        for (const InstancePair& pair : pairs) {
+        const auto pairs = context_->find_pairs(instances_, 0.0);
+        ASSERT_TRUE(pairs.has_value()) << pairs.error().text();
+        EXPECT_GT(pairs->size(), 60U);
+        for (const InstancePair& pair : *pairs) {
             const Instance a = instances_[pair.first];
             const Instance b = instances_[pair.second];
             for (const auto points : {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
@@ -177,10 +177,10 @@ std::uint32_t jobs_for(double samples, std::uint64_t memory) {
     settings.jobs = {&jobs, 8, count_jobs};
     settings.memory_limit = memory;
     Expected<Context> context = Context::create_headless({}, settings);
-    EXPECT_TRUE(context.ok()) << context.status().text();
+    EXPECT_TRUE(context.has_value()) << context.error().text();
     const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
     const Expected<ShapeHandle> shape = context->add_shape(square);
-    EXPECT_TRUE(shape.ok());
+    EXPECT_TRUE(shape.has_value());
     Batch batch;
     for (int i = 0; i < 4; ++i) {
         const Instance b{*shape, {{0.1 + 0.2 * i, 0.5}, 0.0}};
@@ -226,7 +226,7 @@ TEST(Jobs, ThatCannotBeUsedAreRefused) {
     const auto code = [](const JobSystem& jobs) {
         Settings settings;
         settings.jobs = jobs;
-        const Status status = Context::create_headless({}, settings).status();
+        const Status status = Context::create_headless({}, settings).error();
         EXPECT_NE(status.message().find("Settings::jobs"), std::string::npos) << status.text();
         return status.code();
     };

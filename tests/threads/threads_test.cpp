@@ -27,7 +27,7 @@ public:
     std::vector<double> run() {
         const Expected<ShapeHandle> a = context_.add_shape({{ring_a}});
         const Expected<ShapeHandle> b = context_.add_shape({{ring_b}});
-        if (!a.ok() || !b.ok()) {
+        if (!a || !b) {
             error_ = "a shape was refused";
             return {};
         }
@@ -67,16 +67,16 @@ private:
         }
     }
     void find_pairs(int frame) {
-        std::vector<InstancePair> pairs;
         const Instance instances[] = {{a_, {}}, {b_, {{0.5 * frame, 0.0}, 0.0}}};
-        expect(context_.find_pairs(instances, 0.1, pairs));
-        numbers_.push_back(static_cast<double>(pairs.size()));
+        const auto pairs = context_.find_pairs(instances, 0.1);
+        expect(pairs.error());
+        numbers_.push_back(pairs ? static_cast<double>(pairs->size()) : -1.0);
     }
     Ticket submit(int frame) {
         const Expected<Ticket> ticket =
             context_.submit(batch(frame, frame % 2 == 0 ? Technique::raster : Technique::compute));
-        expect(ticket.status());
-        return ticket.ok() ? *ticket : Ticket{};
+        expect(ticket.error());
+        return ticket.has_value() ? *ticket : Ticket{};
     }
     void collect(Ticket ticket) {
         if (ticket == Ticket{}) {
@@ -118,8 +118,8 @@ void expect_same_on_threads(const Make& make) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         running.emplace_back([&make, &numbers = found[i], &error = errors[i]] {
             Expected<Context> made = make();
-            if (!made.ok()) {
-                error = made.status().text();
+            if (!made) {
+                error = made.error().text();
                 return;
             }
             Simulation simulation(std::move(*made));

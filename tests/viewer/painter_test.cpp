@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 #include <tools/drawing/canvas.hpp>
 #include <tools/rendering/page.hpp>
 
@@ -50,9 +50,9 @@ protected:
     }
 };
 
-TEST_F(Painter, FillsNastyRingsByTheOddEvenRule) {
+TEST_F(Painter, FillsDegenerateRingsByTheOddEvenRule) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        for (const support::NastyPolygon& polygon :
+        for (const support::DegeneratePolygon& polygon :
              support::degenerate_polygons(side, side, seed)) {
             std::vector<Ring> rings;
             for (const auto& ring : polygon.rings) {

@@ -1,4 +1,4 @@
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <embedded/commit.hpp>
 #include <sched.h>

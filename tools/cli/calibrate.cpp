@@ -1,4 +1,4 @@
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <tools/cli/calibrate.hpp>
 #include <tools/common/library_error.hpp>
@@ -33,7 +33,7 @@ void run_calibrate(const CalibrateArguments& arguments) {
             std::cerr << "\rmeasured " << static_cast<int>(100.0 * done) << " %" << std::flush;
         };
     }
-    const CostModel costs = take(context.measure_costs(progress));
+    const CostModel costs = take(measure_costs(context, progress));
     if (progress) {
         std::cerr << '\n';
     }

@@ -1,4 +1,4 @@
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 #include <nearfield/version.hpp>
 
 #include <tools/cli/info.hpp>

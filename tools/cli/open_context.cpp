@@ -22,10 +22,10 @@ Context open_context(Settings settings, const AskedTechniques& asked) {
     }
     settings.techniques = {.raster = automatic || raster, .compute = automatic || compute};
     Expected<Context> context = Context::create_headless({}, settings);
-    const StatusCode code = context.status().code();
+    const StatusCode code = context.error().code();
     if ((code == StatusCode::no_device || code == StatusCode::unsupported_device) && !raster &&
         !compute) {
-        std::cerr << "nearfield: without a device, by the CPU alone: " << context.status().text()
+        std::cerr << "nearfield: without a device, by the CPU alone: " << context.error().text()
                   << '\n';
         return take(Context::create_cpu(settings));
     }

@@ -1,4 +1,5 @@
 #include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/query.hpp>
@@ -292,7 +293,7 @@ void run_query(const QueryArguments& arguments) {
 
     std::vector<TileReport> tiles;
     if (arguments.tiles) {
-        require(context.list_tiles(tiles));
+        tiles = take(list_tiles(context));
     }
     const Answer answer{request, results.results.front(), results.timings, context.device_name(),
                         arguments.tiles ? &tiles : nullptr};

@@ -35,7 +35,7 @@ void require(const Status& status, const std::string& subject = {});
 /// Returns the value or throws LibraryError.
 template <class Value>
 [[nodiscard]] Value take(Expected<Value> expected, const std::string& subject = {}) {
-    require(expected.status(), subject);
+    require(expected.error(), subject);
     return std::move(*expected);
 }
 

@@ -143,8 +143,8 @@ void SceneRunner::add_all_pairs(std::size_t query) {
     const double reach = request.type == QueryType::contacts
                              ? request.contact_distance.value_or(request.tolerance)
                              : all.reach;
-    require(context_.find_pairs(instances_, reach, pairs_), file_);
-    for (const InstancePair& pair : pairs_) {
+    const auto pairs = take(context_.find_pairs(instances_, reach), file_);
+    for (const InstancePair& pair : pairs) {
         add(query, pair.first, pair.second);
         if (!is_symmetric(request.type)) {
             add(query, pair.second, pair.first);

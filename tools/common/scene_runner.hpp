@@ -65,7 +65,6 @@ private:
     Context& context_;
     std::vector<ShapeHandle> shapes_;
     std::vector<Instance> instances_;
-    std::vector<InstancePair> pairs_;
     std::vector<Entry> entries_;
     Batch batch_;
     Results results_;

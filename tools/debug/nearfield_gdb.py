@@ -95,7 +95,7 @@ class Expected:
         if self.has_value:
             yield "value", self.value["value_"]["_M_payload"]["_M_payload"]["_M_value"]
         else:
-            yield "status", self.value["status_"]
+            yield "error", self.value["error_"]
 
 
 def last_name(enumerator):

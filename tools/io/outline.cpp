@@ -73,8 +73,8 @@ OutlineRings tessellate_outline(const Outline& outline, double deviation) {
     const bool curved = outline.curved();
     Expected<std::vector<Ring>> rings =
         tessellate(outline.path, curved ? deviation : largest_coordinate);
-    if (!rings.ok()) {
-        throw InputError(outline.file + ": " + rings.status().message());
+    if (!rings) {
+        throw InputError(outline.file + ": " + rings.error().message());
     }
     return {std::move(*rings), curved ? deviation : 0.0};
 }

@@ -192,8 +192,7 @@ PaintedPage::PaintedPage(const Gpu& gpu, vk::RenderPass render_pass, vk::Extent2
                                                            .setLayers(1));
 }
 
-VulkanPainter::VulkanPainter(const Gpu& gpu, const Letters& letters,
-                             std::uint32_t batches_in_flight)
+VulkanPainter::VulkanPainter(const Gpu& gpu, const Letters& letters, std::uint32_t frames_in_flight)
     : gpu_(gpu),
       render_pass_(make_render_pass(gpu)),
       sampler_(make_sampler(gpu)),
@@ -205,7 +204,7 @@ VulkanPainter::VulkanPainter(const Gpu& gpu, const Letters& letters,
                vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst),
       sets_(make_descriptor_pool(gpu)),
       set_(make_set(gpu, *sets_, *set_layout_)),
-      slots_(batches_in_flight) {
+      slots_(frames_in_flight) {
     upload(letters);
     const auto image = vk::DescriptorImageInfo()
                            .setImageView(letters_.view())

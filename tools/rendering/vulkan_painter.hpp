@@ -41,7 +41,7 @@ private:
 /// Paints meshes with Vulkan: one pipeline, and buffers for each frame in flight.
 class VulkanPainter {
 public:
-    VulkanPainter(const Gpu& gpu, const Letters& letters, std::uint32_t batches_in_flight);
+    VulkanPainter(const Gpu& gpu, const Letters& letters, std::uint32_t frames_in_flight);
 
     [[nodiscard]] PaintedPage make_page(vk::Extent2D extent) const {
         return {gpu_, *render_pass_, extent};

@@ -119,7 +119,7 @@ private:
         const double time = overlap_test.clear;
         const double farthest = find_ends(time);
         std::vector<Approach> approaches;
-        for (const InstancePair& pair : proximity_.vertex_edge_pairs(floor() + 2.0 * farthest)) {
+        for (const InstancePair& pair : proximity_.near_pairs(floor() + 2.0 * farthest)) {
             const bool both_wait = waiting_[pair.first] && waiting_[pair.second];
             if (!deforms(pair) && !both_wait) {
                 approaches.push_back({pair, floor()});
@@ -167,7 +167,7 @@ private:
 
     [[nodiscard]] std::vector<Approach> deforming_offenders_after(double time) {
         move(time);
-        std::vector<InstancePair> pairs = proximity_.vertex_edge_pairs(floor());
+        std::vector<InstancePair> pairs = proximity_.near_pairs(floor());
         std::erase_if(pairs, [this](const InstancePair& pair) { return !deforms(pair); });
         std::vector<Approach> close;
         const std::vector<double>& ends = proximity_.distances(pairs);

@@ -61,18 +61,16 @@ void Proximity::run() {
     }
 }
 
-const std::vector<InstancePair>& Proximity::vertex_edge_pairs(double reach) {
+const std::vector<InstancePair>& Proximity::near_pairs(double reach) {
     place();
     {
         const Stopwatch watch(count_.milliseconds);
-        tools::require(context_.find_pairs(instances_, reach, pairs_));
+        const auto found = tools::take(context_.find_pairs(instances_, reach));
+        pairs_.assign(found.begin(), found.end());
     }
-    pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(),
-                                [this](const InstancePair& pair) {
-                                    return !bodies_[pair.first]->movable() &&
-                                           !bodies_[pair.second]->movable();
-                                }),
-                 pairs_.end());
+    std::erase_if(pairs_, [this](const InstancePair& pair) {
+        return !bodies_[pair.first]->movable() && !bodies_[pair.second]->movable();
+    });
     return pairs_;
 }
 
@@ -81,7 +79,7 @@ void Proximity::fill_with_overlaps(Batch& batch) {
     PenetrationQuery query;
     query.tolerance = tolerance_;
     query.technique = technique_;
-    for (const InstancePair& pair : vertex_edge_pairs(0.0)) {
+    for (const InstancePair& pair : near_pairs(0.0)) {
         query.a = instances_[pair.first];
         query.b = instances_[pair.second];
         batch.add(query);
@@ -153,7 +151,7 @@ const std::vector<Proximity::Touching>& Proximity::contacts(double contact_dista
     query.tolerance = tolerance_;
     query.contact_distance = contact_distance;
     query.technique = technique_;
-    for (const InstancePair& pair : vertex_edge_pairs(contact_distance)) {
+    for (const InstancePair& pair : near_pairs(contact_distance)) {
         query.a = instances_[pair.first];
         query.b = instances_[pair.second];
         batch_.add(query);

@@ -34,7 +34,7 @@ public:
     };
 
     /// The pairs worth a query at the bodies' current positions, at least one of which can move.
-    [[nodiscard]] const std::vector<InstancePair>& vertex_edge_pairs(double reach);
+    [[nodiscard]] const std::vector<InstancePair>& near_pairs(double reach);
     /// The points of every near pair that are inside the other body; valid until the next query.
     [[nodiscard]] const std::vector<Overlap>& overlaps();
     /// Minimum distances; 0 if the bodies intersect.

@@ -14,8 +14,7 @@ World::World(Context& context, Scene scene, Response response, Technique techniq
       proximity_(context, scene_.bodies, scene_.tolerance, technique),
       response_(response) {
     if (response == Response::backtracking) {
-        const std::vector<double>& distances =
-            proximity_.distances(proximity_.vertex_edge_pairs(0.0));
+        const std::vector<double>& distances = proximity_.distances(proximity_.near_pairs(0.0));
         if (std::find(distances.begin(), distances.end(), 0.0) != distances.end()) {
             throw std::invalid_argument(
                 "the scene starts with bodies that touch or overlap; backtracking has no state "

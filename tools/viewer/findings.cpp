@@ -1,3 +1,5 @@
+#include <nearfield/diagnostics.hpp>
+
 #include <tools/common/library_error.hpp>
 #include <tools/drawing/color.hpp>
 #include <tools/simulation/plane.hpp>
@@ -28,7 +30,7 @@ void add_queries(Batch& batch, Simulation& simulation, const Overlays& overlays)
         query.tolerance = tolerance;
         query.strategy = overlays.strategy;
         query.technique = technique;
-        for (const InstancePair& pair : proximity.vertex_edge_pairs(0.0)) {
+        for (const InstancePair& pair : proximity.near_pairs(0.0)) {
             query.a = proximity.instances()[pair.first];
             query.b = proximity.instances()[pair.second];
             batch.add(query);
@@ -39,7 +41,7 @@ void add_queries(Batch& batch, Simulation& simulation, const Overlays& overlays)
         query.tolerance = tolerance;
         query.contact_distance = 2.0 * tolerance;
         query.technique = technique;
-        for (const InstancePair& pair : proximity.vertex_edge_pairs(query.contact_distance)) {
+        for (const InstancePair& pair : proximity.near_pairs(query.contact_distance)) {
             query.a = proximity.instances()[pair.first];
             query.b = proximity.instances()[pair.second];
             batch.add(query);
@@ -105,7 +107,7 @@ Findings find(Simulation& simulation, const Overlays& overlays) {
     Findings findings;
     findings.timings = results.timings;
     if (overlays.tiles) {
-        tools::require(simulation.context().list_tiles(findings.tiles));
+        findings.tiles = tools::take(list_tiles(simulation.context()));
     }
     for (const AnyResult& any : results.results) {
         std::visit(

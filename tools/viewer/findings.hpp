@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nearfield/context.hpp>
+#include <nearfield/tile.hpp>
 
 #include <tools/rendering/scene_picture.hpp>
 #include <tools/viewer/simulation.hpp>

@@ -178,7 +178,7 @@ void add_atlas(const std::vector<TileReport>& tiles) {
     std::uint32_t height = 0;
     std::size_t shown = 0;
     const auto is_shown = [](const TileReport& tile) {
-        return tile.technique == Technique::raster && tile.round == 0;
+        return tile.technique == Technique::raster && tile.tile_batch == 0;
     };
     for (const TileReport& tile : tiles) {
         if (is_shown(tile)) {

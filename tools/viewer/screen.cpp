@@ -35,7 +35,7 @@ Screen::Screen(const tools::Gpu& gpu, vk::SurfaceKHR surface, vk::Extent2D exten
                const tools::Letters& letters)
     : gpu_(gpu),
       surface_(surface),
-      painter_(gpu, letters, batches_in_flight),
+      painter_(gpu, letters, frames_in_flight),
       frames_{Frame(gpu), Frame(gpu)} {
     fit(extent);
 }
@@ -92,7 +92,7 @@ bool Screen::show(const tools::Mesh& mesh) {
     }
     record(frame.commands.begin(), image, mesh);
     frame.commands.submit(*frame.available, *painted_.at(image));
-    slot_ = (slot_ + 1) % batches_in_flight;
+    slot_ = (slot_ + 1) % frames_in_flight;
     if (!present(image)) {
         fit(extent);
     }

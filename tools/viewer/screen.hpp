@@ -25,7 +25,7 @@ public:
     [[nodiscard]] tools::FrameImage picture();
 
 private:
-    static constexpr std::uint32_t batches_in_flight = 2;
+    static constexpr std::uint32_t frames_in_flight = 2;
 
     struct Frame {
         explicit Frame(const tools::Gpu& gpu);
@@ -46,7 +46,7 @@ private:
     vk::Extent2D extent_;
     std::vector<vk::Image> images_;
     std::vector<vk::raii::Semaphore> painted_;  // one per image
-    std::array<Frame, batches_in_flight> frames_;
+    std::array<Frame, frames_in_flight> frames_;
     std::uint32_t slot_ = 0;
 };
 

@@ -1,3 +1,5 @@
+#include <nearfield/diagnostics.hpp>
+
 #include <tools/common/library_error.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/viewer/viewer.hpp>
@@ -66,9 +68,10 @@ void Viewer::handle_key(SDL_Keycode key) {
 
 /// Development aid for the library's shaders; needs a build with shader reload.
 void Viewer::reload_shaders() {
-    const Expected<std::uint32_t> changed = simulation_.context().reload_shaders();
-    reading_.notice = changed.ok() ? "Shaders that changed: " + std::to_string(*changed) + "."
-                                   : changed.status().text();
+    const Expected<std::uint32_t> changed = nearfield::reload_shaders(simulation_.context());
+    reading_.notice = changed.has_value()
+                          ? "Shaders that changed: " + std::to_string(*changed) + "."
+                          : changed.error().text();
 }
 
 void Viewer::handle(const SDL_Event& event) {

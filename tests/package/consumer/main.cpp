@@ -28,7 +28,7 @@ bool penetration_is_wrong(nearfield::Context& context) {
     const nearfield::Ring large{{1, -3}, {9, -3}, {9, 5}, {1, 5}};
     const auto a = context.add_shape({&small, 1});
     const auto b = context.add_shape({&large, 1});
-    if (failed(a.status()) || failed(b.status())) {
+    if (failed(a.error()) || failed(b.error())) {
         return true;
     }
     nearfield::Batch batch;
@@ -45,7 +45,7 @@ bool penetration_is_wrong(nearfield::Context& context) {
 
     nearfield::Results results;
     const auto ticket = context.submit(batch);
-    if (failed(ticket.status()) || failed(context.collect(*ticket, results))) {
+    if (failed(ticket.error()) || failed(context.collect(*ticket, results))) {
         return true;
     }
     for (const auto handle : {good, on_the_device}) {
@@ -65,7 +65,7 @@ bool curves_are_wrong() {
     nearfield::CurvePath path;
     path.move_to({0, 0}).cubic_to({1, 1}, {2, 1}, {3, 0}).close().circle({5, 5}, 1);
     const auto rings = nearfield::tessellate(path, 0.01);
-    return failed(rings.status()) || wrong(rings->size() == 2, "how many rings there are");
+    return failed(rings.error()) || wrong(rings->size() == 2, "how many rings there are");
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ int main() {
     }
     const auto devices = nearfield::list_devices();
     auto context = nearfield::Context::create_headless();
-    if (failed(devices.status()) || failed(context.status()) || penetration_is_wrong(*context)) {
+    if (failed(devices.error()) || failed(context.error()) || penetration_is_wrong(*context)) {
         return 1;
     }
     std::printf("nearfield %s, %s\n", version.text, context->device_name().c_str());

@@ -27,7 +27,7 @@ protected:
 
     template <class Query>
     static void expect_noticed(const PlacedPair& placed, const Query& query,
-                               const Spoilings<typename ResultOf<Query>::type>& spoilings) {
+                               const Spoilings<typename Query::Result>& spoilings) {
         const AnyQuery any = query;
         const auto good = run_alone(context(), query);
         ASSERT_TRUE(good.status.ok()) << good.status.text();

@@ -44,10 +44,10 @@ const std::vector<Vector2> ring_b{{0, 0}, {2, 0.2}, {2.5, 1.5}, {1, 2.5}, {-0.5,
 /// Runs a frame in a new context; returns its answers as numbers.
 std::vector<double> frame(const HostDevice& host, Technique technique) {
     Expected<Context> context = Context::create(host);
-    EXPECT_TRUE(context.ok()) << context.status().text();
+    EXPECT_TRUE(context.has_value()) << context.error().text();
     const Expected<ShapeHandle> a = context->add_shape({{ring_a}});
     const Expected<ShapeHandle> b = context->add_shape({{ring_b}});
-    EXPECT_TRUE(a.ok() && b.ok());
+    EXPECT_TRUE(a.has_value() && b.has_value());
     const Instance here{*a, {}};
     const Instance there{*b, {{1.2, 0.4}, 0.3}};
     Batch batch;

@@ -1,7 +1,7 @@
 #include <tests/query/agreement.hpp>
 #include <tests/query/corpus.hpp>
+#include <tests/query/degenerate_shapes.hpp>
 #include <tests/query/device_offers.hpp>
-#include <tests/query/nasty_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/query/two_drivers.hpp>
 #include <tests/support/outlines.hpp>
@@ -247,7 +247,7 @@ TEST_F(Drivers, AgreeOnEveryFamily) {
     });
 }
 
-TEST_F(Drivers, AgreeOnNastyPolygons) {
+TEST_F(Drivers, AgreeOnDegeneratePolygons) {
     for_each_two([](TwoDrivers& drivers) {
         const auto shapes = degenerate_shapes(drivers.context(TwoDrivers::finer), 40, seed);
         for (std::size_t i = 0; i < shapes.size(); ++i) {

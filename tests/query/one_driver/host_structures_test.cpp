@@ -20,7 +20,7 @@ struct Newer {
 class HostStructures : public QueryTest {
 protected:
     static Status create(const HostDevice& host, const Settings& settings = drawing()) {
-        return Context::create(host, settings).status();
+        return Context::create(host, settings).error();
     }
     static void expect_refused(const Status& status, const std::string& name) {
         EXPECT_EQ(status.code(), StatusCode::invalid_settings) << status.text();
@@ -46,14 +46,14 @@ TEST_F(HostStructures, OfAnOlderHostAreTakenAsFarAsTheyGo) {
     settings.batches_in_flight = 1;
     settings.memory_limit = 1;
     Expected<Context> made = Context::create(host_device(), settings);
-    ASSERT_TRUE(made.ok()) << made.status().text();
+    ASSERT_TRUE(made.has_value()) << made.error().text();
     const Expected<ShapeHandle> shape = made->add_shape(rectangle({0, 0}, {1, 1}));
-    ASSERT_TRUE(shape.ok());
+    ASSERT_TRUE(shape.has_value());
     Batch batch;
     batch.add(IntersectionQuery{{*shape, {}}, {*shape, {}}, 0.1});
     const Expected<Ticket> ticket = made->submit(batch);
-    EXPECT_TRUE(ticket.ok()) << ticket.status().text();
-    EXPECT_EQ(made->submit(batch).status().code(), StatusCode::ring_full);
+    EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
+    EXPECT_EQ(made->submit(batch).error().code(), StatusCode::ring_full);
 }
 
 TEST_F(HostStructures, OfANewerHostAreTakenWhereItAsksForNothingNew) {
@@ -84,16 +84,16 @@ TEST_F(HostStructures, OfNoKnownSizeAreRefusedByName) {
     expect_refused(create(host_device(), settings), "Settings");
     HeadlessOptions options;
     options.structure_size = 0;
-    expect_refused(Context::create_headless(options).status(), "HeadlessOptions");
+    expect_refused(Context::create_headless(options).error(), "HeadlessOptions");
     PhysicalDevice device;
     device.structure_size = 0;
-    expect_refused(requirements(device).status(), "PhysicalDevice");
+    expect_refused(requirements(device).error(), "PhysicalDevice");
     Submission submission;
     submission.structure_size = 0;
-    expect_refused(context().submit({}, submission).status(), "Submission");
+    expect_refused(context().submit({}, submission).error(), "Submission");
     Recording recording;
     recording.structure_size = 0;
-    expect_refused(context().record({}, recording).status(), "Recording");
+    expect_refused(context().record({}, recording).error(), "Recording");
 }
 
 // Structures that the library fills in.
@@ -122,14 +122,14 @@ TEST_F(HostStructures, LogTellsWhatIsMadeWhatGrowsAndWhatGoes) {
     host.log = heard.log();
     {
         Expected<Context> made = Context::create(host, drawing());
-        ASSERT_TRUE(made.ok()) << made.status().text();
+        ASSERT_TRUE(made.has_value()) << made.error().text();
         EXPECT_EQ(heard.count(LogLevel::information, "context on '" + made->device_name()), 1);
         EXPECT_GT(heard.count(LogLevel::information, "pipeline '"), 10);
         EXPECT_GT(heard.count(LogLevel::information, " ms"), 10);
         EXPECT_EQ(heard.count(LogLevel::warning, ""), 0);
         heard.lines.clear();
         const Expected<ShapeHandle> shape = made->add_shape(rectangle({0, 0}, {1, 1}));
-        ASSERT_TRUE(shape.ok());
+        ASSERT_TRUE(shape.has_value());
         const auto ask = [&](double tolerance) {
             Batch batch;
             batch.add(IntersectionQuery{{*shape, {}}, {*shape, {}}, tolerance});
@@ -152,7 +152,7 @@ TEST_F(HostStructures, LogTellsWhatIsMadeWhatGrowsAndWhatGoes) {
     Heard headless;
     HeadlessOptions options;
     options.log = headless.log();
-    ASSERT_TRUE(Context::create_headless(options).ok());
+    ASSERT_TRUE(Context::create_headless(options).has_value());
     EXPECT_EQ(headless.count(LogLevel::information, "goes"), 1);
 }
 

@@ -25,8 +25,8 @@ protected:
         Settings settings;
         settings.memory_limit = mebibytes << 20U;
         Expected<Context> context = Context::create(host_device(), settings);
-        EXPECT_TRUE(context.ok()) << context.status().text();
-        return std::move(context.value());
+        EXPECT_TRUE(context.has_value()) << context.error().text();
+        return std::move(*context);
     }
 
     /// Calls `check(context with little memory, pair in a context with much memory, pair in the

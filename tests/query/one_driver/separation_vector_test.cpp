@@ -1,7 +1,7 @@
 #include <tests/oracle/overlap.hpp>
 #include <tests/oracle/plane.hpp>
 #include <tests/query/corpus.hpp>
-#include <tests/query/nasty_shapes.hpp>
+#include <tests/query/degenerate_shapes.hpp>
 #include <tests/query/query_test.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -145,7 +145,7 @@ TEST_F(SeparationVectorTest, HoldsForRandomPairs) {
     EXPECT_GT(intersect, random_cases(40) / 4);
 }
 
-TEST_F(SeparationVectorTest, HoldsForNastyPolygons) {
+TEST_F(SeparationVectorTest, HoldsForDegeneratePolygons) {
     Random random(seed);
     const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, seed);
     int intersect = 0;

@@ -1,4 +1,4 @@
-#include <tests/query/nasty_shapes.hpp>
+#include <tests/query/degenerate_shapes.hpp>
 #include <tests/query/time_of_impact_check.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -55,7 +55,7 @@ TEST_F(TimeOfImpactTest, HoldsForEveryFamily) {
     }
 }
 
-TEST_F(TimeOfImpactTest, HoldsForNastyPolygons) {
+TEST_F(TimeOfImpactTest, HoldsForDegeneratePolygons) {
     const std::vector<NamedRings> shapes = degenerate_shapes(context(), 40, seed);
     int hits = 0;
     for (std::size_t i = 0; i < shapes.size(); ++i) {

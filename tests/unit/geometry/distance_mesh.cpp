@@ -2,7 +2,7 @@
 #include <engine/geometry/distance_mesh.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 #include <tests/support/polygons.hpp>
 #include <tests/support/scanline.hpp>
 
@@ -79,7 +79,7 @@ double true_distance(const std::vector<Feature>& features, const Vector& p) {
 
 // Every sample within reach must be covered with the correct distance; the winning feature must be
 // correct wherever one wins.
-void expect_law(const support::NastyPolygon& polygon, const Tile& tile, double reach,
+void expect_law(const support::DegeneratePolygon& polygon, const Tile& tile, double reach,
                 double error) {
     const Drawing drawing = draw(polygon.rings, tile, reach, {.error = error, .grid = tile.grid});
     const auto image = support::draw_nearest(tile, drawing.mesh);
@@ -162,8 +162,8 @@ TEST(DistanceMesh, SlightTurnsLeaveNoCrack) {
         const Vector v(31.0 + std::fmod(0.377 * i, 2.0), 31.0 + std::fmod(0.619 * i, 2.0));
         const Vector in(std::cos(heading), std::sin(heading));
         const Vector out(std::cos(heading + turn), std::sin(heading + turn));
-        const support::NastyPolygon line{"turn " + std::to_string(turn),
-                                         {{v - 80.0 * in, v, v + 80.0 * out, v}}};
+        const support::DegeneratePolygon line{"turn " + std::to_string(turn),
+                                              {{v - 80.0 * in, v, v + 80.0 * out, v}}};
         expect_law(line, tile, 50.0, 0.125);
     }
 }
@@ -174,7 +174,7 @@ TEST(DistanceMesh, HitsSamplesAtExactlyTheReach) {
     for (const double nudge : {0.0, 0.25, 0.5, 0.75}) {
         const Vector shift = Vector::Constant(nudge / tile.grid.steps);
         for (const double reach : {5.0, 13.0}) {
-            const support::NastyPolygon box{
+            const support::DegeneratePolygon box{
                 "box",
                 {{Vector(20.5, 20.5) - shift, Vector(40.5, 20.5) - shift,
                   Vector(40.5, 40.5) - shift, Vector(20.5, 40.5) - shift}}};

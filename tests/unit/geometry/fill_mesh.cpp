@@ -1,7 +1,7 @@
 #include <engine/geometry/fill_mesh.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 #include <tests/support/scanline.hpp>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ bool is_beside_a_cut_edge(const Vector& centre, const Tile& tile, const support:
     return beside;
 }
 
-void expect_scanline_parity(const Tile& tile, const support::NastyPolygon& polygon) {
+void expect_scanline_parity(const Tile& tile, const support::DegeneratePolygon& polygon) {
     const Mesh mesh = fill(tile, polygon.rings);
     const auto drawn = support::draw_parity(tile, mesh);
     const auto scanned = support::scan_parity(tile, polygon.rings);
@@ -71,7 +71,7 @@ void expect_scanline_parity(const Tile& tile, const support::NastyPolygon& polyg
     }
 }
 
-void expect_near_and_snapped(const Tile& tile, const support::NastyPolygon& polygon) {
+void expect_near_and_snapped(const Tile& tile, const support::DegeneratePolygon& polygon) {
     for (const auto& vertex : fill(tile, polygon.rings)) {
         const Vector position(static_cast<double>(vertex.x), static_cast<double>(vertex.y));
         ASSERT_FALSE(is_far_from_tile(position, tile)) << polygon.name;

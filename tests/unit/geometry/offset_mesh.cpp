@@ -1,7 +1,7 @@
 #include <engine/geometry/offset_mesh.hpp>
 
 #include <gtest/gtest.h>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 #include <tests/support/scanline.hpp>
 
 #include <cmath>

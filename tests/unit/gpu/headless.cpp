@@ -2,7 +2,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 #include <engine/gpu/submission.hpp>
-#include <nearfield/context.hpp>
+#include <nearfield/diagnostics.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/environment.hpp>
@@ -26,8 +26,8 @@ Status headless_status(const char* device_name) {
 
 std::vector<DeviceReport> devices() {
     Expected<std::vector<DeviceReport>> reports = list_devices();
-    EXPECT_TRUE(reports.ok()) << reports.status().text();
-    return reports.ok() ? reports.value() : std::vector<DeviceReport>{};
+    EXPECT_TRUE(reports.has_value()) << reports.error().text();
+    return reports.has_value() ? *reports : std::vector<DeviceReport>{};
 }
 
 void submit_nothing(const HostDevice& host) {
@@ -112,7 +112,7 @@ TEST(GpuHeadless, MachineWithoutDriversHasNoDevice) {
     const Status status = headless_status(nullptr);
     EXPECT_EQ(status.code(), StatusCode::no_device);
     EXPECT_NE(status.message().find("mesa-vulkan-drivers"), std::string::npos) << status.text();
-    EXPECT_EQ(list_devices().status().code(), StatusCode::no_device);
+    EXPECT_EQ(list_devices().error().code(), StatusCode::no_device);
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST_F(GpuRequirements, OfNothingAreRefused) {
           +[](PhysicalDevice& device) { device.structure_size = 4; }}) {
         PhysicalDevice device = physical(host_.device());
         clear(device);
-        EXPECT_EQ(requirements(device).status().code(), StatusCode::invalid_settings);
+        EXPECT_EQ(requirements(device).error().code(), StatusCode::invalid_settings);
     }
 }
 

@@ -21,8 +21,8 @@ inline PhysicalDevice physical(const HostDevice& host) {
 /// Its requirements; the query must not fail.
 inline Requirements requirements_of(const PhysicalDevice& device) {
     const Expected<Requirements> found = requirements(device);
-    EXPECT_TRUE(found.ok()) << found.status().text();
-    return found.ok() ? *found : Requirements{};
+    EXPECT_TRUE(found.has_value()) << found.error().text();
+    return found.has_value() ? *found : Requirements{};
 }
 
 inline Requirements requirements_of(const HostDevice& host) {

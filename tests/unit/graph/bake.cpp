@@ -21,15 +21,15 @@ void for_random_graphs(Law&& law) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const RandomGraph random(seed);
         const Expected<BakedGraph> baked = bake(random.graph());
-        ASSERT_TRUE(baked.ok()) << baked.status().text();
+        ASSERT_TRUE(baked.has_value()) << baked.error().text();
         law(random.graph(), *baked);
     }
 }
 
 BakedGraph bake_valid(const Graph& graph) {
     Expected<BakedGraph> baked = bake(graph);
-    EXPECT_TRUE(baked.ok()) << baked.status().text();
-    return baked.ok() ? *baked : BakedGraph{};
+    EXPECT_TRUE(baked.has_value()) << baked.error().text();
+    return baked.has_value() ? *baked : BakedGraph{};
 }
 
 std::vector<std::string> names_in_order(const Graph& graph, const BakedGraph& baked) {
@@ -367,14 +367,14 @@ TEST(GraphBake, OnlyWhatWasWrittenGoesToTheHost) {
     EXPECT_EQ(baked.to_host[0].destination_access, VK_ACCESS_HOST_READ_BIT);
 }
 
-TEST(GraphBake, ImportedResourcesWaitForWhatIsOutsideAndAreHandedOver) {
+TEST(GraphBake, ImportedResourcesWaitForWhatIsOutsideAndAreExported) {
     Graph graph;
     const Handle words =
         graph.import_buffer({.name = "words"}, {.before = Access::storage_write_in_compute});
-    const Handle image = graph.import_image(
-        {.name = "distance", .format = VK_FORMAT_R32_SFLOAT},
-        {.before = Access::handed_over_image, .after = Access::handed_over_image});
-    add_pass(graph, "hand over", PassKind::compute,
+    const Handle image =
+        graph.import_image({.name = "distance", .format = VK_FORMAT_R32_SFLOAT},
+                           {.before = Access::exported_image, .after = Access::exported_image});
+    add_pass(graph, "export", PassKind::compute,
              {reads(words, Access::storage_read_in_compute),
               writes(image, Access::storage_image_in_compute)});
     const BakedGraph baked = bake_valid(graph);
@@ -396,9 +396,9 @@ TEST(GraphBake, ImportedResourcesWaitForWhatIsOutsideAndAreHandedOver) {
     BakedGraph without_wait = baked;
     without_wait.passes[0].barriers.erase(without_wait.passes[0].barriers.begin());
     EXPECT_NE(simulate(graph, without_wait), "");
-    BakedGraph not_handed_over = baked;
-    not_handed_over.to_host.clear();
-    EXPECT_NE(simulate(graph, not_handed_over), "");
+    BakedGraph not_exported = baked;
+    not_exported.to_host.clear();
+    EXPECT_NE(simulate(graph, not_exported), "");
 }
 
 TEST(GraphBake, FirstUseOfAnImageWaitsForTheExecutionBefore) {

@@ -54,7 +54,7 @@ TEST(GraphPrint, MentionsEveryPassAndResource) {
         const RandomGraph random(seed);
         const Graph& graph = random.graph();
         const Expected<BakedGraph> baked = bake(graph);
-        ASSERT_TRUE(baked.ok()) << baked.status().text();
+        ASSERT_TRUE(baked.has_value()) << baked.error().text();
         const std::string text = print_text(graph, *baked);
         const std::string dot = print_graphviz(graph, *baked);
         for (std::size_t i = 0; i < baked->passes.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(GraphPrint, SaysWhatWasBaked) {
               writes(records, Access::storage_write_in_compute)});
     add_pass(graph, "fill", PassKind::graphics, {writes(sign, Access::color_attachment)});
     const Expected<BakedGraph> baked = bake(graph);
-    ASSERT_TRUE(baked.ok()) << baked.status().text();
+    ASSERT_TRUE(baked.has_value()) << baked.error().text();
     EXPECT_EQ(print_text(graph, *baked),
               "passes\n"
               "0. fill (graphics, 48 x 32)\n"
@@ -120,7 +120,7 @@ TEST(GraphPrint, EscapesNames) {
     add_pass(graph, "fill\n\"all\" }", PassKind::graphics,
              {writes(image, Access::color_attachment)});
     const Expected<BakedGraph> baked = bake(graph);
-    ASSERT_TRUE(baked.ok()) << baked.status().text();
+    ASSERT_TRUE(baked.has_value()) << baked.error().text();
     const std::string dot = print_graphviz(graph, *baked);
     expect_well_formed(dot);
     EXPECT_TRUE(contains(dot, R"(the \"sign\" \\)")) << dot;

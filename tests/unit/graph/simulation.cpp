@@ -57,9 +57,9 @@ Need need(Access access) {
         case Access::storage_image_in_compute:
             return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                     VK_ACCESS_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
-        case Access::handed_over_buffer:
+        case Access::exported_buffer:
             return {shaders_of_users, VK_ACCESS_SHADER_READ_BIT, 0, VK_IMAGE_LAYOUT_UNDEFINED};
-        case Access::handed_over_image:
+        case Access::exported_image:
             return {shaders_of_users, VK_ACCESS_SHADER_READ_BIT, 0,
                     VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     }
@@ -213,10 +213,10 @@ private:
             }
             const Need wanted = need(*after);
             expect(!is_image(i) || layouts_[i] == wanted.layout, i,
-                   "is handed over in another layout");
+                   "is exported in another layout");
             for (const Event& event : memory_of(i).events) {
                 expect(!event.writes || event.is_settled_for(i, wanted.stages, wanted.access), i,
-                       "is handed over with a write that is not to be seen");
+                       "is exported with a write that is not to be seen");
             }
         }
     }

@@ -22,8 +22,8 @@ CurvePath path_data(const std::string& data) {
 
 std::vector<Ring> rings(const CurvePath& path, double deviation = 0.01) {
     auto result = tessellate(path, deviation);
-    EXPECT_TRUE(result.ok()) << result.status().text();
-    return result.ok() ? *result : std::vector<Ring>{};
+    EXPECT_TRUE(result.has_value()) << result.error().text();
+    return result.has_value() ? *result : std::vector<Ring>{};
 }
 
 void expect_same(const CurvePath& actual, const CurvePath& expected, const std::string& what) {

@@ -1,4 +1,4 @@
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +138,9 @@ private:
     std::mt19937 random_;
 };
 
-std::vector<NastyPolygon> named(std::vector<NastyPolygon> polygons, std::uint32_t width,
-                                std::uint32_t height, std::uint32_t seed) {
-    for (NastyPolygon& polygon : polygons) {
+std::vector<DegeneratePolygon> named(std::vector<DegeneratePolygon> polygons, std::uint32_t width,
+                                     std::uint32_t height, std::uint32_t seed) {
+    for (DegeneratePolygon& polygon : polygons) {
         polygon.name += " " + std::to_string(width) + "x" + std::to_string(height) + " seed " +
                         std::to_string(seed);
     }
@@ -149,8 +149,8 @@ std::vector<NastyPolygon> named(std::vector<NastyPolygon> polygons, std::uint32_
 
 }  // namespace
 
-std::vector<NastyPolygon> degenerate_polygons(std::uint32_t width, std::uint32_t height,
-                                              std::uint32_t seed) {
+std::vector<DegeneratePolygon> degenerate_polygons(std::uint32_t width, std::uint32_t height,
+                                                   std::uint32_t seed) {
     Generator make(width, height, seed);
     return named({{"soup", {make.soup(make.count(3, 40), 1.0)}},
                   {"big soup", {make.soup(make.count(3, 20), 3.0)}},
@@ -173,8 +173,8 @@ std::vector<NastyPolygon> degenerate_polygons(std::uint32_t width, std::uint32_t
                  width, height, seed);
 }
 
-std::vector<NastyPolygon> huge_polygons(std::uint32_t width, std::uint32_t height,
-                                        std::uint32_t seed) {
+std::vector<DegeneratePolygon> huge_polygons(std::uint32_t width, std::uint32_t height,
+                                             std::uint32_t seed) {
     Generator make(width, height, seed);
     const double scale = 2e6 / std::max(width, height);
     Ring mixed = make.soup(10, 1.0);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <tests/query/nasty_shapes.hpp>
-#include <tests/support/nasty_polygons.hpp>
+#include <tests/query/degenerate_shapes.hpp>
+#include <tests/support/degenerate_polygons.hpp>
 
 #include <utility>
 
@@ -23,10 +23,10 @@ Rings plain(const support::Rings& rings) {
 std::vector<NamedRings> degenerate_shapes(Context& context, std::uint32_t cells,
                                           std::uint64_t seed) {
     std::vector<NamedRings> shapes;
-    for (const support::NastyPolygon& degenerate :
+    for (const support::DegeneratePolygon& degenerate :
          support::degenerate_polygons(cells, cells, static_cast<std::uint32_t>(seed))) {
         Rings rings = plain(degenerate.rings);
-        if (const auto shape = context.add_shape(rings); shape.ok()) {
+        if (const auto shape = context.add_shape(rings); shape.has_value()) {
             EXPECT_TRUE(context.remove_shape(*shape).ok());
             shapes.push_back({degenerate.name, std::move(rings)});
         }

@@ -1,0 +1,188 @@
+#include <engine/context/implementation.hpp>
+#include <engine/context/read_structures.hpp>
+#include <engine/gpu/submission.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/select/default_costs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace nearfield {
+namespace {
+
+geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
+    return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
+}
+
+/// `device` is null for a context without one.
+plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings) {
+    plan::PlanLimits limits;
+    limits.memory = settings.memory_limit;
+    limits.hierarchy_height = settings.hierarchy_height;
+    limits.bounding_volume = settings.bounding_volume;
+    limits.techniques = {true, settings.techniques.raster, settings.techniques.compute};
+    if (device == nullptr) {
+        limits.techniques.device = false;
+        return limits;
+    }
+    limits.subpixel = subpixel_grid(*device);
+    limits.largest_atlas = std::min(limits.largest_atlas, device->limits().maxImageDimension2D);
+    limits.largest_image = device->limits().maxImageDimension2D;
+    limits.largest_range = device->limits().maxStorageBufferRange;
+    for (std::size_t i = 0; i < intersection_strategies; ++i) {
+        limits.missing_for_strategy[i] =
+            gpu::missing_for(static_cast<IntersectionStrategy>(i), device->strategy_support());
+    }
+    return limits;
+}
+
+CostModel costs_of(const gpu::Device* device, const Settings& settings) {
+    return settings.costs.value_or(default_costs(device == nullptr || device->is_software()
+                                                     ? select::DeviceClass::software
+                                                     : select::DeviceClass::hardware));
+}
+
+Settings without_device(Settings settings) {
+    settings.techniques = {.raster = false, .compute = false};
+    return settings;
+}
+
+Status no_device(const char* call) {
+    return {StatusCode::no_device,
+            std::string(call) + ": this context has no device (Context::create_cpu)"};
+}
+
+Status lost_device() {
+    return {StatusCode::device_lost,
+            "the device was lost in an earlier batch; destroy this context and make another"};
+}
+
+}  // namespace
+
+Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
+                                              const CostModel& costs, batch::ShapeStore& shapes)
+    : renderer(device == nullptr
+                   ? nullptr
+                   : std::make_unique<render::Renderer>(*device, settings.techniques)),
+      ring(settings.batches_in_flight, plan_limits(device, settings), costs, settings.jobs,
+           renderer.get(), shapes) {}
+
+Context::Implementation::Implementation(const Settings& settings)
+    : settings_(without_device(settings)),
+      costs_(costs_of(nullptr, settings)),
+      machinery_(make_machinery()),
+      lost_device_(lost_device()) {}
+
+Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own,
+                                        const HostDevice& host, const Settings& settings)
+    : own_device_(std::move(own)),
+      device_(std::make_unique<gpu::Device>(host)),
+      settings_(settings),
+      costs_(costs_of(device_.get(), settings)),
+      machinery_(make_machinery()),
+      lost_device_(lost_device()) {
+    device_->log(LogLevel::information, [&] {
+        return "context on '" + device_->name() + "' made in " +
+               std::to_string(making_.milliseconds()) + " ms, for " +
+               std::to_string(settings.batches_in_flight) + " batches in flight";
+    });
+}
+
+Context::Implementation::~Implementation() {
+    if (device_ != nullptr) {
+        device_->log(LogLevel::information, [&] {
+            return "context on '" + device_->name() + "' goes; it took at most " +
+                   std::to_string(device_->memory_count().peak()) + " bytes of device memory";
+        });
+    }
+}
+
+std::unique_ptr<Context::Implementation::Machinery> Context::Implementation::make_machinery() {
+    return std::make_unique<Machinery>(device_.get(), settings_, costs_, shapes_);
+}
+
+Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
+    std::span<const Instance> instances, double reach) {
+    if (!(reach >= 0.0 && reach <= largest_coordinate)) {
+        return Status(StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
+                                                     "; it must be a finite number of at least 0");
+    }
+    boxes_.clear();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
+        Status status = polygon == nullptr
+                            ? Status(StatusCode::unknown_shape, "its shape is none of this context")
+                            : plan::check_pose(instances[i].pose, "the instance");
+        if (!status.ok()) {
+            return Status(status.code(),
+                          "find_pairs: instance " + std::to_string(i) + ": " + status.message());
+        }
+        boxes_.push_back(geometry::TransformedPolygon(*polygon, instances[i].pose).box());
+    }
+    broad_phase_.find(boxes_, reach, box_pairs_);
+    instance_pairs_.clear();
+    for (const auto& [first, second] : box_pairs_) {
+        instance_pairs_.push_back({first, second});
+    }
+    return std::span<const InstancePair>(instance_pairs_);
+}
+
+Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submission& submission,
+                                                 Results* memory) {
+    Ticket ticket;
+    Status status = unless_lost([&] {
+        const Submission order = read_versioned(submission);
+        if (device_ != nullptr) {
+            gpu::check_semaphores(*device_, order);
+        } else if (!order.waits.empty() || !order.signals.empty()) {
+            throw StatusException(no_device("submit with semaphores"));
+        }
+        ticket = machinery_->ring.submit(batch.queries(), order, memory);
+    });
+    return status.ok() ? Expected<Ticket>(ticket) : status;
+}
+
+Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recording& recording) {
+    if (device_ == nullptr) {
+        return no_device("record");
+    }
+    Ticket ticket;
+    Status status = unless_lost(
+        [&] { ticket = machinery_->ring.record(batch.queries(), read_versioned(recording)); });
+    return status.ok() ? Expected<Ticket>(ticket) : status;
+}
+
+Status Context::Implementation::collect(Ticket ticket, Results& results) {
+    if (lost_) {
+        Status status = catch_to_status([&] { machinery_->ring.drop(ticket); });
+        return status.ok() ? lost_device_ : status;
+    }
+    return unless_lost([&] { machinery_->ring.collect(ticket, results); });
+}
+
+#ifdef NEARFIELD_SHADER_RELOAD
+std::uint32_t Context::Implementation::reload_shaders(const char* folder) {
+    if (device_ == nullptr) {
+        throw StatusException(no_device("reload_shaders"));
+    }
+    machinery_->ring.require_none_in_flight("reload_shaders");
+    if (!reload_) {
+        reload_.emplace(*device_);
+    }
+    const std::uint32_t changed = reload_->compile_changed(folder);
+    if (changed > 0) {
+        try {
+            auto other = make_machinery();
+            other->ring.count_on_from(machinery_->ring);
+            machinery_ = std::move(other);
+        } catch (...) {
+            reload_->take_back();
+            throw;
+        }
+    }
+    return changed;
+}
+#endif
+
+}  // namespace nearfield

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <engine/base/catch_to_status.hpp>
+#include <engine/base/stopwatch.hpp>
+#include <engine/batch/batch_ring.hpp>
+#include <engine/batch/shape_store.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/headless.hpp>
+#include <engine/localize/broad_phase.hpp>
+#include <engine/render/renderer.hpp>
+#include <nearfield/context.hpp>
+#ifdef NEARFIELD_SHADER_RELOAD
+#include <engine/reload/shader_reload.hpp>
+#endif
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nearfield {
+
+/// What a context consists of.
+class Context::Implementation {
+    /// Everything made from pipelines, and the memory they work on.
+    struct Machinery {
+        Machinery(const gpu::Device* device, const Settings& settings, const CostModel& costs,
+                  batch::ShapeStore& shapes);
+
+        std::unique_ptr<render::Renderer> renderer;  // null without a device
+        batch::BatchRing ring;
+    };
+
+public:
+    /// Without a device.
+    explicit Implementation(const Settings& settings);
+    /// On the host's device, or on the context's own, which `host` then describes.
+    Implementation(std::unique_ptr<gpu::HeadlessDevice> own, const HostDevice& host,
+                   const Settings& settings);
+    ~Implementation();
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    Expected<std::span<const InstancePair>> find_pairs(std::span<const Instance> instances,
+                                                       double reach);
+    Expected<Ticket> submit(const Batch& batch, const Submission& submission, Results* memory);
+    Expected<Ticket> record(const Batch& batch, const Recording& recording);
+    void frame_completed(std::uint64_t frame) { machinery_->ring.complete(frame); }
+    bool is_ready(Ticket ticket) { return lost_ || machinery_->ring.is_ready(ticket); }
+    Status collect(Ticket ticket, Results& results);
+
+    template <class Resident, class Query>
+    Expected<Resident> resident(Ticket ticket, QueryHandle<Query> query) {
+        Resident result;
+        Status status = unless_lost([&] { result = machinery_->ring.resident(ticket, query); });
+        return status.ok() ? Expected<Resident>(result) : status;
+    }
+
+    [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
+
+    [[nodiscard]] batch::ShapeStore& shapes() { return shapes_; }
+    /// Null without a device, as the renderer is.
+    [[nodiscard]] const gpu::Device* device() const { return device_.get(); }
+    [[nodiscard]] const CostModel& costs() const { return costs_; }
+    [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
+    [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
+
+    /// Runs an action unless the device is lost; records the loss of the device.
+    template <class Action>
+    Status unless_lost(Action&& action) noexcept {
+        if (lost_) {
+            return lost_device_;
+        }
+        Status status = catch_to_status(action);
+        if (status.code() == StatusCode::device_lost) {
+            lost_ = true;
+            device_->log(LogLevel::error,
+                         [&] { return "the device is lost: " + status.message(); });
+        }
+        return status;
+    }
+
+#ifdef NEARFIELD_SHADER_RELOAD
+    std::uint32_t reload_shaders(const char* folder);
+#endif
+
+private:
+    [[nodiscard]] std::unique_ptr<Machinery> make_machinery();
+
+    Stopwatch making_;
+    std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
+    std::unique_ptr<gpu::Device> device_;              // null in a context without one
+    const Settings settings_;
+    CostModel costs_;
+    batch::ShapeStore shapes_;
+    localize::BroadPhase broad_phase_;
+    std::vector<geometry::Box> boxes_;
+    std::vector<localize::BroadPhase::Pair> box_pairs_;
+    std::vector<InstancePair> instance_pairs_;
+    std::unique_ptr<Machinery> machinery_;
+#ifdef NEARFIELD_SHADER_RELOAD
+    std::optional<reload::ShaderReload> reload_;
+#endif
+    const Status lost_device_;  // made in advance: returning it needs no memory
+    bool lost_ = false;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <nearfield/context.hpp>
+#include <nearfield/cost.hpp>
+#include <nearfield/export.hpp>
+#include <nearfield/query.hpp>
+#include <nearfield/requirements.hpp>
+#include <nearfield/status.hpp>
+#include <nearfield/tile.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// \file
+/// What a program does not need for its answers, but a person to understand and tune it: devices
+/// and what they lack, the render graph, tiles, costs, and the reloading of shaders.
+///
+/// Threads: functions that take a context follow the rules of its own functions (Context).
+
+namespace nearfield {
+
+/// The requirements of one intersection strategy that a device does not meet.
+struct StrategyReport {
+    IntersectionStrategy strategy{};   ///< the strategy that the report is about
+    std::vector<std::string> missing;  ///< unmet requirements; empty: the strategy is available
+};
+
+/// One Vulkan device: whether nearfield can use it, and every reason if not.
+struct DeviceReport {
+    std::string name;                  ///< as reported by the driver
+    std::string driver;                ///< driver version and Vulkan version
+    bool usable = false;               ///< `missing` is empty
+    std::vector<std::string> missing;  ///< unmet base requirements
+    /// Optional parts (Requirements::optional).
+    std::vector<OptionalPart> optional;
+    /// Every strategy, as in a headless context, which enables the features that the device has.
+    std::vector<StrategyReport> strategies;
+};
+
+/// Lists the devices of all installed Vulkan drivers, without creating a device on any of them.
+/// Fails only if there is no Vulkan loader or no instance can be created. Thread-safe.
+[[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<DeviceReport>> list_devices();
+
+/// Measures what each technique costs on this machine, by small synthetic workloads. The result is
+/// for Settings::costs of later contexts; nothing changes in this one. Techniques that this context
+/// does not have keep their Context::costs(). Takes seconds, during which the machine should be
+/// otherwise idle. `progress`, if given, is called with the fraction done, up to 1. Fails with
+/// ring_full if no further batch can be in flight, and as Context::run() does.
+[[nodiscard]] NEARFIELD_EXPORT Expected<CostModel> measure_costs(
+    Context& context, const std::function<void(double)>& progress = {});
+
+/// Output format of describe_graph().
+enum class GraphFormat {
+    text,      ///< plain text
+    graphviz,  ///< a graph in the DOT language
+};
+
+/// The render graph of the last batch submitted or recorded: passes, resources, lifetimes,
+/// barriers. Empty before the first batch and in a context without a device. Fails with
+/// invalid_settings if `format` is not a valid enumerator, or with out_of_memory.
+[[nodiscard]] NEARFIELD_EXPORT Expected<std::string> describe_graph(const Context& context,
+                                                                    GraphFormat format);
+
+/// The tiles of the last batch submitted or recorded, collected or not; costs nothing unless
+/// called. Ordered by query, and within a query by its points or row by row. Empty before the first
+/// batch, after a batch that failed as a whole, and if the CPU answered everything. The field
+/// around contacts with gradient normals, which is a submission of its own, is not included. Fails
+/// only with out_of_memory.
+[[nodiscard]] NEARFIELD_EXPORT Expected<std::vector<TileReport>> list_tiles(const Context& context);
+
+/// Development aid: recompiles the shaders whose sources changed since this context last loaded
+/// them and rebuilds the pipelines of those whose code differs from the code in use; later batches
+/// use the new pipelines. Returns the number of shaders replaced; 0: nothing changed. Waits for the
+/// compiler that the library was built with, run as a separate process; the first call compiles all
+/// shaders, which takes seconds. Does not wait for the device.
+///
+/// `folder`: the folder of the sources; null: the folder that the library was built from.
+///
+/// Fails with unavailable if the library was built without the CMake option
+/// NEARFIELD_SHADER_RELOAD, as release builds are; with no_device in a context without one; with
+/// not_ready while batches are in flight; with invalid_shader if a source cannot be read or
+/// compiled (the compiler's messages are the reasons and go to the log); as Context::create() does
+/// if the device rejects a pipeline. The shaders in use then stay in use.
+[[nodiscard]] NEARFIELD_EXPORT Expected<std::uint32_t> reload_shaders(Context& context,
+                                                                      const char* folder = nullptr);
+
+}  // namespace nearfield
