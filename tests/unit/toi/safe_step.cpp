@@ -1,0 +1,185 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/toi/conservative_advancement.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/unit/support/shape_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace nearfield::toi {
+namespace {
+
+using geometry::Polygon;
+using geometry::Vector;
+
+/// Two polygons that move.
+struct Moving {
+    Polygon a;
+    Polygon b;
+    Pose start_a;
+    Pose end_a;
+    Pose start_b;
+    Pose end_b;
+
+    [[nodiscard]] Motion of_a() const { return {a, start_a, end_a}; }
+    [[nodiscard]] Motion of_b() const { return {b, start_b, end_b}; }
+};
+
+std::vector<Vector> vertices_at(const Motion& motion, double time) {
+    const geometry::TransformedPolygon placed(motion.polygon(), motion.at(time));
+    std::vector<Vector> vertices;
+    for (std::uint32_t i = 0; i < motion.polygon().vertices().size(); ++i) {
+        vertices.push_back(placed.vertex(i));
+    }
+    return vertices;
+}
+
+/// The distance of the boundaries of polygons of one ring, by brute force.
+double distance_at(const Motion& a, const Motion& b, double time) {
+    const std::vector<Vector> of_a = vertices_at(a, time);
+    const std::vector<Vector> of_b = vertices_at(b, time);
+    double squared = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+        for (std::size_t k = 0; k < of_b.size(); ++k) {
+            squared = std::min(squared,
+                               geometry::closest_of_segments(of_a[i], of_a[(i + 1) % of_a.size()],
+                                                             of_b[k], of_b[(k + 1) % of_b.size()])
+                                   .squared_distance);
+        }
+    }
+    return std::sqrt(squared);
+}
+
+/// The time of the first step from 0: that after which a search of two queries has arrived.
+Impact after_one_step(const Moving& pair, double contact_distance = 0.0) {
+    const Motion a = pair.of_a();
+    const Motion b = pair.of_b();
+    ConservativeAdvancement finder;
+    return finder.find(a, b, {1e-9, 1.0, 2, contact_distance});
+}
+
+Polygon square(double half) {
+    return samples::polygon({samples::rectangle(-half, -half, half, half)});
+}
+
+TEST(SafeStep, OfATranslationLeavesAnEighthOfTheDistance) {
+    Moving pair{square(1.0), square(1.0), {{-3.0, 0.3}, 0.0}, {{7.0, 0.3}, 0.0}, {}, {}};
+    // 1 apart, 10 towards each other.
+    EXPECT_NEAR(after_one_step(pair).time, 7.0 / 8.0 / 10.0, 1e-9);
+    // Of a quarter that shapes keep, the rest is divided.
+    EXPECT_NEAR(after_one_step(pair, 0.25).time, 7.0 / 8.0 * 0.75 / 10.0, 1e-9);
+    // Both move.
+    pair.end_b = {{-5.0, 0.0}, 0.0};
+    EXPECT_NEAR(after_one_step(pair).time, 7.0 / 8.0 / 15.0, 1e-9);
+    // Whatever goes away never touches.
+    pair.end_b = {{12.0, 0.0}, 0.0};
+    EXPECT_EQ(after_one_step(pair).kind, Impact::Kind::none);
+}
+
+/// A bar that swings round a point far away first goes straight past a tip, to which only the
+/// acceleration of the bar's ends brings it. `bar_is_a`: which of the two swings.
+Moving swinging_bar(bool bar_is_a, double turn) {
+    const Polygon bar = samples::polygon({samples::rectangle(-0.01, 9.99, 0.01, 10.01)});
+    // Where the bar is after an angle of 0.3, less the bar.
+    const Polygon tip =
+        samples::polygon({{{-10.0 * std::sin(0.3) - 0.05, 10.0 * std::cos(0.3) - 0.05},
+                           {-10.0 * std::sin(0.3) + 0.05, 10.0 * std::cos(0.3) - 0.05},
+                           {-10.0 * std::sin(0.3), 10.0 * std::cos(0.3) + 0.05}}});
+    const Pose end{{0.0, 0.0}, turn};
+    return bar_is_a ? Moving{bar, tip, {}, end, {}, {}} : Moving{tip, bar, {}, {}, {}, end};
+}
+
+TEST(SafeStep, SeesAnEdgeThatSwingsOntoATip) {
+    for (const bool bar_is_a : {true, false}) {
+        for (const double turn : {0.4, 1.0, 3.0, 6.0}) {
+            const Moving pair = swinging_bar(bar_is_a, turn);
+            const Motion a = pair.of_a();
+            const Motion b = pair.of_b();
+            ConservativeAdvancement finder;
+            const Impact impact = finder.find(a, b, {1e-6, 1.0, 1000, 0.0});
+            ASSERT_EQ(impact.kind, Impact::Kind::found) << "turn " << turn;
+            EXPECT_NEAR(impact.time * turn, 0.3, 0.01);
+        }
+    }
+}
+
+Polygon any_polygon(samples::Random& random) {
+    const double size = random.between(0.02, 1.0);
+    samples::Rings rings{random.below(2) == 0
+                             ? samples::star(random, 3 + random.below(4), 0.3 * size, size)
+                             : samples::rectangle(-size, -0.1 * size, size, 0.1 * size)};
+    // Often far from the point that it turns about.
+    const double arm = random.below(3) == 0 ? 0.0 : 4.0;
+    return samples::polygon(
+        samples::moved(rings, random.between(-arm, arm), random.between(-arm, arm)));
+}
+
+Moving any_pair(samples::Random& random) {
+    const auto pose = [&random](double turn) {
+        return Pose{{random.between(-4.0, 4.0), random.between(-4.0, 4.0)},
+                    random.below(4) == 0 ? 0.0 : random.between(-turn, turn)};
+    };
+    return {any_polygon(random), any_polygon(random), pose(3.0), pose(9.0), pose(3.0), pose(9.0)};
+}
+
+/// Whether two polygons of one ring share a point with each other, boundary or not, at the start.
+TEST(SafeStep, IsNeverTooLongForAnyMotion) {
+    samples::Random random(501);
+    ConservativeAdvancement finder;
+    int moved = 0;
+    for (int i = 0; i < 6000; ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        const Moving pair = any_pair(random);
+        const double keep = i % 3 == 0 ? 0.1 : 0.0;
+        const Impact impact = after_one_step(pair, keep);
+        if (impact.kind == Impact::Kind::at_start || impact.time == 0.0) {
+            continue;
+        }
+        ++moved;
+        const Motion a = pair.of_a();
+        const Motion b = pair.of_b();
+        const double kept = keep + (distance_at(a, b, 0.0) - keep) / 8.0;
+        constexpr int looks = 48;
+        for (int k = 0; k <= looks; ++k) {
+            const double time = impact.time * k / looks;
+            ASSERT_GE(distance_at(a, b, time), kept - 1e-9)
+                << "at " << time << " of a step of " << impact.time;
+        }
+    }
+    EXPECT_GT(moved, 3000);
+}
+
+TEST(SafeStep, ACertifiedDistanceIsKeptUntilTheContact) {
+    samples::Random random(502);
+    ConservativeAdvancement finder;
+    int hits = 0;
+    for (int i = 0; i < 800; ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        const Moving pair = any_pair(random);
+        const Motion a = pair.of_a();
+        const Motion b = pair.of_b();
+        const Impact impact = finder.find(a, b, {1e-4, 1.0, 1000, 0.0});
+        if (impact.kind == Impact::Kind::at_start) {
+            continue;
+        }
+        hits += impact.kind == Impact::Kind::found ? 1 : 0;
+        double least = std::numeric_limits<double>::infinity();
+        constexpr int looks = 400;
+        for (int k = 0; k <= looks; ++k) {
+            least = std::min(least, distance_at(a, b, impact.time * k / looks));
+        }
+        ASSERT_GE(least, impact.min_distance);
+        ASSERT_GT(least, 0.0);
+        if (impact.touch_at_latest && impact.latest < 1.0) {
+            EXPECT_LE(distance_at(a, b, impact.time), 1e-4 + impact.rounding);
+        }
+    }
+    EXPECT_GT(hits, 100);
+}
+
+}  // namespace
+}  // namespace nearfield::toi
