@@ -352,7 +352,7 @@ struct Results {
     }
 
 private:
-    enum class NoResult : std::uint8_t { out_of_range, other_kind };
+    enum class NoResult : std::uint8_t { out_of_range /**< index */, other_kind /**< type */ };
     NEARFIELD_EXPORT static Status status_of(NoResult fault) noexcept;
     template <class Result>
     static Result no_result(NoResult fault) noexcept {
