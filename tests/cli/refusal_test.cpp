@@ -60,11 +60,11 @@ TEST_F(Refused, BrokenWellKnownTextByLineAndColumn) {
 TEST_F(Refused, WhatIsNoPolygon) {
     expect_bad_outline("line.wkt", "LINESTRING (0 0, 1 1)", {"LINESTRING"});
     expect_bad_outline("line.geojson", R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})",
-                       {"type", "LineString"});
+                       {"no polygon", "LineString"});
     expect_bad_outline("list.geojson", "[]", {"object"});
     expect_bad_outline("other.xml", "<polygon/>", {"1:2", "not svg"});
     expect_bad_outline("none.wkt", "POLYGON EMPTY", {"empty"});
-    expect_bad_outline("none.geojson", R"({"type": "Polygon", "coordinates": []})", {"rings"});
+    expect_bad_outline("none.geojson", R"({"type": "Polygon", "coordinates": []})", {"empty"});
 }
 
 TEST_F(Refused, RingsThatEncloseNothingByTheirNumber) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -38,60 +39,92 @@ Ring parse_ring(const JsonPlace& place) {
     return ring;
 }
 
-void append_multi_polygon(const JsonPlace& coordinates, std::vector<Ring>& rings) {
-    const std::size_t count = coordinates.require_array().value().size();
-    if (count == 0) {
-        coordinates.fail("a MultiPolygon without polygons");
-    }
-    for (std::size_t polygon = 0; polygon < count; ++polygon) {
-        append_rings(coordinates.element(polygon), rings);
-    }
-}
+/// The geometries of a document, one after the other.
+class GeojsonReader {
+public:
+    explicit GeojsonReader(SkippedParts& skipped) : skipped_(skipped) {}
 
-/// The maximum nesting of collections: untrusted input must not exhaust the stack.
-constexpr int deepest_collection = 64;
+    std::vector<Ring> read(const JsonPlace& root) {
+        const std::string& type = root.member("type").string();
+        if (type == "Feature") {
+            read_feature(root);
+        } else if (type == "FeatureCollection") {
+            read_features(root.member("features"));
+        } else {
+            read_geometry(root, 0);
+        }
+        if (rings_.empty()) {
+            root.fail(skipped_.no_polygon_text());
+        }
+        return std::move(rings_);
+    }
 
-void append_geometry(const JsonPlace& geometry, std::vector<Ring>& rings, int depth = 0) {
-    const JsonPlace type = geometry.member("type");
-    if (type.string() == "Polygon") {
-        append_rings(geometry.member("coordinates"), rings);
-    } else if (type.string() == "MultiPolygon") {
-        append_multi_polygon(geometry.member("coordinates"), rings);
-    } else if (type.string() == "GeometryCollection") {
-        const JsonPlace geometries = geometry.member("geometries");
-        const std::size_t count = geometries.require_array().value().size();
+private:
+    void read_geometry(const JsonPlace& geometry, int depth) {
+        const JsonPlace type = geometry.member("type");
+        const std::string& name = type.string();
+        if (name == "Polygon") {
+            read_polygon(geometry.member("coordinates"));
+        } else if (name == "MultiPolygon") {
+            const JsonPlace coordinates = geometry.member("coordinates");
+            for (std::size_t index = 0, count = count_of(coordinates); index < count; ++index) {
+                read_polygon(coordinates.element(index));
+            }
+        } else if (name == "GeometryCollection") {
+            if (depth == deepest_collection) {
+                type.fail("collections nested too deep");
+            }
+            const JsonPlace geometries = geometry.member("geometries");
+            for (std::size_t index = 0, count = count_of(geometries); index < count; ++index) {
+                read_geometry(geometries.element(index), depth + 1);
+            }
+        } else if (name == "Point" || name == "MultiPoint" || name == "LineString" ||
+                   name == "MultiLineString") {
+            skipped_.add(name);
+        } else {
+            type.fail("\"" + name + "\" is none of Polygon, MultiPolygon, GeometryCollection");
+        }
+    }
+
+    void read_polygon(const JsonPlace& coordinates) {
+        if (count_of(coordinates) > 0) {
+            append_rings(coordinates, rings_);
+        }
+    }
+
+    /// The size of an array, which is counted where it is empty.
+    std::size_t count_of(const JsonPlace& array) {
+        const std::size_t count = array.require_array().value().size();
         if (count == 0) {
-            geometries.fail("a GeometryCollection without geometries");
+            skipped_.add(empty_part);
         }
-        if (depth == deepest_collection) {
-            type.fail("collections nested too deep");
+        return count;
+    }
+
+    void read_feature(const JsonPlace& feature) {
+        const JsonPlace geometry = feature.member("geometry");
+        if (geometry.value().is_null()) {
+            skipped_.add("feature without geometry");
+        } else {
+            read_geometry(geometry, 0);
         }
+    }
+
+    void read_features(const JsonPlace& features) {
+        const std::size_t count = features.require_array().value().size();
         for (std::size_t index = 0; index < count; ++index) {
-            append_geometry(geometries.element(index), rings, depth + 1);
+            const JsonPlace feature = features.element(index);
+            const JsonPlace type = feature.member("type");
+            if (type.string() != "Feature") {
+                type.fail("\"" + type.string() + "\" is not Feature");
+            }
+            read_feature(feature);
         }
-    } else {
-        type.fail("\"" + type.string() + "\" is none of Polygon, MultiPolygon, GeometryCollection");
     }
-}
 
-void append_feature(const JsonPlace& feature, std::vector<Ring>& rings) {
-    append_geometry(feature.member("geometry"), rings);
-}
-
-void append_collection(const JsonPlace& features, std::vector<Ring>& rings) {
-    const std::size_t count = features.require_array().value().size();
-    if (count == 0) {
-        features.fail("a FeatureCollection without features");
-    }
-    for (std::size_t index = 0; index < count; ++index) {
-        const JsonPlace feature = features.element(index);
-        const JsonPlace type = feature.member("type");
-        if (type.string() != "Feature") {
-            type.fail("\"" + type.string() + "\" is not Feature");
-        }
-        append_feature(feature, rings);
-    }
-}
+    SkippedParts& skipped_;
+    std::vector<Ring> rings_;
+};
 
 }  // namespace
 
@@ -105,19 +138,15 @@ void append_rings(const JsonPlace& coordinates, std::vector<Ring>& rings) {
     }
 }
 
-std::vector<Ring> parse_geojson(const std::string& text, const std::string& file) {
+std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
+                                SkippedParts& skipped) {
     const json document = parse_json(text, file);
-    const JsonPlace root(document, file);
-    const std::string& type = root.member("type").string();
-    std::vector<Ring> rings;
-    if (type == "Feature") {
-        append_feature(root, rings);
-    } else if (type == "FeatureCollection") {
-        append_collection(root.member("features"), rings);
-    } else {
-        append_geometry(root, rings);
-    }
-    return rings;
+    return GeojsonReader(skipped).read(JsonPlace(document, file));
+}
+
+std::vector<Ring> parse_geojson(const std::string& text, const std::string& file) {
+    SkippedParts skipped;
+    return parse_geojson(text, file, skipped);
 }
 
 }  // namespace nearfield::tools

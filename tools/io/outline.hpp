@@ -2,6 +2,9 @@
 
 #include <nearfield/curve.hpp>
 
+#include <tools/io/skipped_parts.hpp>
+
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,7 @@ struct Outline {
     std::string file;
     std::vector<Ring> rings;  ///< empty if there is a path
     CurvePath path;
+    SkippedParts skipped = {};  ///< what else the file holds
 
     /// True if tessellation deviates from the outline.
     [[nodiscard]] bool curved() const;
@@ -26,10 +30,12 @@ struct OutlineRings {
 /// The default deviation of tessellated curves, as a fraction of the tolerance.
 inline constexpr double usual_deviation = 1.0 / 16.0;
 
-/// Reads the outline in a GeoJSON, WKT, SVG or SVG path data file. The extension (.geojson, .json,
-/// .wkt, .svg, .path) determines the format; with any other extension, the first characters do.
-/// Throws InputError.
+/// The outline of a GeoJSON, WKT, WKB, SVG or SVG path data file. The extension (.geojson, .json,
+/// .wkt, .wkb, .svg, .path) says which it is; with any other the first characters do. Hexadecimal
+/// WKB may stand in place of WKT or WKB. Throws InputError.
 [[nodiscard]] Outline read_outline(const std::string& path);
+/// Likewise from a stream, whose first characters say what it is; `name` is for the messages.
+[[nodiscard]] Outline read_outline(std::istream& stream, const std::string& name);
 
 /// The rings of an outline, whose curves deviate by at most `deviation`. Throws InputError.
 [[nodiscard]] OutlineRings tessellate_outline(const Outline& outline, double deviation);

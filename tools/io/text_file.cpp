@@ -10,7 +10,15 @@
 
 namespace nearfield::tools {
 
-std::string read_text(const std::string& path) {
+std::string read_bytes(std::istream& stream, const std::string& name) {
+    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (stream.bad()) {
+        throw InputError(name + ": cannot be read: " + std::strerror(errno));
+    }
+    return bytes;
+}
+
+std::string read_bytes(const std::string& path) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
         throw InputError(path + ": is a folder, not a file");
@@ -20,20 +28,24 @@ std::string read_text(const std::string& path) {
     if (!file) {
         throw InputError(path + ": cannot be opened: " + std::strerror(errno));
     }
-    std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (file.bad()) {
-        throw InputError(path + ": cannot be read: " + std::strerror(errno));
+    return read_bytes(file, path);
+}
+
+std::string to_text(std::string bytes, const std::string& name) {
+    if (bytes.starts_with("\xEF\xBB\xBF")) {
+        bytes.erase(0, 3);
     }
-    if (text.starts_with("\xEF\xBB\xBF")) {
-        text.erase(0, 3);
+    if (bytes.find_first_not_of(" \t\r\n") == std::string::npos) {
+        throw InputError(name + ": is empty");
     }
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-        throw InputError(path + ": is empty");
+    if (const std::size_t zero = bytes.find('\0'); zero != std::string::npos) {
+        throw InputError(name + ": is not text: a zero byte at offset " + std::to_string(zero));
     }
-    if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
-        throw InputError(path + ": is not text: a zero byte at offset " + std::to_string(zero));
-    }
-    return text;
+    return bytes;
+}
+
+std::string read_text(const std::string& path) {
+    return to_text(read_bytes(path), path);
 }
 
 std::string text_position(const std::string& path, std::string_view text, std::size_t offset) {

@@ -1,13 +1,24 @@
 #pragma once
 
 #include <cstddef>
+#include <istream>
 #include <string>
 #include <string_view>
 
 namespace nearfield::tools {
 
-/// Reads a text file, without a leading UTF-8 byte order mark. Throws InputError if it is missing,
-/// unreadable, a folder, empty or not text.
+/// The bytes of a file. Throws InputError for what is missing, unreadable or a
+/// folder.
+[[nodiscard]] std::string read_bytes(const std::string& path);
+/// All that a stream still has; `name` is for the messages.
+[[nodiscard]] std::string read_bytes(std::istream& stream, const std::string& name);
+
+/// Bytes as text: without a leading UTF-8 byte order mark. Throws InputError where nothing else is
+/// there, or where a zero byte says that it is no text.
+[[nodiscard]] std::string to_text(std::string bytes, const std::string& name);
+
+/// The text of a file, without a leading UTF-8 byte order mark. Throws InputError for what is
+/// missing, unreadable, a folder, empty or not text.
 [[nodiscard]] std::string read_text(const std::string& path);
 
 /// "FILE:LINE:COLUMN" of a byte in a text; lines and columns (in bytes) start at 1.

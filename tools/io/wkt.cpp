@@ -4,11 +4,13 @@
 #include <tools/io/wkt.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace nearfield::tools {
 namespace {
@@ -17,31 +19,52 @@ char to_upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
+enum class Kind { polygon, multi_polygon, collection, point_or_line };
+
+struct NamedKind {
+    std::string_view name;
+    Kind kind;
+};
+
+/// None is the beginning of another: a dimension may be glued to a name.
+constexpr std::array<NamedKind, 8> kinds{{
+    {"POLYGON", Kind::polygon},
+    {"MULTIPOLYGON", Kind::multi_polygon},
+    {"GEOMETRYCOLLECTION", Kind::collection},
+    {"POINT", Kind::point_or_line},
+    {"MULTIPOINT", Kind::point_or_line},
+    {"LINESTRING", Kind::point_or_line},
+    {"LINEARRING", Kind::point_or_line},
+    {"MULTILINESTRING", Kind::point_or_line},
+}};
+
 class WktParser {
 public:
-    WktParser(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+    WktParser(std::string_view text, const std::string& file, SkippedParts& skipped)
+        : text_(text), file_(file), skipped_(skipped) {}
 
     std::vector<Ring> parse() {
         skip_reference_system();
         const std::size_t start = (skip_space(), position_);
-        std::string type = word();
-        read_dimension(type);
-        if (type == "POLYGON") {
-            parse_polygon();
-        } else if (type == "MULTIPOLYGON") {
-            parse_list([this] { parse_polygon(); });
-        } else {
-            fail(start, type.empty() ? "expected POLYGON or MULTIPOLYGON"
-                                     : "\"" + type + "\" is neither POLYGON nor MULTIPOLYGON");
-        }
+        parse_geometry(0);
+        accept(';');
         skip_space();
         if (position_ < text_.size()) {
             fail(position_, "text after the end of the geometry");
+        }
+        if (rings_.empty()) {
+            fail(start, skipped_.no_polygon_text());
         }
         return std::move(rings_);
     }
 
 private:
+    /// How many numbers a position has.
+    struct Ordinates {
+        std::size_t fewest = 2;
+        std::size_t most = 4;
+    };
+
     [[noreturn]] void fail(std::size_t position, const std::string& reason) const {
         throw InputError(text_position(file_, text_, position) + ": " + reason);
     }
@@ -74,38 +97,64 @@ private:
         position_ = end + 1;
     }
 
-    /// Reads Z, M or ZM, attached to the type or as a separate word, and sets the number of
-    /// ordinates.
-    void read_dimension(std::string& type) {
-        std::string tag;
-        for (const std::string_view name : {"MULTIPOLYGON", "POLYGON"}) {
-            if (type.starts_with(name) && type.size() > name.size()) {
-                tag = type.substr(name.size());
-                type.resize(name.size());
-            }
+    void parse_geometry(int depth) {
+        const std::size_t start = (skip_space(), position_);
+        const std::string type = word();
+        const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const NamedKind& named) {
+            return type.starts_with(named.name);
+        });
+        if (found == kinds.end()) {
+            fail(start, type.empty() ? "expected POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION"
+                                     : "\"" + type +
+                                           "\" is none of POLYGON, MULTIPOLYGON, "
+                                           "GEOMETRYCOLLECTION");
         }
+        const Ordinates around = ordinates_;
+        read_dimension(type.substr(found->name.size()));
+        switch (found->kind) {
+            case Kind::polygon:
+                parse_polygon();
+                break;
+            case Kind::multi_polygon:
+                parse_part([this] { parse_polygon(); });
+                break;
+            case Kind::collection:
+                if (depth == deepest_collection) {
+                    fail(start, "collections nested too deep");
+                }
+                parse_part([this, depth] { parse_geometry(depth + 1); });
+                break;
+            case Kind::point_or_line:
+                skipped_.add(found->name);
+                skip_positions();
+                break;
+        }
+        ordinates_ = around;
+    }
+
+    /// Takes Z, M or ZM, glued to the type or a word of its own, and fixes the number of ordinates.
+    void read_dimension(std::string tag) {
         const std::size_t start = (skip_space(), position_);
         if (tag.empty()) {
             tag = word();
         }
         if (tag == "EMPTY") {
-            fail(start, "an empty geometry");
-        }
-        if (tag == "Z" || tag == "M") {
-            fewest_ordinates_ = max_ordinates_ = 3;
+            position_ = start;
+        } else if (tag == "Z" || tag == "M") {
+            ordinates_ = {3, 3};
         } else if (tag == "ZM") {
-            fewest_ordinates_ = max_ordinates_ = 4;
+            ordinates_ = {4, 4};
         } else if (!tag.empty()) {
             fail(start, "\"" + tag + "\" is none of Z, M, ZM");
         }
     }
 
-    /// Parses "( item, item, ... )"; EMPTY is an error.
+    /// "( item, item, ... )"; false where EMPTY stands in its place.
     template <class Item>
-    void parse_list(Item item) {
+    bool parse_list(Item item) {
         const std::size_t start = (skip_space(), position_);
         if (word() == "EMPTY") {
-            fail(start, "an empty geometry");
+            return false;
         }
         position_ = start;
         expect('(');
@@ -114,32 +163,68 @@ private:
             item();
         }
         expect(')');
+        return true;
+    }
+
+    /// A list that is counted where it is EMPTY.
+    template <class Item>
+    bool parse_part(Item item) {
+        const bool any = parse_list(item);
+        if (!any) {
+            skipped_.add(empty_part);
+        }
+        return any;
     }
 
     void parse_polygon() {
-        parse_list([this] {
-            rings_.emplace_back();
-            parse_list([this] { parse_position(); });
+        bool is_first = true;
+        bool has_outer_ring = true;
+        parse_part([&] {
+            const std::size_t start = (skip_space(), position_);
+            Ring ring;
+            const bool any = parse_part([&] { ring.push_back(parse_position()); });
+            if (any && !has_outer_ring) {
+                fail(start, "an inner ring whose outer ring is EMPTY");
+            }
+            if (any) {
+                rings_.push_back(std::move(ring));
+            }
+            has_outer_ring = has_outer_ring && (any || !is_first);
+            is_first = false;
         });
     }
 
-    void parse_position() {
+    /// The positions of points and lines: one, a list, or a list of lists.
+    void skip_positions() {
+        parse_list([this] {
+            const std::size_t start = (skip_space(), position_);
+            const bool is_list = accept('(') || word() == "EMPTY";
+            position_ = start;
+            if (is_list) {
+                parse_list([this] { static_cast<void>(parse_position()); });
+            } else {
+                static_cast<void>(parse_position());
+            }
+        });
+    }
+
+    Vector2 parse_position() {
         const std::size_t start = (skip_space(), position_);
         double ordinates[4] = {};
         std::size_t count = 0;
         do {
-            if (count == max_ordinates_) {
+            if (count == ordinates_.most) {
                 fail(position_,
-                     "a position has at most " + std::to_string(max_ordinates_) + " numbers here");
+                     "a position has at most " + std::to_string(ordinates_.most) + " numbers here");
             }
             ordinates[count++] = parse_number();
             skip_space();
         } while (position_ < text_.size() && text_[position_] != ',' && text_[position_] != ')');
-        if (count < fewest_ordinates_) {
-            fail(start, "a position needs " + std::to_string(fewest_ordinates_) +
+        if (count < ordinates_.fewest) {
+            fail(start, "a position needs " + std::to_string(ordinates_.fewest) +
                             " numbers here, not " + std::to_string(count));
         }
-        rings_.back().push_back({ordinates[0], ordinates[1]});
+        return {ordinates[0], ordinates[1]};
     }
 
     double parse_number() {
@@ -190,16 +275,17 @@ private:
 
     std::string_view text_;
     const std::string& file_;
+    SkippedParts& skipped_;
     std::size_t position_ = 0;
-    std::size_t fewest_ordinates_ = 2;
-    std::size_t max_ordinates_ = 4;
+    Ordinates ordinates_;
     std::vector<Ring> rings_;
 };
 
 }  // namespace
 
-std::vector<Ring> parse_wkt(const std::string& text, const std::string& file) {
-    return WktParser(text, file).parse();
+std::vector<Ring> parse_wkt(const std::string& text, const std::string& file,
+                            SkippedParts& skipped) {
+    return WktParser(text, file, skipped).parse();
 }
 
 }  // namespace nearfield::tools

@@ -12,7 +12,23 @@ namespace nearfield::tools {
 namespace {
 
 std::string error_of(const std::string& text) {
-    return input_error([&] { return parse_wkt(text, "a.wkt"); });
+    SkippedParts skipped;
+    return input_error([&] { return parse_wkt(text, "a.wkt", skipped); });
+}
+
+/// The rings of a text that holds polygons alone.
+std::vector<Ring> rings_of(const std::string& text) {
+    SkippedParts skipped;
+    std::vector<Ring> rings = parse_wkt(text, "f", skipped);
+    EXPECT_TRUE(skipped.empty()) << skipped.text();
+    return rings;
+}
+
+/// What is skipped of a text whose only ring is a triangle.
+std::string skipped_of(const std::string& text) {
+    SkippedParts skipped;
+    EXPECT_EQ(parse_wkt(text, "f", skipped), (std::vector<Ring>{{{0, 0}, {4, 0}, {0, 3}}})) << text;
+    return skipped.text();
 }
 
 TEST(ToolsWkt, ReadsPolygonsInEverySpelling) {
@@ -26,23 +42,65 @@ TEST(ToolsWkt, ReadsPolygonsInEverySpelling) {
              "POLYGON ZM ((0 0 9 8,4 -0.5 9 8,1e-3 3 9 8))",
              "POLYGON((0 0 9,4 -0.5 9,1e-3 3 9))",
              "MULTIPOLYGON(((0 0,4 -0.5,1e-3 3)))",
+             "POLYGON((0 0,4 -.5,1e-3 3));",
+             "SRID=4326;POLYGON((0 0,4 -0.5,1e-3 3)) ;\n",
+             "GeometryCollection Z (Polygon((0 0 9,4 -.5 9,1e-3 3 9)))",
+             "GEOMETRYCOLLECTIONM(GEOMETRYCOLLECTION(POLYGON M((0 0 9,4 -.5 9,1e-3 3 9))))",
          }) {
-        EXPECT_EQ(parse_wkt(text, "f"), triangle) << text;
+        EXPECT_EQ(rings_of(text), triangle) << text;
     }
 }
 
 TEST(ToolsWkt, KeepsEveryRingInOrder) {
     const std::vector<Ring> expected{
         {{0, 0}, {9, 0}, {0, 9}}, {{1, 1}, {2, 1}, {1, 2}}, {{5, 5}, {6, 5}, {5, 6}}};
-    EXPECT_EQ(parse_wkt("MULTIPOLYGON(((0 0,9 0,0 9),(1 1,2 1,1 2)),((5 5,6 5,5 6)))", "f"),
+    EXPECT_EQ(rings_of("MULTIPOLYGON(((0 0,9 0,0 9),(1 1,2 1,1 2)),((5 5,6 5,5 6)))"), expected);
+    EXPECT_EQ(rings_of("GEOMETRYCOLLECTION(POLYGON((0 0,9 0,0 9),(1 1,2 1,1 2)),"
+                       "GEOMETRYCOLLECTION(MULTIPOLYGON(((5 5,6 5,5 6)))))"),
               expected);
 }
 
+TEST(ToolsWkt, PartsThatHoldNoAreaAreSkippedAndCounted) {
+    const std::string polygon = "POLYGON((0 0,4 0,0 3))";
+    EXPECT_EQ(skipped_of("MULTIPOLYGON(EMPTY,((0 0,4 0,0 3)),EMPTY)"), "empty part (2)");
+    EXPECT_EQ(skipped_of("POLYGON((0 0,4 0,0 3),EMPTY)"), "empty part (1)");
+    EXPECT_EQ(skipped_of("GEOMETRYCOLLECTION(POLYGON EMPTY," + polygon + ",POLYGON Z EMPTY)"),
+              "empty part (2)");
+    EXPECT_EQ(skipped_of("GEOMETRYCOLLECTION(GEOMETRYCOLLECTION EMPTY," + polygon + ")"),
+              "empty part (1)");
+    EXPECT_EQ(
+        skipped_of("GEOMETRYCOLLECTION(POINT(1 2),LINESTRING(1 2,3 4),POINT Z(1 2 3)," + polygon +
+                   ",POINT EMPTY,MULTIPOINT(1 2,3 4),MULTIPOINT((1 2),EMPTY),"
+                   "MULTILINESTRING((0 0,1 1),(2 2,3 3)))"),
+        "POINT (3), LINESTRING (1), MULTIPOINT (2), MULTILINESTRING (1)");
+    // A dimension ends with its geometry.
+    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(POINT Z(1 2 3)," + polygon + ",POINT Z(1 2))"),
+              "a.wkt:1:66: a position needs 3 numbers here, not 2");
+}
+
+TEST(ToolsWkt, WithoutAPolygonTheTextIsRefused) {
+    EXPECT_EQ(error_of("POINT(1 2)"), "a.wkt:1:1: holds no polygon, only POINT (1)");
+    EXPECT_EQ(error_of("\nPOLYGON EMPTY"), "a.wkt:2:1: holds no polygon, only empty part (1)");
+    EXPECT_EQ(error_of("POLYGON(EMPTY)"), "a.wkt:1:1: holds no polygon, only empty part (1)");
+    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(LINESTRING(0 0,1 1),MULTIPOLYGON EMPTY)"),
+              "a.wkt:1:1: holds no polygon, only LINESTRING (1), empty part (1)");
+    EXPECT_EQ(error_of("POLYGON(EMPTY,(0 0,4 0,0 3))"),
+              "a.wkt:1:15: an inner ring whose outer ring is EMPTY");
+    std::string nested = "POLYGON((0 0,4 0,0 3))";
+    for (int i = 0; i < 70; ++i) {
+        nested = "GEOMETRYCOLLECTION(" + nested + ")";
+    }
+    EXPECT_EQ(error_of(nested), "a.wkt:1:1217: collections nested too deep");
+}
+
 TEST(ToolsWkt, ErrorsNameFileLineAndColumn) {
-    EXPECT_EQ(error_of("POINT(1 2)"), "a.wkt:1:1: \"POINT\" is neither POLYGON nor MULTIPOLYGON");
-    EXPECT_EQ(error_of("((0 0))"), "a.wkt:1:1: expected POLYGON or MULTIPOLYGON");
-    EXPECT_EQ(error_of("POLYGON EMPTY"), "a.wkt:1:9: an empty geometry");
-    EXPECT_EQ(error_of("POLYGON(EMPTY)"), "a.wkt:1:9: an empty geometry");
+    EXPECT_EQ(error_of("CURVEPOLYGON((0 0,1 1))"),
+              "a.wkt:1:1: \"CURVEPOLYGON\" is none of POLYGON, MULTIPOLYGON, GEOMETRYCOLLECTION");
+    EXPECT_EQ(error_of("((0 0))"),
+              "a.wkt:1:1: expected POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION");
+    EXPECT_EQ(error_of("POLYGON((0 0,1 1,0 1));;"),
+              "a.wkt:1:24: text after the end of the geometry");
+    EXPECT_EQ(error_of("GEOMETRYCOLLECTION(POINT(1 2 x))"), "a.wkt:1:30: expected a number");
     EXPECT_EQ(error_of("POLYGON((0 0,\n1 x,0 1))"), "a.wkt:2:3: expected a number");
     EXPECT_EQ(error_of("POLYGON((0 0,\n1 1e,0 1))"), "a.wkt:2:3: expected a number");
     EXPECT_EQ(error_of("POLYGON((0 0,1,0 1))"),
@@ -91,7 +149,7 @@ TEST(ToolsOutline, FilesThatCannotBeReadAreNamed) {
     EXPECT_EQ(error(binary), binary + ": is not text: a zero byte at offset 4");
     const std::string other = folder.write("other", "\x89PNG");
     EXPECT_EQ(error(other),
-              other + ":1:1: neither GeoJSON, well-known text, SVG nor SVG path data");
+              other + ":1:1: neither GeoJSON, well-known text or binary, SVG nor SVG path data");
 }
 
 }  // namespace
