@@ -94,7 +94,8 @@ TEST_F(Bench, RefusesScenesByFileAndPlace) {
     expect_bad_scene("\"shape\": \"house\"", "\"shape\": \"home\"", {"instances.B.shape", "home"});
     expect_bad_scene("\"b\": \"far\"", "\"b\": \"near\"", {"queries[1].b", "near"});
     expect_bad_scene("\"tolerance\": 0.1", "\"tolerance\": 0", {"queries[3].tolerance"});
-    expect_bad_scene("\"tolerance\": 0.1", "\"tol\": 0.1", {"queries[3]", "tolerance"});
+    expect_bad_scene("\"tolerance\": 0.1", "\"tol\": 0.1", {"queries[3].tol"});
+    expect_bad_scene("\"tolerance\": 0.1,", "", {"queries[3]", "has no \"tolerance\""});
     expect_bad_scene("\"kind\"", "\"points\"", {"queries[2].points"});
     expect_bad_scene("[0.6, 0.3, 15]", "[0.6, 0.3]", {"instances.B.pose"});
     expect_bad_scene("[-1, -1, 2, 2]", "[-1, -1, 2, -2]", {"queries[3].rect"});

@@ -17,7 +17,7 @@ Names both(Names names, const Names& more) {
 
 /// The options of each kind, without the options common to all kinds.
 const std::map<std::string, Names>& own_options() {
-    static const Names sampled{"--boxes", "--height", "--costs", "--tiles"};
+    static const Names sampled{"--boxes", "--height", "--costs", "--memory-limit", "--tiles"};
     static const std::map<std::string, Names> options{
         {"penetration", both(sampled, Names{"--points"})},
         {"contacts", both(sampled, Names{"--contact-distance", "--normals"})},
@@ -120,7 +120,7 @@ protected:
 
 TEST_F(Help, NamesCommandsAndTheirOptions) {
     expect_names({}, {"query", "scene", "bench", "simulate", "calibrate", "info", "--version"});
-    expect_names({"scene"}, {"--technique", "--threads", "--json"});
+    expect_names({"scene"}, {"--technique", "--memory-limit", "--threads", "--json"});
     expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--json"});
     expect_names({"simulate"}, {"--response", "--frames", "--bodies", "--every", "--video"});
     expect_names({"calibrate"}, {"file"});
@@ -168,9 +168,11 @@ TEST_F(Help, ExamplesAreAnswered) {
 }
 
 TEST_F(Help, StatesUnitsDefaultsAndForms) {
-    expect_names({"query", "penetration"},
-                 {"GeoJSON", "WKT", "SVG", "world units", "X,Y,DEGREES", "default 0,0,0",
-                  "default boundary", "default automatic", "1 to 256"});
+    expect_names(
+        {"query", "penetration"},
+        {"GeoJSON", "WKT", "SVG", "world units", "X,Y,DEGREES", "default 0,0,0", "default boundary",
+         "default automatic", "1 to 256", "WKB", "standard input", "MiB; default 1024"});
+    expect_names({"query", "separation"}, {"default a thousandth"});
     expect_names({"query", "distance-field"}, {"X0,Y0,X1,Y1", "float32", "1600 x 1200"});
 }
 

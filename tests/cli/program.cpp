@@ -42,6 +42,10 @@ std::string read_back(std::FILE* file) {
     if (!surroundings.out.empty()) {
         out = open(surroundings.out.c_str(), O_WRONLY);
     }
+    if (!surroundings.in.empty() &&
+        dup2(open(surroundings.in.c_str(), O_RDONLY), STDIN_FILENO) < 0) {
+        _exit(failed);
+    }
     if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0) {
         _exit(failed);
     }

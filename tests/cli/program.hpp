@@ -16,7 +16,8 @@ struct Outcome {
 /// The environment of a run.
 struct Surroundings {
     std::vector<std::pair<std::string, std::string>> environment;  ///< added to the test's own
-    std::string out;  ///< destination of the standard output; empty: the outcome
+    std::string out;      ///< where the standard output goes; empty: into the outcome
+    std::string in = {};  ///< the file that is the standard input; empty: the test's own
 };
 
 /// Runs the program to its end; a signal ends a run that takes longer than a minute.

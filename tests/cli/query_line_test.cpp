@@ -70,6 +70,81 @@ TEST_F(QueryLine, PlacesOfAFieldAreGivenOneByOneOrInARow) {
     }
 }
 
+TEST_F(QueryLine, PosesMayHaveSpaces) {
+    const Arguments line{"separation", a_, b_, "-d", "0.1", "--pose-b"};
+    EXPECT_EQ(lasting(line + Arguments{"5, 3, 10"}), lasting(line + Arguments{"5,3,10"}));
+}
+
+TEST_F(QueryLine, OneOutlineMayComeFromTheStandardInput) {
+    const Json expected = lasting({"separation", a_, b_, "-d", "0.1", "--pose-b", "5,3,10"});
+    const std::string hex = folder_.write(
+        "hex",
+        "0103000000010000000400000000000000000000000000000000000000000000000000F03F0000000000"
+        "000000000000000000F03F000000000000F03F0000000000000000000000000000F03F");
+    for (const std::string& file : {a_, b_, hex}) {
+        for (const Arguments& files : {Arguments{"-", b_}, Arguments{a_, "-"}}) {
+            const Arguments words = Arguments{"query", "--json", "-", "separation"} + files +
+                                    Arguments{"-d", "0.1", "--pose-b", "5,3,10"};
+            const Outcome outcome = run_program(words, {{}, {}, file});
+            ASSERT_EQ(outcome.status, 0) << command_line(words) << '\n' << outcome.err;
+            EXPECT_EQ(Json::parse(outcome.out).at("distance"), expected.at("distance"));
+        }
+    }
+    expect_refused({"query", "separation", "-", "-"}, {"only one", "standard input"});
+    const Outcome bad = run_program({"query", "separation", "-", b_},
+                                    {{}, {}, folder_.write("bad", "POLYGON((0 0,1 0,x))")});
+    EXPECT_EQ(bad.status, 2);
+    EXPECT_NE(bad.err.find("standard input:1:18: expected a number"), std::string::npos) << bad.err;
+}
+
+TEST_F(QueryLine, WhatAFileHoldsBesidesPolygonsIsNoted) {
+    const std::string mixed = folder_.write(
+        "mixed.wkt",
+        "GEOMETRYCOLLECTION (POINT (1 2), POLYGON ((0 0, 1 0, 1 1, 0 1)), POINT (3 4))");
+    const Outcome outcome = run_program({"query", "intersection-test", mixed, b_});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "nearfield: " + mixed + ": skipped what holds no area: POINT (2)\n");
+    EXPECT_EQ(run_program({"query", "intersection-test", a_, b_}).err, "");
+}
+
+TEST_F(QueryLine, ExactQueriesNeedNoTolerance) {
+    for (const char* const kind : {"separation", "closest-point"}) {
+        const Json exact = lasting({kind, a_, b_, "--pose-b", "5,3,10"});
+        const Json stated = lasting({kind, a_, b_, "--pose-b", "5,3,10", "-d", "0.1"});
+        ASSERT_TRUE(exact.is_object() && stated.is_object());
+        for (const char* const key : {"distance", "direction", "feature_a", "feature_b"}) {
+            EXPECT_EQ(exact.at(key), stated.at(key)) << kind << ' ' << key;
+        }
+        EXPECT_EQ(exact.at("tolerance"), 0.001) << "a thousandth of the squares' side";
+        const Json far = lasting({kind, a_, b_, "--pose-b", "9e11,3,10"});
+        EXPECT_GT(far.at("tolerance"), 0.001);
+        // Curves have to be tessellated somehow.
+        const std::string disc =
+            folder_.write("disc.path", "M 1 0 A 1 1 0 1 1 -1 0 A 1 1 0 1 1 1 0 Z");
+        expect_refused({"query", kind, disc, b_}, {"--deviation"});
+        const Json curved = lasting({kind, disc, b_, "--pose-b", "5,3,10", "--deviation", "0.01"});
+        EXPECT_GE(curved.at("tolerance"), 0.04);
+        EXPECT_NEAR(curved.at("distance"),
+                    lasting({kind, disc, b_, "--pose-b", "5,3,10", "-d", "1e-4"}).at("distance"),
+                    0.011);
+    }
+}
+
+TEST_F(QueryLine, TimesAreThoseOfWhatTookPlace) {
+    for (const char* const technique : {"cpu", "compute"}) {
+        const Json times = answer({"query", "penetration", a_, b_, "--pose-b", "0.3,0.2,5", "-d",
+                                   "0.1", "--technique", technique})
+                               .at("timings_ms");
+        const bool on_device = std::string(technique) == "compute";
+        for (const char* const key : {"record", "device", "passes"}) {
+            EXPECT_EQ(times.contains(key), on_device) << technique << ' ' << key << times;
+        }
+        for (const char* const key : {"plan", "decode", "total"}) {
+            EXPECT_TRUE(times.contains(key)) << technique << ' ' << key << times;
+        }
+    }
+}
+
 TEST_F(QueryLine, EveryKindTakesWhatWasTakenOfEveryKind) {
     // Without effect on some kinds, whose help does not list them.
     const Arguments all{"-d",       "0.1",      "--strategy", "depth",  "--boxes",

@@ -79,6 +79,23 @@ TEST_F(Refused, RingsThatEncloseNothingByTheirNumber) {
                        {"ring 0", "three"});
 }
 
+TEST_F(Refused, AllBadRingsByTheirNumbersAndPlaces) {
+    expect_bad_outline(
+        "many.wkt",
+        "MULTIPOLYGON (((0 0, 4 0, 4 4)), ((1 1, 2 2, 3 3)), ((9 8, 7 6, 9 8)), "
+        "((0 5, 1 5, 1 1e13)))",
+        {"3 of 4 rings are bad", "ring 1 from (1, 1) lies on one line",
+         "ring 2 from (9, 8) has fewer than three", "ring 3 from (0, 5), vertex 2: y is 1e+13"});
+    std::string flat = "MULTIPOLYGON (((0 0, 4 0, 4 4))";
+    for (int i = 0; i < 50; ++i) {
+        flat += ", ((1 1, 2 2, 3 3))";
+    }
+    expect_bad_outline("flat.wkt", flat + ")", {"50 of 51 rings", "ring 20 from", "and 30 more"});
+    EXPECT_EQ(run_program({"query", "penetration", folder_.path("flat.wkt"), b_, "-d", "1"})
+                  .err.find("ring 21 "),
+              std::string::npos);
+}
+
 TEST_F(Refused, CoordinatesByRingAndVertex) {
     expect_bad_outline("far.wkt", "POLYGON ((0 0, 1 0, 1 1e13))", {"ring 0", "vertex 2", "y"});
     expect_bad_outline("null.geojson",
@@ -107,6 +124,8 @@ TEST_F(Refused, PosesAndRectanglesThatAreNone) {
         }
     }
     expect_refused(ask("penetration", {"-d", "0.1", "--pose-a", "0,1e13,0"}), {"A's pose"});
+    expect_refused(ask("penetration", {"-d", "0.1", "--pose-a", "0,0,1e10"}),
+                   {"--pose-a", "1e+10 degrees", "too large"});
     for (const auto& rectangle : {"", "0,0,1", "0,0,1,1,1", "0,0,0,1", "0,1,1,0", "0,0,1,nan"}) {
         expect_refused(ask("distance-field", {"-d", "0.1", "--rect", rectangle}),
                        {"--rect", rectangle});
@@ -161,6 +180,14 @@ TEST_F(Refused, TolerancesThatNeedTooMuchMemoryWithTheSmallestPossible) {
         EXPECT_NEAR(again, named, 0.1 * named) << query << ", tolerance " << finer;
     }
     expect_refused(ask("penetration", {"-d", "1e-300"}), {"1e-300", "smallest"});
+    // The option that sets the limit is named, and sets it.
+    const Arguments fine{"query", "penetration", a_, b_, "-d", "1e-4", "--technique", "cpu"};
+    EXPECT_EQ(run_program(fine).status, 0);
+    expect_refused(fine + Arguments{"--memory-limit", "1"}, {"too_large", "--memory-limit"});
+    EXPECT_EQ(run_program(fine + Arguments{"--memory-limit", "2000"}).status, 0);
+    for (const auto& limit : {"0", "1.5", "x", "1048577"}) {
+        expect_refused(fine + Arguments{"--memory-limit", limit}, {"--memory-limit", limit});
+    }
 }
 
 }  // namespace

@@ -53,6 +53,8 @@ TEST_F(SceneCommand, AnswersEveryQueryAsTheQueryCommandDoes) {
         }
         in_scene.erase("a");
         in_scene.erase("b");
+        EXPECT_EQ(in_scene.at("status"), "ok");
+        in_scene.erase("status");
         for (const char* key : {"device", "timings_ms"}) {
             alone.erase(key);
         }
@@ -108,7 +110,10 @@ TEST_F(SceneCommand, CurvesTakePartInAllPairs) {
                                                    "right": {"shape": "disc", "pose": [1, 0, 0]})")});
     ASSERT_TRUE(json.is_object());
     EXPECT_EQ(json.at("results").size(), 2U);
-    expect_refused({"scene", scene_of("")}, {"curves.json", "disc", "deviation"});
+    const Outcome unused = run_program({"scene", scene_of("")});
+    EXPECT_EQ(unused.status, 2);
+    EXPECT_NE(unused.err.find("curves.json: shapes.disc: has curves"), std::string::npos)
+        << unused.err;
 }
 
 TEST_F(SceneCommand, WithoutQueriesThereAreNoResults) {
@@ -117,19 +122,113 @@ TEST_F(SceneCommand, WithoutQueriesThereAreNoResults) {
     EXPECT_TRUE(json.at("results").empty());
 }
 
-TEST_F(SceneCommand, NamesTheQueryThatIsRefused) {
-    expect_refused({"scene", scene(R"({"query": "separation", "a": "A", "b": "B", "tolerance": 0.1},
-                        {"query": "distance-field", "a": "A", "b": "far", "tolerance": 0.1})")},
-                   {"scene.json", "queries[1]", "rectangle"});
-    expect_refused({"scene", scene(R"({"query": "penetration", "pairs": "some", "tolerance": 1})")},
-                   {"queries[0].pairs", "some", "all"});
-    expect_refused({"scene", scene(R"({"query": "separation", "pairs": "all", "tolerance": 1})")},
-                   {"queries[0]", "reach"});
+TEST_F(SceneCommand, BadQueriesAreListedAndTheOthersAnswered) {
+    const std::string file = scene(
+        R"({"query": "separation", "a": "A", "b": "far"},
+           {"query": "distance-field", "a": "A", "b": "far", "tolerance": 0.1},
+           {"query": "penetration", "pairs": "some", "tolerance": 1},
+           {"query": "separation", "pairs": "all", "tolerance": 1},
+           {"query": "contacts", "pairs": "all", "reach": 1, "tolerance": 1},
+           {"query": "separation", "a": "A", "b": "nobody", "tolerance": 1},
+           {"query": "depth", "a": "A", "b": "B"},
+           {"query": "intersection-test", "a": "A", "b": "B"})");
+    const std::string out = folder_.path("answers.json");
+    const Outcome outcome = run_program({"scene", file, "--json", out});
+    EXPECT_EQ(outcome.status, 2);
+    for (const char* const part :
+         {"scene.json: queries[1]: invalid_query: ", "rectangle", "queries[2].pairs: \"some\"",
+          "queries[3]: has no \"reach\"", "queries[4].reach: ",
+          "queries[5].b: there is no instance \"nobody\"", "queries[6].query: \"depth\""}) {
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err << "lacks " << part;
+    }
+    EXPECT_EQ(outcome.err.find("queries[0]"), std::string::npos) << outcome.err;
+    const Json results = Json::parse(folder_.read("answers.json")).at("results");
+    ASSERT_EQ(results.size(), 8U);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const bool is_good = i == 0 || i == 7;
+        EXPECT_EQ(results[i].at("status"), is_good ? "ok" : "invalid_query") << i;
+        EXPECT_EQ(results[i].contains("message"), !is_good) << i;
+        EXPECT_EQ(results[i].contains("error_bound"), is_good) << i;
+    }
+    EXPECT_EQ(results[0].at("distance"), 5.0);
+    EXPECT_EQ(results[5].at("b"), "nobody");
+    EXPECT_EQ(results[6].at("query"), "depth");
+    EXPECT_EQ(results[7].at("intersects"), true);
+}
+
+TEST_F(SceneCommand, BadShapesAreListedAndTheOthersAnswered) {
+    static_cast<void>(folder_.write("flat.wkt", "MULTIPOLYGON(((0 0,1 1,2 2)),((5 5,6 6,7 7)))"));
+    const std::string file = folder_.write("scene.json", R"({
+        "shapes": {"square": {"file": "a square.geojson"}, "flat": {"file": "flat.wkt"},
+                   "gone": {"file": "gone.wkt"}},
+        "instances": {"A": {"shape": "square"}, "B": {"shape": "square", "pose": [0.6, 0.3, 0]},
+                      "F": {"shape": "flat"}, "G": {"shape": "gone"},
+                      "far": {"shape": "square", "pose": [1e13, 0, 0]}},
+        "queries": [{"query": "separation", "a": "A", "b": "F", "tolerance": 1},
+                    {"query": "separation", "a": "G", "b": "far", "tolerance": 1},
+                    {"query": "intersection-test", "pairs": "all"},
+                    {"query": "time-of-impact", "pairs": "all", "tolerance": 1}]})");
+    const Outcome outcome = run_program({"scene", file, "--json", "-"});
+    EXPECT_EQ(outcome.status, 2);
+    for (const char* const part :
+         {"scene.json: shapes.flat: 2 of 2 rings are bad", "ring 1 from (5, 5) lies on one line",
+          "scene.json: shapes.gone: ", "gone.wkt: cannot be opened",
+          "scene.json: instances.far: the x of the instance's pose is 1e+13",
+          "not answered because of what is listed above: 4 queries"}) {
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err << "lacks " << part;
+    }
+    const Json results = Json::parse(outcome.out).at("results");
+    ASSERT_EQ(results.size(), 6U);
+    const auto message = [&](std::size_t i) { return results[i].value("message", ""); };
+    EXPECT_NE(message(0).find("shapes.flat"), std::string::npos) << message(0);
+    EXPECT_NE(message(1).find("shapes.gone"), std::string::npos) << message(1);
+    EXPECT_NE(message(1).find("instances.far"), std::string::npos) << message(1);
+    for (const std::size_t i : {2U, 4U}) {
+        EXPECT_EQ(results[i].at("status"), "ok");
+        EXPECT_EQ(results[i].at("a"), "A");
+        EXPECT_EQ(results[i].at("b"), "B");
+        EXPECT_EQ(results[i].at("intersects"), true);
+        // What all pairs lack is said.
+        EXPECT_EQ(results[i + 1].at("status"), "invalid_query");
+        EXPECT_TRUE(results[i + 1].at("a").is_null());
+        EXPECT_NE(message(i + 1).find("F (shapes.flat), G (shapes.gone), far"), std::string::npos)
+            << message(i + 1);
+    }
+}
+
+TEST_F(SceneCommand, AQueryThatIsTooLargeLeavesTheOthersAnswered) {
+    const std::string queries =
+        R"({"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},
+           {"query": "penetration", "a": "A", "b": "B", "tolerance": 1e-10},
+           {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.1, "at": [[0.5, 0.5]]})";
+    const Outcome outcome = run_program({"scene", scene(queries), "--json", "-"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("queries[1]: too_large: tolerance 1e-10 needs"), std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("--memory-limit"), std::string::npos) << outcome.err;
+    const Json results = Json::parse(outcome.out).at("results");
+    ASSERT_EQ(results.size(), 3U);
+    EXPECT_EQ(results[1].at("status"), "too_large");
+    const Json alone = answer_of_scene(
+        R"({"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},
+           {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.1, "at": [[0.5, 0.5]]})");
+    EXPECT_EQ(results[0], alone.at("results")[0]);
+    EXPECT_EQ(results[2], alone.at("results")[1]);
+}
+
+TEST_F(SceneCommand, WhatIsNoSceneIsRefusedAsAWhole) {
     expect_refused(
-        {"scene", scene(R"({"query": "contacts", "pairs": "all", "reach": 1, "tolerance": 1})")},
-        {"queries[0].reach"});
+        {"scene", scene(R"({"query": "separation", "a": "A", "b": "B", "toleranse": 1})")},
+        {"queries[0].toleranse", "is not known here"});
+    expect_refused({"scene", folder_.write("cut.json", R"({"shapes": {)")}, {"cut.json:1:"});
+    expect_refused({"scene", folder_.write("part.json", R"({"shapes": {}, "instances": {}})")},
+                   {"part.json", "queries"});
     expect_refused({"scene"}, {"scene is required"});
     expect_refused({"scene", folder_.path("none.json")}, {"none.json", "cannot be opened"});
+    // A measurement is of all queries.
+    expect_refused({"bench", "--scene",
+                    scene(R"({"query": "separation", "a": "A", "b": "nobody", "tolerance": 1})")},
+                   {"queries[0].b", "nobody"});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <tools/cli/bench.hpp>
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/paper_tables.hpp>
+#include <tools/cli/scene.hpp>
 #include <tools/cli/standard_table.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
@@ -150,6 +151,7 @@ void run_bench(const BenchArguments& arguments) {
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.settings);
     Scene scene = read_scene(arguments.scene);
+    print_notes(scene);
     set_technique(scene, technique);
     if (scene.queries.empty()) {
         throw InputError(arguments.scene + ": queries: there is none to measure");

@@ -9,6 +9,7 @@
 #include <tools/cli/query_options.hpp>
 #include <tools/cli/query_words.hpp>
 #include <tools/cli/scene.hpp>
+#include <tools/cli/settings_options.hpp>
 #include <tools/cli/simulate.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/io/input_error.hpp>
@@ -29,7 +30,7 @@ namespace tools = nearfield::tools;
 namespace exit_status = nearfield::tools::exit_status;
 
 int fail(const std::exception& error, int status) {
-    std::cerr << "nearfield: " << error.what() << '\n';
+    std::cerr << "nearfield: " << error.what() << tools::memory_hint(error.what()) << '\n';
     return status;
 }
 
@@ -74,8 +75,7 @@ int run(int count, char** arguments) {
         return exit_status::done;
     }
     if (scene->parsed()) {
-        tools::run_scene(scene_arguments);
-        return exit_status::done;
+        return tools::run_scene(scene_arguments);
     }
     if (simulate->parsed()) {
         tools::run_simulate(simulate_arguments);

@@ -8,7 +8,9 @@ namespace nearfield::tools {
 AskedTechniques techniques_of(const Scene& scene) {
     AskedTechniques asked;
     for (const SceneQuery& query : scene.queries) {
-        asked.add(query.request);
+        if (query.problem.empty()) {
+            asked.add(query.request);
+        }
     }
     return asked;
 }

@@ -3,6 +3,7 @@
 
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/query.hpp>
+#include <tools/common/add_shape.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/drawing/figure.hpp>
 #include <tools/io/input_error.hpp>
@@ -12,12 +13,14 @@
 #include <tools/io/query_request.hpp>
 #include <tools/io/report_target.hpp>
 #include <tools/io/summary.hpp>
+#include <tools/io/usual_tolerance.hpp>
 #include <tools/io/values.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,7 +86,16 @@ PlacedOutline place(const Outline& outline, double deviation, const DegreesPose&
     return {outline.file, std::move(rings.rings), rings.deviation, to_pose(pose)};
 }
 
-/// The maximum tessellation deviation for the curves of A and B, for each.
+/// "-" is the standard input. Says on the standard error what of a file was skipped.
+Outline read_input(const std::string& file) {
+    Outline outline = file == "-" ? read_outline(std::cin, "standard input") : read_outline(file);
+    if (!outline.skipped.empty()) {
+        std::cerr << "nearfield: " << skipped_note(outline) << '\n';
+    }
+    return outline;
+}
+
+/// How far tessellation may be off the curves of A and B, each.
 double choose_deviation(const QueryArguments& arguments, const QueryRequest& request,
                         const Outline& a, const Outline& b) {
     if (!arguments.deviation) {
@@ -103,7 +115,9 @@ void require_different_files(const QueryArguments& arguments) {
     std::vector<std::filesystem::path> taken;
     std::error_code ignored;
     for (const std::string& input : {arguments.file_a, arguments.file_b}) {
-        taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+        if (input != "-") {
+            taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+        }
     }
     for (const auto& output : {arguments.json, arguments.image, arguments.field,
                                arguments.gradient_field, arguments.features}) {
@@ -265,13 +279,20 @@ struct FieldFiles {
 }  // namespace
 
 void run_query(const QueryArguments& arguments) {
-    const QueryRequest request = make_request(arguments);
+    QueryRequest request = make_request(arguments);
     const Settings settings = parse_settings(arguments.settings);
-    const Outline outline_a = read_outline(arguments.file_a);
-    const Outline outline_b = read_outline(arguments.file_b);
+    if (arguments.file_a == "-" && arguments.file_b == "-") {
+        throw InputError("A and B: only one of them can be -, the standard input");
+    }
+    const Outline outline_a = read_input(arguments.file_a);
+    const Outline outline_b = read_input(arguments.file_b);
     const double deviation = choose_deviation(arguments, request, outline_a, outline_b);
     const PlacedOutline a = place(outline_a, deviation, arguments.pose_a);
     const PlacedOutline b = place(outline_b, deviation, arguments.pose_b);
+    if (request.tolerance == 0.0 && request.type != QueryType::intersection_test) {
+        request.tolerance = usual_tolerance({a.rings, a.deviation, a.pose.translation},
+                                            {b.rings, b.deviation, b.pose.translation});
+    }
     require_different_files(arguments);
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;
@@ -283,8 +304,8 @@ void run_query(const QueryArguments& arguments) {
     AskedTechniques asked;
     asked.add(request);
     Context context = open_context(settings, asked);
-    const Instance instance_a{take(context.add_shape(a.rings, a.deviation), a.file), a.pose};
-    const Instance instance_b{take(context.add_shape(b.rings, b.deviation), b.file), b.pose};
+    const Instance instance_a{take(add_shape(context, a.rings, a.deviation), a.file), a.pose};
+    const Instance instance_b{take(add_shape(context, b.rings, b.deviation), b.file), b.pose};
     Batch batch;
     add_query(batch, request, instance_a, instance_b);
     Results results;

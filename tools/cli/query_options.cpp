@@ -51,6 +51,12 @@ const char* describe_tolerance(QueryType type) {
         case QueryType::separation_vector:
             return "Tolerance, world units, > 0: the search ends where the vector is known to be "
                    "no more than this longer than the shortest one";
+        case QueryType::separation:
+        case QueryType::closest_point:
+            return "Tolerance, world units, > 0: half the diagonal of a grid cell, which "
+                   "sampled_distance and unique depend on; the distance is exact; default a "
+                   "thousandth of the longer side of A or B, or more for coordinates so large "
+                   "that it would be lost. Curves need -d or --deviation";
         default:
             return "Tolerance, world units, > 0: half the diagonal of a grid cell";
     }
@@ -58,14 +64,18 @@ const char* describe_tolerance(QueryType type) {
 
 void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     kind.option_defaults()->group("Input");
-    kind.add_option("A", arguments.file_a, "Outline A: GeoJSON, WKT, SVG or SVG path data")
+    kind.add_option("A", arguments.file_a,
+                    "Outline A: GeoJSON, WKT, WKB, SVG or SVG path data; - reads the standard "
+                    "input")
         ->required()
         ->type_name("FILE");
-    kind.add_option("B", arguments.file_b, "Outline B: likewise")->required()->type_name("FILE");
+    kind.add_option("B", arguments.file_b, "Outline B: likewise; - for one of them")
+        ->required()
+        ->type_name("FILE");
     add_parsed_option(kind, "-d", arguments.request.tolerance, parse_positive,
                       describe_tolerance(type))
         ->type_name("TOLERANCE")
-        ->required(type != QueryType::intersection_test);
+        ->required(!is_exact(type));
     add_parsed_option(kind, "--deviation", arguments.deviation, parse_positive,
                       "How far the edges that stand for curves of SVG may be off, world units, > "
                       "0; A's and B's together at most a quarter of the tolerance; default a "
@@ -257,7 +267,7 @@ void add_kind(CLI::App& query, QueryArguments& arguments, const QueryKind& descr
         hide_options(kind, {"--strategy"});
     }
     if (!is_sampled(type)) {
-        hide_options(kind, {"--boxes", "--height", "--costs", "--tiles"});
+        hide_options(kind, {"--boxes", "--height", "--costs", "--memory-limit", "--tiles"});
     }
 }
 

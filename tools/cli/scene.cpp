@@ -2,18 +2,43 @@
 
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/scene.hpp>
+#include <tools/common/library_error.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/query_json.hpp>
 #include <tools/io/report_target.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/summary.hpp>
 
+#include <cstddef>
+#include <iostream>
 #include <vector>
 
 namespace nearfield::tools {
+namespace {
+
+/// Lists what is wrong on the standard error; returns the exit status, that of bad input first.
+int report_problems(const SceneRunner& runner) {
+    int status = exit_status::done;
+    for (const Status& problem : runner.problems()) {
+        std::cerr << "nearfield: " << problem.message() << memory_hint(problem.message()) << '\n';
+        const int own = exit_status_of(problem.code());
+        status = status == exit_status::done || own == exit_status::bad_input ? own : status;
+    }
+    if (const std::size_t count = runner.dependent_count(); count > 0) {
+        std::cerr << "nearfield: not answered because of what is listed above: " << count
+                  << (count == 1 ? " query\n" : " queries\n");
+    }
+    return status;
+}
+
+}  // namespace
+
 CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
     CLI::App* command = program.add_subcommand(
-        "scene", "Answer the queries of a scene (shapes, instances, queries) in one batch");
+        "scene",
+        "Answer the queries of a scene (shapes, instances, queries) in one batch. Bad shapes and "
+        "queries are listed on the standard error and have their own status; the others are "
+        "answered");
     command
         ->add_option("scene", arguments.scene,
                      "Scene: shapes, instances (shape and pose) and queries")
@@ -32,16 +57,24 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
     return command;
 }
 
-void run_scene(const SceneArguments& arguments) {
+void print_notes(const Scene& scene) {
+    for (const SceneShape& shape : scene.shapes) {
+        if (!shape.note.empty()) {
+            std::cerr << "nearfield: " << shape.note << '\n';
+        }
+    }
+}
+
+int run_scene(const SceneArguments& arguments) {
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.settings);
-    Scene scene = read_scene(arguments.scene);
+    Scene scene = read_scene(arguments.scene, BadEntries::recorded);
+    print_notes(scene);
     set_technique(scene, technique);
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
-    SceneRunner runner(scene, arguments.scene, context);
-    runner.run_frame();
-    runner.require_results();
+    SceneRunner runner(scene, arguments.scene, context, BadEntries::recorded);
+    runner.run_what_fits();
     const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {
         write_scene_json(*json, answers, runner.timings(), context.device_name(),
@@ -50,6 +83,7 @@ void run_scene(const SceneArguments& arguments) {
     write_scene_summary(report.summary(), answers, runner.timings(), context.device_name(),
                         runner.technique());
     report.commit();
+    return report_problems(runner);
 }
 
 }  // namespace nearfield::tools

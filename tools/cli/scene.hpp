@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <tools/cli/settings_options.hpp>
+#include <tools/io/scene.hpp>
 
 #include <optional>
 #include <string>
@@ -19,8 +20,12 @@ struct SceneArguments {
 /// Adds the command `scene` to the program. Parsing fills `arguments`, which must outlive it.
 CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments);
 
-/// Answers all queries of a scene in one batch. Throws InputError, LibraryError or
+/// Answers all queries of a scene in one batch. Returns the exit status: bad shapes and queries are
+/// listed on the standard error and the others answered. Throws InputError, LibraryError or
 /// std::runtime_error.
-void run_scene(const SceneArguments& arguments);
+[[nodiscard]] int run_scene(const SceneArguments& arguments);
+
+/// Says on the standard error what was skipped of the files of a scene.
+void print_notes(const Scene& scene);
 
 }  // namespace nearfield::tools

@@ -19,6 +19,10 @@ void add_settings_options(CLI::App& command, SettingsArguments& arguments) {
                     "What the techniques cost here, as nearfield calibrate has measured it: what "
                     "the technique automatic goes by; default what is usual for such a device")
         ->type_name("FILE.json");
+    add_count_option(command, "--memory-limit", arguments.memory_limit, {1, 1U << 20U},
+                     "Limit for the images and results of a batch, host and device together, "
+                     "MiB; default 1024")
+        ->type_name("MIB");
     add_parsed_option(
         command, "--threads", arguments.threads,
         [](const std::string& text, const std::string& option) {
@@ -39,10 +43,19 @@ Settings parse_settings(const SettingsArguments& arguments) {
     if (arguments.costs) {
         settings.costs = read_cost_model(*arguments.costs);
     }
+    if (arguments.memory_limit) {
+        settings.memory_limit = std::uint64_t{*arguments.memory_limit} << 20U;
+    }
     if (arguments.threads) {
         settings.jobs = arguments.threads->jobs();
     }
     return settings;
+}
+
+std::string memory_hint(const std::string& error) {
+    return error.find("MiB, more than the limit of ") == std::string::npos
+               ? std::string()
+               : "; --memory-limit sets the limit";
 }
 
 }  // namespace nearfield::tools

@@ -2,8 +2,8 @@
 
 namespace nearfield::tools {
 
-int LibraryError::program_status() const noexcept {
-    switch (code_) {
+int exit_status_of(StatusCode code) noexcept {
+    switch (code) {
         case StatusCode::invalid_shape:
         case StatusCode::invalid_query:
         case StatusCode::too_large:

@@ -16,13 +16,16 @@ inline constexpr int bad_input = 2;
 inline constexpr int no_device = 3;
 }  // namespace exit_status
 
-/// Thrown when the library returns an error.
+/// How the program ends after an error of the library.
+[[nodiscard]] int exit_status_of(StatusCode code) noexcept;
+
+/// The library refused or failed.
 class LibraryError : public std::runtime_error {
 public:
     LibraryError(const Status& status, const std::string& message)
         : std::runtime_error(message), code_(status.code()) {}
 
-    [[nodiscard]] int program_status() const noexcept;
+    [[nodiscard]] int program_status() const noexcept { return exit_status_of(code_); }
 
 private:
     StatusCode code_;

@@ -1,7 +1,9 @@
+#include <tools/common/add_shape.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/query_request.hpp>
+#include <tools/io/usual_tolerance.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -63,15 +65,84 @@ bool come_within(const Rectangle& a, const Rectangle& b, double reach) {
            b.min.y - a.max.y <= reach;
 }
 
+/// A message of the library without the name of a query or an instance that stood alone: its place
+/// in the scene is said instead.
+std::string without_prefix(const std::string& message, std::string_view prefix) {
+    return message.starts_with(prefix) ? message.substr(prefix.size()) : message;
+}
+
+/// In place of a result: an error.
+AnyResult refusal(const Status& status) {
+    PenetrationResult result;
+    result.status = status;
+    return result;
+}
+
+/// Of batches one after the other; passes by name.
+void add_timings(const Timings& more, Timings& sum) {
+    sum.localize += more.localize;
+    sum.plan += more.plan;
+    sum.record += more.record;
+    sum.device += more.device;
+    sum.decode += more.decode;
+    sum.total += more.total;
+    for (const PassTime& pass : more.passes) {
+        const auto found =
+            std::find_if(sum.passes.begin(), sum.passes.end(),
+                         [&pass](const PassTime& other) { return other.name == pass.name; });
+        if (found == sum.passes.end()) {
+            sum.passes.push_back(pass);
+        } else {
+            found->milliseconds += pass.milliseconds;
+        }
+    }
+}
+
 }  // namespace
 
-SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context)
-    : scene_(scene), file_(std::move(file)), context_(context) {
+SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context, BadEntries bad)
+    : scene_(scene), file_(std::move(file)), context_(context), bad_(bad) {
+    add_shapes();
+    add_instances();
+}
+
+void SceneRunner::add_shapes() {
     for (const SceneShape& shape : scene_.shapes) {
-        shapes_.push_back(take(context_.add_shape(shape.rings, shape.deviation), place_of(shape)));
+        shapes_.emplace_back();
+        shape_problems_.push_back(shape.problem);
+        if (!shape.problem.empty()) {
+            continue;
+        }
+        const Expected<ShapeHandle> handle = add_shape(context_, shape.rings, shape.deviation);
+        if (handle.has_value()) {
+            shapes_.back() = *handle;
+        } else if (bad_ == BadEntries::recorded) {
+            shape_problems_.back() = place_of(shape) + ": " + full_message(handle.error());
+        } else {
+            require(handle.error(), place_of(shape));
+        }
     }
-    for (const SceneInstance& instance : scene_.instances) {
+}
+
+void SceneRunner::add_instances() {
+    for (std::size_t index = 0; index < scene_.instances.size(); ++index) {
+        const SceneInstance& instance = scene_.instances[index];
         instances_.push_back({shapes_[instance.shape], instance.pose});
+        std::string problem = instance.problem;
+        if (problem.empty() && shape_problems_[instance.shape].empty() &&
+            bad_ == BadEntries::recorded) {
+            // The library says which poses can be used.
+            const auto pairs = context_.find_pairs({&instances_.back(), 1}, 0.0);
+            if (!pairs.has_value()) {
+                problem = file_ + ": instances." + instance.name + ": " +
+                          without_prefix(full_message(pairs.error()), "find_pairs: instance 0: ");
+            }
+        }
+        if (problem.empty() && shape_problems_[instance.shape].empty()) {
+            sound_.push_back(index);
+            sound_instances_.push_back(instances_.back());
+        }
+        instance_problems_.push_back(std::move(problem));
     }
 }
 
@@ -83,51 +154,137 @@ SceneRunner::~SceneRunner() {
 
 double SceneRunner::run_frame() {
     const auto start = std::chrono::steady_clock::now();
-    for (std::size_t index = 0; index < shapes_.size(); ++index) {
-        const SceneShape& shape = scene_.shapes[index];
-        if (const Status status =
-                context_.update_shape(shapes_[index], shape.rings, shape.deviation);
-            !status.ok()) {
-            require(status, place_of(shape));
-        }
-    }
-    batch_.clear();
-    entries_.clear();
-    for (std::size_t query = 0; query < scene_.queries.size(); ++query) {
-        if (scene_.queries[query].all_pairs) {
-            add_all_pairs(query);
-        } else {
-            add(query, scene_.queries[query].a, scene_.queries[query].b);
-        }
-    }
+    add_queries();
     require(context_.run(batch_, results_), file_);
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-void SceneRunner::add(std::size_t query, std::size_t a, std::size_t b) {
-    const QueryRequest& request = scene_.queries[query].request;
-    if (request.type == QueryType::time_of_impact) {
-        QueryRequest moving = request;
-        moving.end_a = scene_.instances[a].end_pose;
-        moving.end_b = scene_.instances[b].end_pose;
-        add_query(batch_, moving, instances_[a], instances_[b]);
+void SceneRunner::run_what_fits() {
+    add_queries();
+    const Status status = context_.run(batch_, results_);
+    if (status.code() == StatusCode::too_large) {
+        answer_one_by_one();
     } else {
-        add_query(batch_, request, instances_[a], instances_[b]);
+        require(status, file_);
     }
-    entries_.push_back({query, a, b});
+}
+
+void SceneRunner::add_queries() {
+    for (std::size_t index = 0; index < shapes_.size(); ++index) {
+        const SceneShape& shape = scene_.shapes[index];
+        if (shape_problems_[index].empty()) {
+            require(context_.update_shape(shapes_[index], shape.rings, shape.deviation),
+                    place_of(shape));
+        }
+    }
+    batch_.clear();
+    entries_.clear();
+    refused_.clear();
+    for (std::size_t query = 0; query < scene_.queries.size(); ++query) {
+        const SceneQuery& asked = scene_.queries[query];
+        if (!asked.problem.empty()) {
+            refuse({query, Entry::all, Entry::all}, asked.problem);
+        } else if (asked.all_pairs) {
+            add_all_pairs(query);
+        } else {
+            add_pair(query);
+        }
+    }
+}
+
+/// Results as the batch would have had them; a query that is too large by itself has that status.
+void SceneRunner::answer_one_by_one() {
+    Results all;
+    for (const Entry& entry : entries_) {
+        if (entry.is_refused) {
+            continue;
+        }
+        Batch batch;
+        Results one;
+        add_to(batch, entry);
+        const Status status = context_.run(batch, one);
+        if (status.code() == StatusCode::too_large) {
+            all.results.push_back(
+                refusal({status.code(), without_prefix(full_message(status), "query 0 with ")}));
+            continue;
+        }
+        require(status, place_of(entry.query));
+        all.results.push_back(std::move(one.results.front()));
+        add_timings(one.timings, all.timings);
+    }
+    results_ = std::move(all);
+}
+
+void SceneRunner::add_to(Batch& batch, const Entry& entry) const {
+    const QueryRequest& request = scene_.queries[entry.query].request;
+    const SceneInstance& a = scene_.instances[entry.a];
+    const SceneInstance& b = scene_.instances[entry.b];
+    const bool is_moving = request.type == QueryType::time_of_impact;
+    const bool lacks_tolerance =
+        request.tolerance == 0.0 && request.type != QueryType::intersection_test;
+    if (!is_moving && !lacks_tolerance) {
+        add_query(batch, request, instances_[entry.a], instances_[entry.b]);
+        return;
+    }
+    // Neither has places of a field, which would have to outlive the batch's run.
+    QueryRequest completed = request;
+    if (is_moving) {
+        completed.end_a = a.end_pose;
+        completed.end_b = b.end_pose;
+    }
+    if (lacks_tolerance) {
+        const SceneShape& shape_a = scene_.shapes[a.shape];
+        const SceneShape& shape_b = scene_.shapes[b.shape];
+        completed.tolerance =
+            usual_tolerance({shape_a.rings, shape_a.deviation, a.pose.translation},
+                            {shape_b.rings, shape_b.deviation, b.pose.translation});
+    }
+    add_query(batch, completed, instances_[entry.a], instances_[entry.b]);
+}
+
+void SceneRunner::add(std::size_t query, std::size_t a, std::size_t b) {
+    entries_.push_back({query, a, b, batch_.queries().size()});
+    add_to(batch_, entries_.back());
+}
+
+void SceneRunner::refuse(Entry entry, const std::string& reason) {
+    entry.result = refused_.size();
+    entry.is_refused = true;
+    refused_.push_back(refusal({StatusCode::invalid_query, reason}));
+    entries_.push_back(entry);
+}
+
+/// The query of the pair it names, unless something is wrong with either.
+void SceneRunner::add_pair(std::size_t query) {
+    const SceneQuery& asked = scene_.queries[query];
+    std::string reason;
+    for (const std::size_t instance : {asked.a, asked.b}) {
+        const std::string& of_instance = instance_problems_[instance];
+        const std::string& problem =
+            of_instance.empty() ? shape_problems_[scene_.instances[instance].shape] : of_instance;
+        if (!problem.empty() && reason.find(problem) == std::string::npos) {
+            reason += (reason.empty() ? "" : "; ") + problem;
+        }
+    }
+    if (reason.empty()) {
+        add(query, asked.a, asked.b);
+    } else {
+        refuse({.query = query, .a = asked.a, .b = asked.b, .is_dependent = true}, reason);
+    }
 }
 
 void SceneRunner::add_moving_pairs(std::size_t query) {
     const double reach = scene_.queries[query].request.contact_distance.value_or(0.0);
     std::vector<Rectangle> boxes;
-    for (const SceneInstance& instance : scene_.instances) {
+    for (const std::size_t index : sound_) {
+        const SceneInstance& instance = scene_.instances[index];
         boxes.push_back(swept_box(scene_.shapes[instance.shape], instance));
     }
     for (std::size_t a = 0; a < boxes.size(); ++a) {
         for (std::size_t b = a + 1; b < boxes.size(); ++b) {
             if (come_within(boxes[a], boxes[b], reach)) {
-                add(query, a, b);
+                add(query, sound_[a], sound_[b]);
             }
         }
     }
@@ -138,58 +295,118 @@ void SceneRunner::add_all_pairs(std::size_t query) {
     const QueryRequest& request = all.request;
     if (request.type == QueryType::time_of_impact) {
         add_moving_pairs(query);
-        return;
-    }
-    const double reach = request.type == QueryType::contacts
-                             ? request.contact_distance.value_or(request.tolerance)
-                             : all.reach;
-    const auto pairs = take(context_.find_pairs(instances_, reach), file_);
-    for (const InstancePair& pair : pairs) {
-        add(query, pair.first, pair.second);
-        if (!is_symmetric(request.type)) {
-            add(query, pair.second, pair.first);
+    } else {
+        const double reach = request.type == QueryType::contacts
+                                 ? request.contact_distance.value_or(request.tolerance)
+                                 : all.reach;
+        const auto pairs = context_.find_pairs(sound_instances_, reach);
+        if (!pairs.has_value() && bad_ == BadEntries::recorded) {
+            refuse({query, Entry::all, Entry::all},
+                   place_of(query) + ": " + full_message(pairs.error()));
+            return;
         }
+        require(pairs.error(), file_);
+        for (const InstancePair& pair : *pairs) {
+            add(query, sound_[pair.first], sound_[pair.second]);
+            if (!is_symmetric(request.type)) {
+                add(query, sound_[pair.second], sound_[pair.first]);
+            }
+        }
+    }
+    if (sound_.size() < instances_.size()) {
+        refuse({.query = query, .a = Entry::all, .b = Entry::all, .is_dependent = true},
+               "without the pairs of instances that cannot be used: " + names_of_bad());
     }
 }
 
-void SceneRunner::require_results() const {
-    for (std::size_t index = 0; index < results_.results.size(); ++index) {
-        const Status& status = summary_of(results_.results[index]).status;
-        if (!status.ok()) {
-            require(status, file_ + ": queries[" + std::to_string(entries_[index].query) + "]");
+/// "lid (shapes.box), left": with the shape where that is what is wrong.
+std::string SceneRunner::names_of_bad() const {
+    std::string names;
+    for (std::size_t index = 0; index < instances_.size(); ++index) {
+        const SceneInstance& instance = scene_.instances[index];
+        const bool is_bad = !instance_problems_[index].empty();
+        if (is_bad || !shape_problems_[instance.shape].empty()) {
+            names += (names.empty() ? "" : ", ") + instance.name;
+            names += is_bad ? "" : " (shapes." + scene_.shapes[instance.shape].name + ")";
         }
     }
+    return names;
+}
+
+void SceneRunner::require_results() const {
+    for (const Entry& entry : entries_) {
+        require(summary_of(result_of(entry)).status, place_of(entry.query));
+    }
+}
+
+std::vector<Status> SceneRunner::problems() const {
+    std::vector<Status> problems;
+    for (const std::vector<std::string>* const of : {&shape_problems_, &instance_problems_}) {
+        for (const std::string& problem : *of) {
+            if (!problem.empty()) {
+                problems.emplace_back(StatusCode::invalid_shape, problem);
+            }
+        }
+    }
+    for (const Entry& entry : entries_) {
+        const Status& status = summary_of(result_of(entry)).status;
+        if (entry.is_refused && !entry.is_dependent) {
+            problems.push_back(status);
+        } else if (!entry.is_refused && !status.ok()) {
+            problems.emplace_back(status.code(), place_of(entry.query) + ": " + status.text());
+        }
+    }
+    return problems;
+}
+
+std::size_t SceneRunner::dependent_count() const {
+    return static_cast<std::size_t>(std::count_if(
+        entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.is_dependent; }));
+}
+
+const AnyResult& SceneRunner::result_of(const Entry& entry) const {
+    return entry.is_refused ? refused_[entry.result] : results_.results[entry.result];
 }
 
 std::vector<SceneAnswer> SceneRunner::answers() const {
     std::vector<SceneAnswer> answers;
-    for (std::size_t index = 0; index < entries_.size(); ++index) {
-        const Entry& entry = entries_[index];
+    for (const Entry& entry : entries_) {
         const SceneQuery& query = scene_.queries[entry.query];
-        // The boxes may be within reach although the shapes are not.
-        const auto* const separation = std::get_if<SeparationResult>(&results_.results[index]);
+        const AnyResult& result = result_of(entry);
+        // Boxes within reach of each other may hold shapes that are not.
+        const auto* const separation = std::get_if<SeparationResult>(&result);
         if (query.all_pairs && separation != nullptr && separation->distance > query.reach) {
             continue;
         }
-        answers.push_back({query.request, scene_.instances[entry.a].name,
-                           scene_.instances[entry.b].name, results_.results[index]});
+        const bool has_pair = entry.a != Entry::all;
+        answers.push_back({query.request, has_pair ? scene_.instances[entry.a].name : query.name_a,
+                           has_pair ? scene_.instances[entry.b].name : query.name_b, result,
+                           query.kind});
     }
     return answers;
 }
 
 std::string_view SceneRunner::technique() const {
-    if (results_.results.empty()) {
-        return "none";
+    std::optional<Technique> first;
+    for (const Entry& entry : entries_) {
+        const ResultSummary& summary = summary_of(result_of(entry));
+        if (!summary.status.ok()) {
+            continue;
+        }
+        if (first && *first != summary.technique) {
+            return "mixed";
+        }
+        first = summary.technique;
     }
-    const Technique first = summary_of(results_.results.front()).technique;
-    const bool same = std::all_of(
-        results_.results.begin(), results_.results.end(),
-        [first](const AnyResult& result) { return summary_of(result).technique == first; });
-    return same ? to_string(first) : "mixed";
+    return first ? to_string(*first) : "none";
 }
 
 std::string SceneRunner::place_of(const SceneShape& shape) const {
     return file_ + ": shapes." + shape.name;
+}
+
+std::string SceneRunner::place_of(std::size_t query) const {
+    return file_ + ": queries[" + std::to_string(query) + "]";
 }
 
 }  // namespace nearfield::tools

@@ -5,6 +5,8 @@
 #include <tools/io/answer.hpp>
 #include <tools/io/scene.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,9 +24,11 @@ void set_technique(Scene& scene, std::optional<Technique> technique);
 /// Runs a scene in a context frame by frame.
 class SceneRunner {
 public:
-    /// `file` is used in messages. Throws LibraryError if a shape is rejected.
-    SceneRunner(const Scene& scene, std::string file, Context& context);
-    /// Removes its shapes from the context.
+    /// `file` is for the messages. Throws LibraryError where a shape is refused, unless bad entries
+    /// are recorded: the queries that need it then have a status that names it.
+    SceneRunner(const Scene& scene, std::string file, Context& context,
+                BadEntries bad = BadEntries::refused);
+    /// Takes its shapes out of the context.
     ~SceneRunner();
     SceneRunner(const SceneRunner&) = delete;
     SceneRunner& operator=(const SceneRunner&) = delete;
@@ -33,7 +37,17 @@ public:
     /// Returns the time in milliseconds. Throws LibraryError if the batch as a whole fails.
     double run_frame();
 
-    /// Throws LibraryError if a query of the last frame was rejected.
+    /// As run_frame(), but where the batch as a whole is too large every query is answered by
+    /// itself, so that only those that are too large are not answered.
+    void run_what_fits();
+
+    /// What is wrong with shapes, instances and queries of the last frame, each with its place;
+    /// not with queries that merely need something bad.
+    [[nodiscard]] std::vector<Status> problems() const;
+    /// How many of the queries need a shape or an instance that is bad.
+    [[nodiscard]] std::size_t dependent_count() const;
+
+    /// Throws LibraryError where a query of the last frame was refused.
     void require_results() const;
 
     /// The answers of the last frame in the order of the scene's queries; a query for all pairs has
@@ -47,25 +61,45 @@ public:
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
 
 private:
-    /// A query of the batch: its index in the scene, and its instances.
+    /// A query that was asked: which of the scene's, between which instances.
     struct Entry {
+        static constexpr std::size_t all = SIZE_MAX;  ///< in place of an instance: all pairs
         std::size_t query = 0;
         std::size_t a = 0;
         std::size_t b = 0;
+        std::size_t result = 0;   ///< in the batch, or among those refused
+        bool is_refused = false;  ///< before the batch
+        bool is_dependent = false;
     };
 
+    void add_shapes();
+    void add_instances();
+    void add_queries();
+    void add_to(Batch& batch, const Entry& entry) const;
     void add(std::size_t query, std::size_t a, std::size_t b);
+    void refuse(Entry entry, const std::string& reason);
+    void add_pair(std::size_t query);
     void add_all_pairs(std::size_t query);
     /// For time-of-impact queries.
     void add_moving_pairs(std::size_t query);
+    void answer_one_by_one();
+    [[nodiscard]] const AnyResult& result_of(const Entry& entry) const;
+    [[nodiscard]] std::string names_of_bad() const;
     [[nodiscard]] std::string place_of(const SceneShape& shape) const;
+    [[nodiscard]] std::string place_of(std::size_t query) const;
 
     const Scene& scene_;
     std::string file_;
     Context& context_;
-    std::vector<ShapeHandle> shapes_;
+    BadEntries bad_;
+    std::vector<ShapeHandle> shapes_;  ///< the default handle for a bad one
     std::vector<Instance> instances_;
+    std::vector<std::string> shape_problems_;     ///< empty for those that can be used
+    std::vector<std::string> instance_problems_;  ///< likewise
+    std::vector<std::size_t> sound_;              ///< instances that can be used
+    std::vector<Instance> sound_instances_;
     std::vector<Entry> entries_;
+    std::vector<AnyResult> refused_;
     Batch batch_;
     Results results_;
 };

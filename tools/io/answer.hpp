@@ -6,6 +6,7 @@
 #include <tools/io/query_request.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nearfield::tools {
@@ -23,9 +24,10 @@ struct Answer {
 /// One query of a scene and its answer. Refers to objects that the caller keeps.
 struct SceneAnswer {
     const QueryRequest& request;
-    const std::string& a;  ///< names of the instances
-    const std::string& b;
-    const AnyResult& result;
+    std::string_view a;  ///< names of the instances; empty where an error concerns all pairs
+    std::string_view b;
+    const AnyResult& result;  ///< of any kind, with the error as its status, where there is none
+    std::string_view kind;    ///< the name of the query, as the scene has it
 };
 
 /// A context's device as text for people. `name`: Context::device_name().
@@ -34,7 +36,16 @@ struct SceneAnswer {
     return name.empty() ? none : name;
 }
 
-/// The part common to all kinds of result.
+/// What a status says, with its reasons.
+[[nodiscard]] inline std::string full_message(const Status& status) {
+    std::string text = status.message();
+    for (const std::string& reason : status.reasons()) {
+        text += "\n  - " + reason;
+    }
+    return text;
+}
+
+/// The part that every kind of result has.
 [[nodiscard]] inline const ResultSummary& summary_of(const AnyResult& result) {
     return std::visit([](const auto& any) -> const ResultSummary& { return any; }, result);
 }

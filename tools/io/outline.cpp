@@ -129,6 +129,10 @@ Outline read_outline(std::istream& stream, const std::string& name) {
     return parse_outline(read_bytes(stream, name), name, "");
 }
 
+std::string skipped_note(const Outline& outline) {
+    return outline.file + ": skipped what holds no area: " + outline.skipped.text();
+}
+
 OutlineRings tessellate_outline(const Outline& outline, double deviation) {
     if (!outline.rings.empty()) {
         return {outline.rings, 0.0};

@@ -37,7 +37,10 @@ inline constexpr double usual_deviation = 1.0 / 16.0;
 /// Likewise from a stream, whose first characters say what it is; `name` is for the messages.
 [[nodiscard]] Outline read_outline(std::istream& stream, const std::string& name);
 
-/// The rings of an outline, whose curves deviate by at most `deviation`. Throws InputError.
+/// "FILE: skipped what holds no area: Point (2)"; precondition: something was skipped.
+[[nodiscard]] std::string skipped_note(const Outline& outline);
+
+/// The rings of an outline, its curves off by at most `deviation`. Throws InputError.
 [[nodiscard]] OutlineRings tessellate_outline(const Outline& outline, double deviation);
 
 }  // namespace nearfield::tools

@@ -232,14 +232,23 @@ void write_result(JsonWriter& json, const SeparationVectorResult& result) {
 
 void write_timings(JsonWriter& json, const Timings& timings) {
     json.key("timings_ms").begin_object();
-    json.key("localize").value(timings.localize).key("plan").value(timings.plan);
-    json.key("record").value(timings.record).key("device").value(timings.device);
-    json.key("decode").value(timings.decode).key("total").value(timings.total);
-    json.key("passes").begin_object();
-    for (const PassTime& pass : timings.passes) {
-        json.key(pass.name).value(pass.milliseconds);
+    for (const auto& [name, milliseconds] :
+         {std::pair{"localize", timings.localize}, std::pair{"plan", timings.plan},
+          std::pair{"record", timings.record}, std::pair{"device", timings.device},
+          std::pair{"decode", timings.decode}}) {
+        if (milliseconds != 0.0) {
+            json.key(name).value(milliseconds);
+        }
     }
-    json.end_object().end_object();
+    json.key("total").value(timings.total);
+    if (!timings.passes.empty()) {
+        json.key("passes").begin_object();
+        for (const PassTime& pass : timings.passes) {
+            json.key(pass.name).value(pass.milliseconds);
+        }
+        json.end_object();
+    }
+    json.end_object();
 }
 
 namespace {
@@ -298,9 +307,16 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
     json.key("results").begin_array(JsonWriter::Layout::lines);
     for (const SceneAnswer& answer : answers) {
         json.begin_object(JsonWriter::Layout::lines);
-        json.key("a").value(std::string_view(answer.a));
-        json.key("b").value(std::string_view(answer.b));
-        write_answer(json, answer.request, answer.result);
+        json.key("a").value_or_null(answer.a);
+        json.key("b").value_or_null(answer.b);
+        const Status& status = summary_of(answer.result).status;
+        json.key("status").value(to_string(status.code()));
+        if (status.ok()) {
+            write_answer(json, answer.request, answer.result);
+        } else {
+            json.key("query").value_or_null(answer.kind);
+            json.key("message").value(std::string_view(full_message(status)));
+        }
         json.end_object();
     }
     json.end_array().end_object();

@@ -21,7 +21,8 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
                       const Timings& timings, const std::string& device,
                       std::string_view technique);
 
-/// Writes the member `timings_ms` into the open object.
+/// Writes the member `timings_ms` of an object that is open: `total`, and the stages that took
+/// place.
 void write_timings(JsonWriter& json, const Timings& timings);
 
 }  // namespace nearfield::tools

@@ -29,7 +29,7 @@ enum class FieldPicture { field, voronoi, gradient };
 /// The options of one query from the command line or a scene: everything except its two shapes.
 struct QueryRequest {
     QueryType type = QueryType::penetration;
-    double tolerance = 0.0;  ///< 0 if not given, which only intersection-test allows
+    double tolerance = 0.0;  ///< 0 where none is given and none is needed
     Technique technique = Technique::automatic;
     PenetrationPoints points = PenetrationPoints::boundary;         ///< for penetration
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< for intersection
@@ -61,8 +61,14 @@ struct QueryRequest {
            type != QueryType::separation_vector;
 }
 
-/// The names used on the command line and in scenes. Parsing throws InputError with a message that
-/// lists the choices; `what` names the place ("--kind").
+/// True of a query whose answer does not depend on the tolerance, which need not be given.
+[[nodiscard]] constexpr bool is_exact(QueryType type) {
+    return type == QueryType::intersection_test || type == QueryType::separation ||
+           type == QueryType::closest_point;
+}
+
+/// The names of the command line and of scenes. Parsing throws InputError with a text that says
+/// what there is to choose from; `what` says where the name stands ("--kind").
 [[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);

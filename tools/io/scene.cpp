@@ -1,4 +1,5 @@
 #include <tools/io/geojson.hpp>
+#include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/scene.hpp>
@@ -18,10 +19,16 @@ namespace {
 
 using nlohmann::json;
 
+/// A member that is not known: of a scene that is not understood.
+class UnknownMember : public InputError {
+public:
+    using InputError::InputError;
+};
+
 void require_known_members(const JsonPlace& place, const std::vector<std::string_view>& known) {
     for (const auto& [key, value] : place.require_object().value().items()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
-            place.member(key).fail("is not known here");
+            throw UnknownMember(place.member(key).text() + ": is not known here");
         }
     }
 }
@@ -74,6 +81,9 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
                     [&](const SceneInstance& instance) { return instance.shape == shape; });
     double smallest = std::numeric_limits<double>::infinity();
     for (const SceneQuery& query : scene.queries) {
+        if (!query.problem.empty()) {
+            continue;
+        }
         const bool takes_part = query.all_pairs ? is_placed
                                                 : scene.instances[query.a].shape == shape ||
                                                       scene.instances[query.b].shape == shape;
@@ -100,6 +110,12 @@ std::size_t find_entry(const std::vector<Entry>& entries, const JsonPlace& place
     return static_cast<std::size_t>(found - entries.begin());
 }
 
+void require_angle(const JsonPlace& pose, double degrees) {
+    if (const std::string problem = angle_problem(degrees); !problem.empty()) {
+        pose.fail(problem);
+    }
+}
+
 SceneInstance read_instance(const std::string& name, const JsonPlace& place, const Scene& scene) {
     require_known_members(place, {"shape", "pose", "end_pose"});
     SceneInstance instance;
@@ -109,10 +125,12 @@ SceneInstance read_instance(const std::string& name, const JsonPlace& place, con
     std::vector<double> pose{0.0, 0.0, 0.0};
     if (place.has("pose")) {
         pose = numbers(place.member("pose"), 3, form);
+        require_angle(place.member("pose"), pose[2]);
         instance.pose = to_pose({pose[0], pose[1], pose[2]});
     }
     if (place.has("end_pose")) {
         const std::vector<double> end = numbers(place.member("end_pose"), 3, form);
+        require_angle(place.member("end_pose"), end[2]);
         instance.end_pose = to_end_pose({end[0], end[1], end[2]}, pose[2]);
     }
     return instance;
@@ -217,7 +235,7 @@ std::vector<std::string_view> members_of(QueryType type) {
 
 /// Reads the members that several types of query share.
 void read_shared_members(const JsonPlace& place, QueryRequest& request) {
-    if (request.type != QueryType::intersection_test || place.has("tolerance")) {
+    if (!is_exact(request.type) || place.has("tolerance")) {
         request.tolerance = read_above_zero(place.member("tolerance"));
     }
     if (place.has("strategy")) {
@@ -245,8 +263,8 @@ QueryRequest read_request(const JsonPlace& place) {
     if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
         place.member("reach").fail("belongs to the separation of all pairs");
     }
-    read_shared_members(place, request);
     require_known_members(place, members_of(request.type));
+    read_shared_members(place, request);
     if (place.has("points")) {
         request.points = parse_member(place, "points", parse_points);
     }
@@ -297,35 +315,115 @@ SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
     return query;
 }
 
+/// The text of a member as the file has it; empty where there is none.
+std::string text_of(const JsonPlace& place, const char* key) {
+    const json& value = place.value();
+    const bool has_text = value.is_object() && value.contains(key) && value[key].is_string();
+    return has_text ? value[key].get<std::string>() : std::string();
+}
+
+/// Reads shapes, instances and queries, in this order.
+class SceneReader {
+public:
+    SceneReader(const JsonPlace& root, BadEntries bad)
+        : bad_(bad),
+          shapes_(root.member("shapes")),
+          instances_(root.member("instances")),
+          queries_(root.member("queries")) {}
+
+    Scene read() {
+        for (const auto& [name, value] : shapes_.require_object().value().items()) {
+            read_outline_of(name);
+        }
+        for (const auto& [name, value] : instances_.require_object().value().items()) {
+            read_instance_of(name);
+        }
+        for (std::size_t index = 0; index < queries_.require_array().value().size(); ++index) {
+            read_query_of(queries_.element(index));
+        }
+        for (std::size_t index = 0; index < outlines_.size(); ++index) {
+            tessellate_shape(index);
+        }
+        return std::move(scene_);
+    }
+
+private:
+    /// Reads one entry; what is wrong with it becomes its problem, where that is asked for.
+    template <class Read>
+    void attempt(const JsonPlace& place, std::string& problem, Read read) {
+        try {
+            read(place);
+        } catch (const UnknownMember&) {
+            throw;
+        } catch (const InputError& error) {
+            if (bad_ == BadEntries::refused) {
+                throw;
+            }
+            const std::string text = error.what();  // may name only the outline's file
+            problem = text.starts_with(place.text()) ? text : place.text() + ": " + text;
+        }
+    }
+
+    void read_outline_of(const std::string& name) {
+        SceneShape shape{.name = name};
+        Outline outline;
+        attempt(shapes_.member(name), shape.problem, [&](const JsonPlace& place) {
+            outline = read_shape(place);
+            if (!outline.skipped.empty()) {
+                shape.note = place.text() + ": " + skipped_note(outline);
+            }
+        });
+        scene_.shapes.push_back(std::move(shape));
+        outlines_.push_back(std::move(outline));
+    }
+
+    void read_instance_of(const std::string& name) {
+        SceneInstance instance{.name = name};
+        std::string problem;
+        attempt(instances_.member(name), problem,
+                [&](const JsonPlace& place) { instance = read_instance(name, place, scene_); });
+        instance.problem = problem;
+        scene_.instances.push_back(std::move(instance));
+    }
+
+    void read_query_of(const JsonPlace& place) {
+        SceneQuery query;
+        std::string problem;
+        attempt(place, problem, [&](const JsonPlace& where) { query = read_query(where, scene_); });
+        query.problem = problem;
+        query.kind = text_of(place, "query");
+        query.name_a = text_of(place, "a");
+        query.name_b = text_of(place, "b");
+        scene_.queries.push_back(std::move(query));
+    }
+
+    void tessellate_shape(std::size_t index) {
+        SceneShape& shape = scene_.shapes[index];
+        if (!shape.problem.empty()) {
+            return;
+        }
+        attempt(shapes_.member(shape.name), shape.problem, [&](const JsonPlace& place) {
+            const Outline& outline = outlines_[index];
+            const double deviation = outline.curved() ? shape_deviation(place, index, scene_) : 0.0;
+            OutlineRings rings = tessellate_outline(outline, deviation);
+            shape.rings = std::move(rings.rings);
+            shape.deviation = rings.deviation;
+        });
+    }
+
+    BadEntries bad_;
+    JsonPlace shapes_;
+    JsonPlace instances_;
+    JsonPlace queries_;
+    std::vector<Outline> outlines_;
+    Scene scene_;
+};
+
 }  // namespace
 
-Scene read_scene(const std::string& path) {
+Scene read_scene(const std::string& path, BadEntries bad) {
     const json document = parse_json(read_text(path), path);
-    const JsonPlace root(document, path);
-    const JsonPlace shapes = root.member("shapes");
-    const JsonPlace instances = root.member("instances");
-    const JsonPlace queries = root.member("queries");
-    Scene scene;
-    std::vector<Outline> outlines;
-    for (const auto& [name, value] : shapes.require_object().value().items()) {
-        outlines.push_back(read_shape(shapes.member(name)));
-        scene.shapes.push_back({name, {}, 0.0});
-    }
-    for (const auto& [name, value] : instances.require_object().value().items()) {
-        scene.instances.push_back(read_instance(name, instances.member(name), scene));
-    }
-    for (std::size_t index = 0; index < queries.require_array().value().size(); ++index) {
-        scene.queries.push_back(read_query(queries.element(index), scene));
-    }
-    for (std::size_t index = 0; index < outlines.size(); ++index) {
-        const JsonPlace place = shapes.member(scene.shapes[index].name);
-        const double deviation =
-            outlines[index].curved() ? shape_deviation(place, index, scene) : 0.0;
-        OutlineRings rings = tessellate_outline(outlines[index], deviation);
-        scene.shapes[index].rings = std::move(rings.rings);
-        scene.shapes[index].deviation = rings.deviation;
-    }
-    return scene;
+    return SceneReader(JsonPlace(document, path), bad).read();
 }
 
 }  // namespace nearfield::tools

@@ -14,16 +14,19 @@ namespace nearfield::tools {
 /// A shape of a scene.
 struct SceneShape {
     std::string name;
-    std::vector<Ring> rings;
-    double deviation = 0.0;  ///< the maximum distance of the rings from its curves
+    std::vector<Ring> rings = {};
+    double deviation = 0.0;    ///< how far the rings may be from its curves
+    std::string problem = {};  ///< why it cannot be used; empty where it can
+    std::string note = {};     ///< what was skipped of its file; empty where nothing was
 };
 
 /// A shape of a scene with a pose.
 struct SceneInstance {
     std::string name;
     std::size_t shape = 0;  ///< index into Scene::shapes
-    Pose pose;
-    std::optional<Pose> end_pose = std::nullopt;  ///< for time of impact: the end of the motion
+    Pose pose = {};
+    std::optional<Pose> end_pose = std::nullopt;  ///< of times of impact: where it moves to
+    std::string problem = {};                     ///< why it cannot be used; empty where it can
 };
 
 /// A query of a scene between two of its instances, or between all pairs that are near each other.
@@ -36,7 +39,12 @@ struct SceneQuery {
     /// separation); boxes overlap (for intersection tests and separation vectors); boxes that
     /// contain the whole motion are within the contact distance (for time of impact).
     bool all_pairs = false;
-    double reach = 0.0;  ///< for separation of all pairs, world units
+    double reach = 0.0;  ///< of separation of all pairs, world units
+    /// "query", "a" and "b" as the file has them; empty where they are not there.
+    std::string kind = {};
+    std::string name_a = {};
+    std::string name_b = {};
+    std::string problem = {};  ///< why it cannot be asked; empty where it can
 };
 
 /// Shapes, poses and queries for one batch.
@@ -46,11 +54,19 @@ struct Scene {
     std::vector<SceneQuery> queries;
 };
 
+/// What becomes of a shape, an instance or a query that is wrong in itself.
+enum class BadEntries {
+    refused,   ///< InputError: the scene is refused
+    recorded,  ///< its `problem` says why it cannot be used; the others can be
+};
+
 /// Reads a scene and the outlines it names, whose paths are relative to the scene's folder. Throws
-/// InputError with the file and the place in it. Curves are tessellated with the shape's
-/// `deviation`, or else with usual_deviation of the smallest tolerance among the queries that use
-/// it. Unknown members of a shape, an instance or a query are rejected: a misspelt one would
-/// silently change the answer.
-[[nodiscard]] Scene read_scene(const std::string& path);
+/// InputError with the file and the place in it. Curves are tessellated with the `deviation` a
+/// shape states, else with usual_deviation of the smallest tolerance among the queries that use it.
+///
+/// The scene as a whole is refused where it is not JSON, where `shapes`, `instances` or `queries`
+/// is not there, and where a shape, an instance or a query has a member that is not known: a
+/// misspelt one would change the answer silently.
+[[nodiscard]] Scene read_scene(const std::string& path, BadEntries bad = BadEntries::refused);
 
 }  // namespace nearfield::tools

@@ -196,14 +196,19 @@ void write_timings_summary(std::ostream& stream, const Timings& timings) {
         std::snprintf(text, sizeof text, "%10.3f ms", milliseconds);
         write_item(stream, name, text);
     };
-    write_time("localize", timings.localize);
-    write_time("plan", timings.plan);
-    write_time("record", timings.record);
-    write_time("device", timings.device);
+    const auto write_stage = [&](std::string_view name, double milliseconds) {
+        if (milliseconds != 0.0) {  // it took place
+            write_time(name, milliseconds);
+        }
+    };
+    write_stage("localize", timings.localize);
+    write_stage("plan", timings.plan);
+    write_stage("record", timings.record);
+    write_stage("device", timings.device);
     for (const PassTime& pass : timings.passes) {
         write_time("  " + pass.name, pass.milliseconds);
     }
-    write_time("decode", timings.decode);
+    write_stage("decode", timings.decode);
     write_time("total", timings.total);
 }
 
@@ -234,9 +239,16 @@ void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answ
     write_item(stream, "queries", std::to_string(answers.size()));
     for (const SceneAnswer& answer : answers) {
         stream << '\n';
+        const Status& status = summary_of(answer.result).status;
         write_item(
             stream, "query",
-            std::string(name_of(answer.request.type)) + " of " + answer.a + " and " + answer.b);
+            std::string(answer.kind) + " of " +
+                (answer.a.empty() ? "all pairs"
+                                  : std::string(answer.a) + " and " + std::string(answer.b)));
+        if (!status.ok()) {
+            write_item(stream, "status", status.text());
+            continue;
+        }
         std::visit([&stream](const auto& result) { write_result(stream, result); }, answer.result);
     }
     stream << '\n';

@@ -1,9 +1,11 @@
+#include <tools/io/characters.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/values.hpp>
 
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <numbers>
 #include <span>
 #include <system_error>
@@ -26,7 +28,18 @@ bool parse_finite(std::string_view text, double& number) {
     return error == std::errc{} && rest == end && std::isfinite(number);
 }
 
-/// Parses finite numbers separated by commas; `form` describes them in messages.
+std::string_view without_spaces(std::string_view text) {
+    while (!text.empty() && is_space(text.front())) {
+        text.remove_prefix(1);
+    }
+    while (!text.empty() && is_space(text.back())) {
+        text.remove_suffix(1);
+    }
+    return text;
+}
+
+/// Finite numbers separated by commas, with or without spaces around them; `form` says what they
+/// are.
 void parse_list(std::string_view text, const std::string& option, const std::string& form,
                 std::span<double> numbers) {
     std::string_view rest = text;
@@ -36,10 +49,10 @@ void parse_list(std::string_view text, const std::string& option, const std::str
         if (comma == std::string_view::npos) {
             fail(option, text, "expected " + form);
         }
-        if (!parse_finite(rest.substr(0, comma), numbers[index])) {
+        const std::string_view part = without_spaces(rest.substr(0, comma));
+        if (!parse_finite(part, numbers[index])) {
             fail(option, text,
-                 "expected " + form + "; \"" + std::string(rest.substr(0, comma)) +
-                     "\" is not a finite number");
+                 "expected " + form + "; \"" + std::string(part) + "\" is not a finite number");
         }
         rest.remove_prefix(last ? comma : comma + 1);
     }
@@ -73,9 +86,25 @@ std::uint32_t parse_count(std::string_view text, const std::string& option, Coun
     return static_cast<std::uint32_t>(number);
 }
 
+std::string angle_problem(double degrees) {
+    if (std::abs(degrees) <= largest_degrees) {
+        return {};
+    }
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "an angle of %g degrees is too large to mean anything: it is known to no better "
+                  "than %.1g degrees; the largest is %.0f",
+                  degrees, std::nextafter(std::abs(degrees), HUGE_VAL) - std::abs(degrees),
+                  largest_degrees);
+    return text;
+}
+
 DegreesPose parse_pose(std::string_view text, const std::string& option) {
     double numbers[3] = {};
     parse_list(text, option, "X,Y,DEGREES (three numbers)", numbers);
+    if (const std::string problem = angle_problem(numbers[2]); !problem.empty()) {
+        fail(option, text, problem);
+    }
     return {numbers[0], numbers[1], numbers[2]};
 }
 

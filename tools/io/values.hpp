@@ -8,8 +8,9 @@
 
 namespace nearfield::tools {
 
-/// Strict parsing of command line values: the whole text must match, and numbers must be finite.
-/// `option` is used in messages of InputError ("--pose-a").
+/// Strict parsing of what stands on the command line: the whole text, finite numbers, nothing
+/// before or after but the spaces around the numbers of a list. `option` is for the messages of
+/// InputError ("--pose-a").
 
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
@@ -30,6 +31,12 @@ struct DegreesPose {
     double y = 0.0;
     double degrees = 0.0;
 };
+
+/// The largest magnitude of an angle, 2^33 degrees: from there on neighbouring doubles are more
+/// than a millionth of a degree apart.
+inline constexpr double largest_degrees = 8589934592.0;
+/// Why an angle is refused; empty where it is not.
+[[nodiscard]] std::string angle_problem(double degrees);
 
 /// "X,Y,DEGREES"
 [[nodiscard]] DegreesPose parse_pose(std::string_view text, const std::string& option);

@@ -53,9 +53,10 @@ TEST(ToolsJson, PenetrationHasTheKeysOfTheContract) {
     EXPECT_EQ(answer["technique"], "raster");
     EXPECT_EQ(answer["regions"],
               json::parse(R"([{"min": [-1, 2], "max": [3, 4.5], "width": 40, "height": 25}])"));
-    EXPECT_EQ(answer["timings_ms"],
-              json::parse(R"({"localize": 0, "plan": 0.1, "record": 0, "device": 0, "decode": 0,
-                              "total": 0, "passes": {"fill": 0.25, "resolve": 1e-9}})"));
+    EXPECT_EQ(
+        answer["timings_ms"],
+        json::parse(R"({"plan": 0.1, "total": 0, "passes": {"fill": 0.25, "resolve": 1e-9}})"))
+        << "and no stage that did not take place";
     EXPECT_EQ(answer["count"], 1);
     EXPECT_EQ(answer["deepest"],
               json::parse(R"({"point": [0.1, 0.2], "depth": 0.3, "direction": [0.6, 0.8]})"));

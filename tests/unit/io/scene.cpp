@@ -4,9 +4,12 @@
 #include <tests/support/folder.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/scene.hpp>
+#include <tools/io/usual_tolerance.hpp>
 #include <tools/io/values.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -114,14 +117,65 @@ TEST(ToolsScene, ErrorsNameTheFileAndThePlace) {
               file + ": shapes.x: needs either \"file\" or \"rings\"");
 }
 
+TEST(ToolsScene, BadEntriesAreRecordedWhereAsked) {
+    const test_support::Folder folder;
+    folder.write("good.wkt", "GEOMETRYCOLLECTION(POINT(1 2),POLYGON((0 0,4 0,0 3)))");
+    const std::string file = folder.write("s.json", R"({
+        "shapes": {"bare": {"rings": [[]]}, "good": {"file": "good.wkt"}, "none": {"file": "none.wkt"}},
+        "instances": {"a": {"shape": "good"}, "b": {"shape": "box"}, "c": {"shape": "none"}},
+        "queries": [{"query": "separation", "a": "a", "b": "c"},
+                    {"query": "separation", "a": "a", "b": "x"},
+                    {"query": "depth", "a": "a", "b": 7},
+                    {"query": "penetration", "a": "a", "b": "b"}, 7]})");
+    EXPECT_NE(input_error([&] { return read_scene(file); }), "no error");
+    const Scene scene = read_scene(file, BadEntries::recorded);
+    ASSERT_EQ(scene.shapes.size(), 3U);
+    EXPECT_EQ(scene.shapes[0].problem, file + ": shapes.bare.rings[0]: an empty ring");
+    EXPECT_EQ(scene.shapes[1].problem, "");
+    EXPECT_EQ(scene.shapes[1].note, file + ": shapes.good: " + folder.path("good.wkt") +
+                                        ": skipped what holds no area: POINT (1)");
+    EXPECT_EQ(scene.shapes[1].rings.size(), 1U);
+    EXPECT_EQ(scene.shapes[2].problem, file + ": shapes.none: " + folder.path("none.wkt") +
+                                           ": cannot be opened: No such file or directory");
+    ASSERT_EQ(scene.instances.size(), 3U);
+    EXPECT_EQ(scene.instances[0].problem, "");
+    EXPECT_EQ(scene.instances[1].problem, file + ": instances.b.shape: there is no shape \"box\"");
+    EXPECT_EQ(scene.instances[2].problem, "") << "its shape is what is bad";
+    ASSERT_EQ(scene.queries.size(), 5U);
+    EXPECT_EQ(scene.queries[0].problem, "");
+    EXPECT_EQ(scene.queries[1].problem, file + ": queries[1].b: there is no instance \"x\"");
+    EXPECT_EQ(scene.queries[1].kind + scene.queries[1].name_a + scene.queries[1].name_b,
+              "separationax");
+    EXPECT_EQ(scene.queries[2].problem.rfind(file + ": queries[2].query: \"depth\" is none", 0),
+              0U);
+    EXPECT_EQ(scene.queries[2].name_b, "");
+    EXPECT_EQ(scene.queries[3].problem, file + ": queries[3]: has no \"tolerance\"");
+    EXPECT_EQ(scene.queries[4].problem, file + ": queries[4]: not an object but a number");
+}
+
+TEST(ToolsScene, AMisspeltMemberRefusesTheSceneWhateverBecomesOfBadEntries) {
+    const test_support::Folder folder;
+    folder.write("b.wkt", "POLYGON((0 0, 1 0, 0 1))");
+    const std::string file = folder.write(
+        "s.json", scene_text(R"({"query": "contacts", "a": "one", "b": "two", "tolerance": -1,
+                                 "contact_distanze": 1})"));
+    EXPECT_EQ(input_error([&] { return read_scene(file, BadEntries::recorded); }),
+              file + ": queries[0].contact_distanze: is not known here");
+}
+
 TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
+    for (const char* const text : {"-1.5,2e2,720", "-1.5, 2e2, 720", " -1.5 ,\t2e2 , 720 "}) {
+        EXPECT_EQ(parse_pose(text, "--pose-a").x, -1.5) << text;
+        EXPECT_EQ(parse_pose(text, "--pose-a").y, 200.0) << text;
+        EXPECT_EQ(parse_pose(text, "--pose-a").degrees, 720.0) << text;
+    }
     const Pose pose = to_pose(parse_pose("-1.5,2e2,720", "--pose-a"));
     EXPECT_EQ(pose.translation, (Vector2{-1.5, 200}));
     EXPECT_EQ(pose.angle, 0.0);
     EXPECT_DOUBLE_EQ(to_pose(parse_pose("0,+0,-90", "--pose-a")).angle, -std::numbers::pi / 2);
     EXPECT_DOUBLE_EQ(to_end_pose({0, 0, 450}, 90).angle, 2.5 * std::numbers::pi);
     for (const char* const text :
-         {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "1,2,x", "1,2,3 ", " 1,2,3", "nan,0,0",
+         {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "1,2,x", "1 2 3", "1,2 3", "1, ,3", "nan,0,0",
           "0,inf,0", "1e999,0,0", "0x1,0,0", "1;2;3", "+-1,0,0"}) {
         EXPECT_EQ(input_error([&] {
                       return parse_pose(text, "--pose-a");
@@ -129,6 +183,40 @@ TEST(ToolsValues, PosesAreThreeFiniteNumbersAndNothingElse) {
                   0U)
             << text;
     }
+}
+
+TEST(ToolsValues, AnglesTooLargeToMeanAnythingAreRefused) {
+    for (const char* const text : {"0,0,8589934592", "0,0,-8589934592"}) {
+        EXPECT_EQ(std::abs(parse_pose(text, "--pose-a").degrees), largest_degrees);
+    }
+    for (const char* const text : {"0,0,8589934593", "0,0,-1e10", "0,0,1e300"}) {
+        const std::string error = input_error([&] { return parse_pose(text, "--end-pose-b"); });
+        EXPECT_EQ(error.rfind(std::string("--end-pose-b: \"") + text + "\": an angle of ", 0), 0U)
+            << error;
+        EXPECT_NE(error.find("the largest is 8589934592"), std::string::npos) << error;
+    }
+    const test_support::Folder folder;
+    for (const char* const key : {"pose", "end_pose"}) {
+        const std::string file = folder.write(
+            "s.json", std::string(R"({"shapes": {"s": {"rings": [[[0, 0], [1, 0], [0, 1]]]}},
+                "instances": {"i": {"shape": "s", ")") +
+                          key + R"(": [0, 0, 1e10]}}, "queries": []})");
+        const std::string error = input_error([&] { return read_scene(file); });
+        EXPECT_EQ(error.rfind(file + ": instances.i." + key + ": an angle of 1e+10 degrees", 0), 0U)
+            << error;
+    }
+}
+
+TEST(ToolsValues, TheUsualToleranceIsOneThatTheLibraryAllows) {
+    const std::vector<Ring> small{{{0, 0}, {1, 0}, {1, 2}}};
+    const std::vector<Ring> large{{{10, 0}, {50, 0}, {10, 5}}, {{9, 9}, {9, 10}, {8, 9}}};
+    EXPECT_DOUBLE_EQ(usual_tolerance({small, 0.0, {}}, {large, 0.0, {}}), 0.042);
+    EXPECT_DOUBLE_EQ(usual_tolerance({large, 0.0, {}}, {small, 0.0, {3, 4}}), 0.042);
+    EXPECT_GE(usual_tolerance({small, 0.0, {1e11, 0}}, {large, 0.0, {}}),
+              4096 * std::numeric_limits<double>::epsilon() * 1e11);
+    const double deviated = usual_tolerance({small, 0.5, {}}, {large, 0.25, {}});
+    EXPECT_GE(max_deviation * deviated, 0.75);
+    EXPECT_LE(deviated, 3.1);
 }
 
 TEST(ToolsValues, CountsAreWholeDecimalNumbersInARange) {
