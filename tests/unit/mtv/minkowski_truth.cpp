@@ -274,6 +274,18 @@ TEST(MinkowskiTruth, CombsWhoseTeethJustFit) {
     }
 }
 
+TEST(MinkowskiTruth, WhateverTheWork) {
+    // Work that runs out in the midst of the search leaves a bound that holds.
+    samples::Random random(704);
+    for (int i = 0; i < 240; ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        const auto work = static_cast<std::uint64_t>(std::pow(10.0, random.between(3.0, 6.0)));
+        const Parted a = i % 2 == 0 ? comb(3, 0.5, 1.0) : star(random, 5 + random.below(4));
+        const Parted b = i % 3 == 0 ? comb(4, 0.45, 1.0) : scattered(random);
+        check(a, any_pose(random, 0.7), b, any_pose(random, 0.3), 1e-4, work);
+    }
+}
+
 TEST(MinkowskiTruth, FramesBarsAndScatteredParts) {
     samples::Random random(703);
     for (int i = 0; i < 30; ++i) {

@@ -99,6 +99,28 @@ TEST(KeepInside, KeepsThePointsInsideInOrderOnEveryInstructionSet) {
     hwy::GetChosenTarget().DeInit();
 }
 
+/// Neither here nor there does an edge come near the points, but one lies in between.
+TEST(KeepInside, SeesJumpsOverTheBoundary) {
+    const Polygon square = samples::polygon({samples::rectangle(-1.0, -1.0, 1.0, 1.0)});
+    simd::TransformedInstances instances;
+    const std::uint32_t index = instances.place(square, {});
+    instances.complete(index);
+    Boundary boundary;
+    boundary.set(instances[index]);
+    // Points stay where they are for some time, first inside, then outside, and so on.
+    for (std::uint32_t stay = 1; stay <= 20; ++stay) {
+        Points points;
+        std::uint32_t inside = 0;
+        for (std::uint32_t i = 0; i < 6 * stay; ++i) {
+            const bool is_inside = i / stay % 2 == 0;
+            points.push({is_inside ? 0.5 : 1.5, 0.001 * i});
+            inside += is_inside ? 1U : 0U;
+        }
+        EXPECT_EQ(boundary.keep_inside(points.count, {points.x.data(), points.y.data()}), inside)
+            << stay << " at a time";
+    }
+}
+
 TEST(KeepInside, OfNoPointsKeepsNone) {
     const Polygon square = samples::polygon({samples::rectangle(-1.0, -1.0, 1.0, 1.0)});
     simd::TransformedInstances instances;

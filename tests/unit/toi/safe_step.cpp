@@ -107,6 +107,48 @@ TEST(SafeStep, SeesAnEdgeThatSwingsOntoATip) {
     }
 }
 
+TEST(SafeStep, SeesAWallBeyondAFloorThatNeverComesCloser) {
+    // It slides along the floor, close to it, and hits the wall half way.
+    const Polygon corner = samples::polygon(
+        {{{-10.0, -1.0}, {10.0, -1.0}, {10.0, 4.0}, {5.0, 4.0}, {5.0, 0.0}, {-10.0, 0.0}}});
+    for (const double gap : {1e-1, 1e-2, 1e-4}) {
+        const Moving pair{square(1.0), corner, {{0.0, 1.0 + gap}, 0.0}, {{8.0, 1.0 + gap}, 0.0},
+                          {},          {}};
+        const Motion a = pair.of_a();
+        const Motion b = pair.of_b();
+        ConservativeAdvancement finder;
+        const Impact impact = finder.find(a, b, {1e-6, 1.0, 1000, 0.0});
+        ASSERT_EQ(impact.kind, Impact::Kind::found) << gap;
+        EXPECT_NEAR(impact.time, 0.5, 1e-6);
+    }
+}
+
+TEST(SafeStep, OfMorePairsThanAreTestedStopsShortOfTheOthers) {
+    constexpr double distance = 0.01;         // of a leg from the floor
+    constexpr double keep = distance / 8.0;   // what a step leaves
+    constexpr double reach = 4.0 * distance;  // of the pairs that are tested
+    constexpr double to_wall = reach + keep / 2.0;
+    // A row of vertices above the floor, too many to test, once the reach grows to them.
+    Ring ring{{-1.0, 1.0}, {-1.0, 0.0}, {-0.9, 0.0}, {-0.9, 0.09}};
+    constexpr int many = 400;
+    for (int i = 1; i < many; ++i) {
+        ring.push_back({-0.9 + 1.9 * i / many, 0.09});
+    }
+    ring.insert(ring.end(), {{1.0, 0.09}, {1.0, 1.0}});
+    const double wall = 1.0 + to_wall;
+    const Moving pair{
+        samples::polygon({ring}),
+        samples::polygon(
+            {{{-10.0, -1.0}, {10.0, -1.0}, {10.0, 4.0}, {wall, 4.0}, {wall, 0.0}, {-10.0, 0.0}}}),
+        {{0.0, distance}, 0.0},
+        {{1.0, distance}, 0.0},
+        {},
+        {}};
+    const Impact impact = after_one_step(pair);
+    EXPECT_NEAR(impact.time, reach - keep, 1e-9);
+    EXPECT_GE(distance_at(pair.of_a(), pair.of_b(), impact.time), keep);
+}
+
 Polygon any_polygon(samples::Random& random) {
     const double size = random.between(0.02, 1.0);
     samples::Rings rings{random.below(2) == 0
@@ -126,10 +168,8 @@ Moving any_pair(samples::Random& random) {
     return {any_polygon(random), any_polygon(random), pose(3.0), pose(9.0), pose(3.0), pose(9.0)};
 }
 
-/// Whether two polygons of one ring share a point with each other, boundary or not, at the start.
 TEST(SafeStep, IsNeverTooLongForAnyMotion) {
     samples::Random random(501);
-    ConservativeAdvancement finder;
     int moved = 0;
     for (int i = 0; i < 6000; ++i) {
         SCOPED_TRACE("case " + std::to_string(i));

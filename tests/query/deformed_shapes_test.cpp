@@ -1,0 +1,59 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/every_query.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+/// A round shape of many edges that is simplified by far, at every phase another.
+Rings wavy(double phase) {
+    constexpr int edges = 600;
+    Ring ring;
+    for (int i = 0; i < edges; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / edges;
+        const double radius = 0.8 + 0.15 * std::sin(5.0 * angle + phase);
+        ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    return {ring};
+}
+
+class DeformedShapes : public QueryTest {
+protected:
+    /// What a context that knows no other shapes says.
+    static std::vector<double> of_fresh_shapes(const Rings& rings_a, const Rings& rings_b) {
+        Context fresh = *Context::create(host_device(), drawing());
+        const ShapeHandle a = *fresh.add_shape(rings_a);
+        const ShapeHandle b = *fresh.add_shape(rings_b);
+        return answers(fresh, a, b);
+    }
+    static std::vector<double> answers(Context& context, ShapeHandle a, ShapeHandle b) {
+        Results results;
+        const Status status = context.run(every_query(a, b, 1, false), results);
+        EXPECT_TRUE(status.ok()) << status.text();
+        return all_numbers(results);
+    }
+};
+
+TEST_F(DeformedShapes, AreAnsweredAsFreshOnesFromBatchToBatch) {
+    Context kept = *Context::create(host_device(), drawing());
+    const ShapeHandle a = *kept.add_shape(wavy(0.0));
+    const ShapeHandle b = *kept.add_shape(wavy(1.0));
+    std::vector<double> last;
+    for (const double phase : {0.0, 0.5, 2.0}) {
+        SCOPED_TRACE("phase " + std::to_string(phase));
+        // As many vertices as before: nothing but their places tells old from new.
+        ASSERT_TRUE(kept.update_shape(a, wavy(phase)).ok());
+        ASSERT_TRUE(kept.update_shape(b, wavy(1.0 + phase)).ok());
+        const std::vector<double> found = answers(kept, a, b);
+        EXPECT_TRUE(found == of_fresh_shapes(wavy(phase), wavy(1.0 + phase)));
+        EXPECT_TRUE(found != last);
+        last = found;
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
