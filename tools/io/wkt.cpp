@@ -27,7 +27,7 @@ struct NamedKind {
 };
 
 /// None is the beginning of another: a dimension may be glued to a name.
-constexpr std::array<NamedKind, 8> kinds{{
+constexpr std::array<NamedKind, 8> named_kinds{{
     {"POLYGON", Kind::polygon},
     {"MULTIPOLYGON", Kind::multi_polygon},
     {"GEOMETRYCOLLECTION", Kind::collection},
@@ -100,10 +100,10 @@ private:
     void parse_geometry(int depth) {
         const std::size_t start = (skip_space(), position_);
         const std::string type = word();
-        const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const NamedKind& named) {
-            return type.starts_with(named.name);
-        });
-        if (found == kinds.end()) {
+        const auto found =
+            std::find_if(named_kinds.begin(), named_kinds.end(),
+                         [&](const NamedKind& named) { return type.starts_with(named.name); });
+        if (found == named_kinds.end()) {
             fail(start, type.empty() ? "expected POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION"
                                      : "\"" + type +
                                            "\" is none of POLYGON, MULTIPOLYGON, "
