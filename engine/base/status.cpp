@@ -14,6 +14,8 @@ const char* to_string(StatusCode code) noexcept {
             return "invalid_query";
         case StatusCode::unknown_shape:
             return "unknown_shape";
+        case StatusCode::unknown_instance:
+            return "unknown_instance";
         case StatusCode::invalid_settings:
             return "invalid_settings";
         case StatusCode::invalid_submission:

@@ -75,6 +75,7 @@ Status ShapeStore::update(ShapeHandle handle, std::span<const Ring> rings, doubl
     if (shape == nullptr) {
         return unknown("update_shape", handle);
     }
+    ++revision_;
     return shape->current->holders == 0 ? shape->current->polygon.assign(rings, deviation)
                                         : replace(handle.index, rings, deviation);
 }
@@ -84,6 +85,7 @@ Status ShapeStore::remove(ShapeHandle handle) {
     if (shape == nullptr) {
         return unknown("remove_shape", handle);
     }
+    ++revision_;
     free_shapes_.push_back(handle.index);
     retire(*std::exchange(shape->current, nullptr));
     ++shape->generation;

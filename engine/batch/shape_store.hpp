@@ -25,6 +25,9 @@ public:
     Status update(ShapeHandle handle, std::span<const Ring> rings, double deviation);
     Status remove(ShapeHandle handle);
 
+    /// How often shapes have been updated or removed.
+    [[nodiscard]] std::uint64_t revision() const { return revision_; }
+
     /// The current polygon, or null; valid until the shape is updated or removed.
     [[nodiscard]] const geometry::Polygon* find(ShapeHandle handle);
     /// The same, but valid until `held` is released.
@@ -56,6 +59,7 @@ private:
     std::vector<std::unique_ptr<Version>> versions_;
     std::vector<Shape> shapes_;
     std::vector<std::uint32_t> free_shapes_;
+    std::uint64_t revision_ = 0;
 };
 
 class ShapeStore::Held {

@@ -64,6 +64,7 @@ public:
     /// Null without a device, as the renderer is.
     [[nodiscard]] const gpu::Device* device() const { return device_.get(); }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
+    [[nodiscard]] const JobSystem& jobs() const { return settings_.jobs; }
     [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
     [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
 

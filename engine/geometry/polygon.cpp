@@ -187,6 +187,7 @@ Status Polygon::assign(std::span<const Ring> rings, double deviation) {
     vertices_.reserve(total);
     ring_ends_.reserve(rings.size());
 
+    ++revision_;
     centre_ = 0.5 * (box.min() + box.max());
     deviation_ = deviation;
     length_along_axes_ = length;

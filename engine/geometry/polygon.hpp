@@ -22,6 +22,9 @@ public:
     /// rings from the shape they approximate. Reuses memory.
     Status assign(std::span<const Ring> rings, double deviation = 0.0);
 
+    /// How often its rings have been replaced; whether what was made from them is still valid.
+    [[nodiscard]] std::uint64_t revision() const { return revision_; }
+
     /// The largest distance of the rings from the shape they approximate.
     [[nodiscard]] double deviation() const { return deviation_; }
 
@@ -53,6 +56,7 @@ public:
     [[nodiscard]] std::uint32_t previous(std::uint32_t i) const;
 
 private:
+    std::uint64_t revision_ = 0;
     Vector centre_ = Vector::Zero();
     double deviation_ = 0.0;
     double length_along_axes_ = 0.0;

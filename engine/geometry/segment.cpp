@@ -1,5 +1,6 @@
 #include <engine/geometry/segment.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -47,6 +48,37 @@ bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vect
     };
     return segments_intersect(a, b, c, d) || near(a, c, d) || near(b, c, d) || near(c, a, b) ||
            near(d, a, b);
+}
+
+std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
+                                    const Vector& d, double margin) {
+    if (beside(a, b, c, d, margin) || beside(c, d, a, b, margin)) {
+        return std::nullopt;
+    }
+    const double reach = margin * margin;
+    if (nearest_on_segment(a, c, d).squared_distance <= reach) {
+        return 0.0;
+    }
+    // Either an end of cd touches ab, or the other end of ab touches cd, or they cross.
+    std::optional<double> first;
+    const auto take = [&](double parameter) { first = std::min(first.value_or(1.0), parameter); };
+    for (const Vector& end : {c, d}) {
+        const NearestOnSegment nearest = nearest_on_segment(end, a, b);
+        if (nearest.squared_distance <= reach) {
+            take(nearest.parameter);
+        }
+    }
+    if (nearest_on_segment(b, c, d).squared_distance <= reach) {
+        take(1.0);
+    }
+    if (segments_intersect(a, b, c, d)) {
+        const double a_side = std::abs(cross(d - c, a - c));
+        const double b_side = std::abs(cross(d - c, b - c));
+        if (a_side + b_side > 0.0) {
+            take(a_side / (a_side + b_side));
+        }
+    }
+    return first;
 }
 
 ClosestOfSegments closest_of_segments(const Vector& a, const Vector& b, const Vector& c,

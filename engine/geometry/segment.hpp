@@ -2,6 +2,8 @@
 
 #include <engine/geometry/vector.hpp>
 
+#include <optional>
+
 namespace nearfield::geometry {
 
 /// The point of a segment nearest to a given point.
@@ -54,5 +56,10 @@ struct ClosestOfSegments {
 /// True if the closed segments ab and cd are at most `margin` apart.
 [[nodiscard]] bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vector& d,
                                  double margin);
+
+/// Returns the least parameter (0 at a, 1 at b) at which segment ab is at most `margin` from
+/// segment cd, up to a distance of `margin`; nothing if it never is.
+[[nodiscard]] std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
+                                                  const Vector& d, double margin);
 
 }  // namespace nearfield::geometry

@@ -1,11 +1,8 @@
-#include <engine/base/status_exception.hpp>
 #include <engine/cpu/transformed_pair.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/results/answer_jobs.hpp>
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 namespace nearfield::results {
 namespace {
@@ -43,9 +40,9 @@ std::size_t weight_of(const plan::PlannedQuery& query) {
 
 }  // namespace
 
-AnswerJobs::AnswerJobs(const JobSystem& jobs) : system_(jobs) {
-    for (std::uint32_t i = 0; i < std::max(jobs.count, 1U); ++i) {
-        jobs_.push_back(std::make_unique<Job>());
+AnswerJobs::AnswerJobs(const JobSystem& jobs) : jobs_(jobs) {
+    for (std::uint32_t i = 0; i < jobs_.count(); ++i) {
+        answers_.push_back(std::make_unique<Job>());
     }
 }
 
@@ -77,43 +74,15 @@ void AnswerJobs::run(Job& job, std::size_t first_part, std::size_t step, const W
 }
 
 std::size_t AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
-    struct Call {
-        AnswerJobs& all;
-        std::uint32_t jobs;
-        const Work& work;
-    } call{*this, jobs, work};
-    for (std::uint32_t i = 0; i < jobs; ++i) {
-        jobs_[i]->answers.begin_batch();
-        jobs_[i]->answered = 0;
-        jobs_[i]->done = false;
-    }
-    const auto run_one = [](void* data, std::uint32_t number) {
-        Call& of = *static_cast<Call*>(data);
-        Job& job = *of.all.jobs_[number];
-        try {
-            of.all.run(job, number, of.jobs, of.work);
-        } catch (...) {
-            job.failure = std::current_exception();
-        }
-        job.done = true;
-    };
-    system_.run(system_.user, jobs, run_one, &call);
-    for (std::uint32_t i = 0; i < jobs; ++i) {
-        if (!jobs_[i]->done) {
-            throw StatusException({StatusCode::invalid_settings,
-                                   "Settings::jobs: run returned and job " + std::to_string(i) +
-                                       " of " + std::to_string(jobs) + " was not done"});
-        }
-    }
+    jobs_.run(jobs, [&](std::uint32_t number) {
+        Job& job = *answers_[number];
+        job.answers.begin_batch();
+        job.answered = 0;
+        run(job, number, jobs, work);
+    });
     std::size_t answered = 0;
-    std::exception_ptr failure;
     for (std::uint32_t i = 0; i < jobs; ++i) {
-        answered += jobs_[i]->answered;
-        const std::exception_ptr own = std::exchange(jobs_[i]->failure, nullptr);
-        failure = failure ? failure : own;
-    }
-    if (failure) {
-        std::rethrow_exception(failure);
+        answered += answers_[i]->answered;
     }
     return answered;
 }
@@ -121,15 +90,15 @@ std::size_t AnswerJobs::run_at_once(std::uint32_t jobs, const Work& work) {
 std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uint32_t> words,
                                       decode::FieldDecoder& fields,
                                       std::vector<AnyResult>& results) {
-    if (system_.run != nullptr) {
+    if (jobs_.count() > 1) {
         divide(plan, results.size());
-        const std::uint32_t most = std::min(system_.count, plan.max_jobs);
+        const std::uint32_t most = std::min(jobs_.count(), plan.max_jobs);
         const auto jobs = static_cast<std::uint32_t>(std::min<std::size_t>(ends_.size(), most));
         if (jobs > 1) {
             return run_at_once(jobs, {plan, words, fields, results});
         }
     }
-    QueryAnswers& answers = jobs_.front()->answers;
+    QueryAnswers& answers = answers_.front()->answers;
     answers.begin_batch();
     return answers.write(plan, 0, results.size(), true, words, fields, results);
 }
@@ -137,7 +106,7 @@ std::size_t AnswerJobs::answer_on_cpu(const plan::Plan& plan, std::span<std::uin
 void AnswerJobs::finish(const plan::Plan& plan, std::span<std::uint32_t> words,
                         decode::FieldDecoder& fields, std::vector<AnyResult>& results) {
     // Other batches may have been answered in between.
-    QueryAnswers& answers = jobs_.front()->answers;
+    QueryAnswers& answers = answers_.front()->answers;
     answers.begin_batch();
     answers.write(plan, 0, results.size(), false, words, fields, results);
 }

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <engine/base/jobs.hpp>
 #include <engine/results/query_answers.hpp>
-#include <nearfield/jobs.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <memory>
 #include <span>
 #include <vector>
@@ -33,8 +32,6 @@ private:
     struct Job {
         QueryAnswers answers;
         std::size_t answered = 0;
-        std::exception_ptr failure;
-        bool done = false;
     };
     /// The input and output shared by all jobs of a batch.
     struct Work {
@@ -49,9 +46,9 @@ private:
     void run(Job& job, std::size_t first_part, std::size_t step, const Work& work) const;
     std::size_t run_at_once(std::uint32_t jobs, const Work& work);
 
-    JobSystem system_;
-    std::vector<std::unique_ptr<Job>> jobs_;  // at least one, even without a job system
-    std::vector<std::size_t> ends_;           // of the parts of a batch, by query
+    Jobs jobs_;
+    std::vector<std::unique_ptr<Job>> answers_;  // one per job
+    std::vector<std::size_t> ends_;              // of the parts of a batch, by query
 };
 
 }  // namespace nearfield::results

@@ -3,6 +3,7 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/simd/edge_kernels.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +19,12 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> find(const geometry::Polygon& polygon,
                                                       const EdgeArrays& edges,
                                                       const geometry::Box& box);
+
+    /// Host memory, in bytes.
+    [[nodiscard]] std::size_t bytes() const {
+        return sizeof(std::uint32_t) * (rings_.capacity() + others_.capacity()) +
+               sizeof(std::uint16_t) * on_curve_.capacity();
+    }
 
 private:
     void sort_by_byte(std::uint32_t byte);

@@ -230,6 +230,12 @@ void TransformedInstances::complete(std::uint32_t index) {
     kernels::find_boxes(entry.edges, entry.edges.pieces, boxes);
 }
 
+std::size_t TransformedInstances::bytes() const {
+    return sizeof(Entry) * entries_.capacity() + sizeof(Coordinates) * coordinates_.capacity() +
+           sizeof(EdgeRange) * pieces_.capacity() + sizeof(std::uint32_t) * slots_.capacity() +
+           morton_order_.bytes();
+}
+
 std::uint32_t TransformedInstances::cut_into_pieces(Entry& entry,
                                                     std::span<const std::uint32_t> rings) {
     const Polygon& polygon = entry.edges.placed.polygon();

@@ -65,6 +65,8 @@ public:
     [[nodiscard]] std::uint32_t place(const geometry::TransformedPolygon& placed);
     /// Transforms all edges and builds the boxes over them.
     void complete(std::uint32_t index);
+    /// Host memory, in bytes.
+    [[nodiscard]] std::size_t bytes() const;
     /// Valid until the next place() or complete().
     [[nodiscard]] const TransformedEdges& operator[](std::uint32_t index) const {
         return entries_[index].edges;

@@ -287,6 +287,7 @@ public:
 private:
     class NEARFIELD_HIDDEN Implementation;
     friend struct ContextAccess;  // of diagnostics.hpp
+    friend class World;           // of world.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

@@ -18,3 +18,4 @@
 #include <nearfield/submission.hpp>
 #include <nearfield/tile.hpp>
 #include <nearfield/version.hpp>
+#include <nearfield/world.hpp>

@@ -20,6 +20,7 @@ enum class StatusCode {
     invalid_shape,       ///< invalid rings or paths (not finite, too few vertices, ...)
     invalid_query,       ///< invalid values in a query (tolerance, pose, rectangle, ...)
     unknown_shape,       ///< a handle that was never issued, or whose shape was removed
+    unknown_instance,    ///< likewise, of an instance of a world
     invalid_settings,    ///< invalid settings of a context, or an invalid structure of a host
     invalid_submission,  ///< an invalid semaphore, command buffer or frame of a batch
     unknown_ticket,      ///< a ticket that was never issued, or was already collected

@@ -1,0 +1,386 @@
+#include <engine/context/world_implementation.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/toi/motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+using geometry::Box;
+using geometry::number;
+using geometry::TransformedPolygon;
+
+/// The number of poses, points or segments that a job takes at a time: neighbours help each other.
+constexpr std::size_t part = 128;
+
+[[noreturn]] void refuse(const char* call, const std::string& why) {
+    throw StatusException({StatusCode::invalid_query, std::string(call) + ": " + why});
+}
+
+void require_lengths(const char* call, const char* what, std::size_t in, std::size_t out) {
+    if (in != out) {
+        refuse(call, "there are " + std::to_string(in) + " " + what + " and space for " +
+                         std::to_string(out) + " answers");
+    }
+}
+
+void require_pose(const char* call, const char* what, std::size_t i, const Pose& pose) {
+    if (Status status = plan::check_pose(pose, what); !status.ok()) {
+        refuse(call, status.message() + " (number " + std::to_string(i) + ")");
+    }
+}
+
+bool is_usable(const Vector2& point) {
+    return std::abs(point.x) <= largest_coordinate && std::abs(point.y) <= largest_coordinate;
+}
+
+void require_point(const char* call, const char* what, std::size_t i, const Vector2& point) {
+    if (!is_usable(point)) {
+        refuse(call, std::string(what) + " " + std::to_string(i) + " is (" + number(point.x) +
+                         ", " + number(point.y) + "); coordinates must be finite and at most " +
+                         number(largest_coordinate) + " in magnitude");
+    }
+}
+
+const geometry::Polygon* find_shape(void* store, ShapeHandle shape) {
+    return static_cast<batch::ShapeStore*>(store)->find(shape);
+}
+
+/// Contains the shape at all times of a motion.
+Box swept_box(const geometry::Polygon& shape, const Sweep& sweep) {
+    Box box = TransformedPolygon(shape, sweep.start).box();
+    box.extend(TransformedPolygon(shape, sweep.end).box());
+    if (sweep.start.angle == sweep.end.angle) {
+        return box;
+    }
+    // It turns about its own origin, which moves straight.
+    const toi::Motion motion(shape, sweep.start, sweep.end);
+    Box turned(geometry::to_vector(sweep.start.translation));
+    turned.extend(geometry::to_vector(sweep.end.translation));
+    return box.merged(geometry::grown(turned, motion.reach()));
+}
+
+ShapeCastHit hit_of(const TimeOfImpactResult& result, InstanceHandle instance) {
+    return {result.state,       instance,       result.time,    result.time_error_bound,
+            result.error_bound, result.point_a, result.point_b, result.direction};
+}
+
+}  // namespace
+
+World::Implementation::Implementation(Context::Implementation& context)
+    : context_(&context), jobs_(context.jobs()), scratch_(jobs_.count()) {}
+
+InstanceHandle World::Implementation::add(const WorldInstance& instance) {
+    static_cast<void>(shape(instance.shape, "add"));
+    require_pose("add", "the instance", 0, instance.pose);
+    return instances_.add(instance);
+}
+
+void World::Implementation::move(std::span<const InstanceHandle> instances,
+                                 std::span<const Pose> poses) {
+    if (instances.size() != poses.size()) {
+        refuse("move", "there are " + std::to_string(instances.size()) + " instances and " +
+                           std::to_string(poses.size()) + " poses");
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        static_cast<void>(instances_.find(instances[i], "move"));
+        require_pose("move", "an instance", i, poses[i]);
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        instances_.move(instances[i].index, poses[i]);
+    }
+}
+
+void World::Implementation::set_filter(InstanceHandle instance, std::uint32_t category,
+                                       std::uint32_t mask) {
+    instances_.set_filter(instances_.find(instance, "set_filter"), category, mask);
+}
+
+void World::Implementation::remove(InstanceHandle instance) {
+    instances_.remove(instances_.find(instance, "remove"));
+}
+
+WorldInstance World::Implementation::instance(InstanceHandle instance) const {
+    return instances_[instances_.find(instance, "instance")];
+}
+
+void World::Implementation::prepare() {
+    instances_.prepare({find_shape, &context_->shapes()}, context_->shapes().revision());
+}
+
+const geometry::Polygon& World::Implementation::shape(ShapeHandle handle, const char* call) const {
+    const geometry::Polygon* const polygon = context_->shapes().find(handle);
+    if (polygon == nullptr) {
+        throw StatusException({StatusCode::unknown_shape,
+                               std::string(call) + ": no shape of this context has index " +
+                                   std::to_string(handle.index) + " and that generation"});
+    }
+    return *polygon;
+}
+
+void World::Implementation::test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
+                                       std::span<std::uint8_t> intersects) {
+    require_lengths("test_poses", "poses", poses.size(), intersects.size());
+    const geometry::Polygon& polygon = shape(query.shape, "test_poses");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        require_pose("test_poses", "the shape", i, poses[i]);
+    }
+    prepare();
+    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::PoseQueries& queries = scratch_[job].poses;
+        queries.begin(instances_, polygon, query.filter);
+        for (std::size_t i = first; i < end; ++i) {
+            intersects[i] = queries.intersects(poses[i]) ? 1 : 0;
+        }
+    });
+}
+
+void World::Implementation::find_clearances(const ClearanceQuery& query,
+                                            std::span<const Pose> poses,
+                                            std::span<Clearance> clearances) {
+    require_lengths("find_clearances", "poses", poses.size(), clearances.size());
+    const geometry::Polygon& polygon = shape(query.shape, "find_clearances");
+    if (!(query.max_clearance >= 0.0 && query.min_clearance < query.max_clearance)) {
+        refuse("find_clearances", "the clearances from " + number(query.min_clearance) + " to " +
+                                      number(query.max_clearance) +
+                                      " are no range that ends at 0 or above");
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        require_pose("find_clearances", "the shape", i, poses[i]);
+    }
+    prepare();
+    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::PoseQueries& queries = scratch_[job].poses;
+        queries.begin(instances_, polygon, query.filter);
+        for (std::size_t i = first; i < end; ++i) {
+            clearances[i] = queries.clearance(poses[i], query);
+        }
+    });
+}
+
+void World::Implementation::find_nearest(const NearestQuery& query, std::span<const Vector2> points,
+                                         std::span<NearestHit> hits) {
+    if (query.count == 0 || hits.size() / query.count != points.size() ||
+        hits.size() % query.count != 0) {
+        refuse("find_nearest", "there are " + std::to_string(points.size()) + " points, " +
+                                   std::to_string(query.count) + " hits are wanted of each, and " +
+                                   std::to_string(hits.size()) + " have space");
+    }
+    if (!(query.max_distance >= 0.0)) {
+        refuse("find_nearest",
+               "the largest distance is " + number(query.max_distance) + "; it must be at least 0");
+    }
+    if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
+        refuse("find_nearest", "the kind is no enumerator");
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        require_point("find_nearest", "point", i, points[i]);
+    }
+    prepare();
+    jobs_.divide(points.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::NearestQueries& queries = scratch_[job].nearest;
+        queries.begin(instances_, query);
+        for (std::size_t i = first; i < end; ++i) {
+            queries.find(points[i], hits.subspan(i * query.count, query.count));
+        }
+    });
+}
+
+void World::Implementation::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
+                                      const WorldFilter& filter) {
+    require_lengths("cast_rays", "segments", segments.size(), hits.size());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        require_point("cast_rays", "the start of segment", i, segments[i].from);
+        require_point("cast_rays", "the end of segment", i, segments[i].to);
+    }
+    prepare();
+    jobs_.divide(segments.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::RayQueries& queries = scratch_[job].rays;
+        queries.begin(instances_, filter);
+        for (std::size_t i = first; i < end; ++i) {
+            hits[i] = queries.first(segments[i]);
+        }
+    });
+}
+
+void World::Implementation::cast_rays(std::span<const Segment> segments, RayHits& hits,
+                                      const WorldFilter& filter) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        require_point("cast_rays", "the start of segment", i, segments[i].from);
+        require_point("cast_rays", "the end of segment", i, segments[i].to);
+    }
+    prepare();
+    hits.offsets.assign(1, 0);
+    hits.hits.clear();
+    world::RayQueries& queries = scratch_.front().rays;
+    queries.begin(instances_, filter);
+    for (const Segment& segment : segments) {
+        queries.find_all(segment, hits.hits);
+        hits.offsets.push_back(static_cast<std::uint32_t>(hits.hits.size()));
+    }
+}
+
+template <class Find>
+void World::Implementation::write_lists(std::size_t count, InstanceLists& lists, const Find& find) {
+    lists.offsets.assign(1, 0);
+    lists.instances.clear();
+    std::vector<std::uint32_t>& found = scratch_.front().found;
+    for (std::size_t i = 0; i < count; ++i) {
+        found.clear();
+        find(i, found);
+        for (const std::uint32_t index : found) {
+            lists.instances.push_back(instances_.handle(index));
+        }
+        lists.offsets.push_back(static_cast<std::uint32_t>(lists.instances.size()));
+    }
+}
+
+void World::Implementation::find_overlaps(std::span<const Rectangle> rectangles,
+                                          InstanceLists& lists, const WorldFilter& filter) {
+    for (std::size_t i = 0; i < rectangles.size(); ++i) {
+        const Rectangle& rectangle = rectangles[i];
+        require_point("find_overlaps", "the low corner of rectangle", i, rectangle.min);
+        require_point("find_overlaps", "the high corner of rectangle", i, rectangle.max);
+        if (rectangle.max.x < rectangle.min.x || rectangle.max.y < rectangle.min.y) {
+            refuse("find_overlaps", "the high corner of rectangle " + std::to_string(i) +
+                                        " is below its low corner");
+        }
+    }
+    prepare();
+    world::OverlapQueries& queries = scratch_.front().overlaps;
+    queries.begin(instances_, filter);
+    write_lists(rectangles.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+        queries.find(rectangles[i], found);
+    });
+}
+
+void World::Implementation::find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
+                                          const WorldFilter& filter) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        require_point("find_overlaps", "point", i, points[i]);
+    }
+    prepare();
+    world::OverlapQueries& queries = scratch_.front().overlaps;
+    queries.begin(instances_, filter);
+    write_lists(points.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+        queries.find(points[i], found);
+    });
+}
+
+void World::Implementation::find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
+                                          InstanceLists& lists) {
+    const geometry::Polygon& polygon = shape(query.shape, "find_overlaps");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        require_pose("find_overlaps", "the shape", i, poses[i]);
+    }
+    prepare();
+    world::PoseQueries& queries = scratch_.front().poses;
+    queries.begin(instances_, polygon, query.filter);
+    write_lists(poses.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+        queries.find_intersecting(poses[i], found);
+    });
+}
+
+void World::Implementation::find_candidates(const ShapeCastQuery& query,
+                                            const geometry::Polygon& shape, const Sweep& sweep,
+                                            std::size_t number) {
+    // Rounding grows with the arcs and paths that are moved along.
+    const toi::Motion motion(shape, sweep.start, sweep.end);
+    const double margin = query.contact_distance + instances_.max_rounding() +
+                          64.0 * std::numeric_limits<double>::epsilon() * motion.magnitude();
+    const Box box = geometry::grown(swept_box(shape, sweep), margin);
+    instances_.boxes().for_meeting(box, [&](std::uint32_t index) {
+        if (!instances_.passes(index, query.filter)) {
+            return;
+        }
+        TimeOfImpactQuery impact;
+        impact.a = {query.shape, sweep.start};
+        impact.end_a = sweep.end;
+        impact.b = {instances_[index].shape, instances_[index].pose};
+        impact.end_b = instances_[index].pose;
+        impact.tolerance = query.tolerance;
+        impact.contact_distance = query.contact_distance;
+        batch_.add(impact);
+        candidates_.push_back({number, index});
+    });
+}
+
+void World::Implementation::answer_candidates(const ShapeCastQuery& query,
+                                              std::span<const Sweep> sweeps,
+                                              std::span<ShapeCastHit> hits) {
+    const Expected<Ticket> ticket = context_->submit(batch_, {}, &results_);
+    Status status = ticket ? context_->collect(*ticket, results_) : ticket.error();
+    if (!status.ok()) {
+        throw StatusException(status);
+    }
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const auto& result = *std::get_if<TimeOfImpactResult>(&results_.results[i]);
+        const auto [sweep, index] = candidates_[i];
+        if (!result.status.ok()) {
+            throw StatusException({result.status.code(), "cast_shape: sweep " +
+                                                             std::to_string(sweep) + " of " +
+                                                             std::to_string(sweeps.size()) + ": " +
+                                                             result.status.message()});
+        }
+        ShapeCastHit& hit = hits[sweep];
+        if (result.state == ImpactState::separated) {
+            continue;
+        }
+        const bool is_first = hit.state == ImpactState::separated || result.time < hit.time ||
+                              (result.time == hit.time &&
+                               instances_.number(index) < instances_.number(hit.instance.index));
+        if (is_first) {
+            hit = hit_of(result, instances_.handle(index));
+        }
+    }
+    static_cast<void>(query);
+}
+
+void World::Implementation::cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
+                                       std::span<ShapeCastHit> hits) {
+    require_lengths("cast_shape", "sweeps", sweeps.size(), hits.size());
+    const geometry::Polygon& polygon = shape(query.shape, "cast_shape");
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        require_pose("cast_shape", "the shape's start", i, sweeps[i].start);
+        require_pose("cast_shape", "the shape's end", i, sweeps[i].end);
+    }
+    if (!(query.tolerance > 0.0 && query.tolerance <= largest_coordinate)) {
+        refuse("cast_shape", "the tolerance is " + number(query.tolerance) +
+                                 "; it must be a finite number above 0 and at most " +
+                                 number(largest_coordinate));
+    }
+    if (!(query.contact_distance >= 0.0 && query.contact_distance <= largest_coordinate)) {
+        refuse("cast_shape", "the contact distance is " + number(query.contact_distance) +
+                                 "; it must be a finite number of at least 0");
+    }
+    prepare();
+    constexpr std::size_t queries_at_a_time = 1024;
+    batch_.clear();
+    candidates_.clear();
+    std::fill(hits.begin(), hits.end(), ShapeCastHit{});
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        find_candidates(query, polygon, sweeps[i], i);
+        if (candidates_.size() >= queries_at_a_time || i + 1 == sweeps.size()) {
+            answer_candidates(query, sweeps, hits);
+            batch_.clear();
+            candidates_.clear();
+        }
+    }
+}
+
+std::uint64_t World::Implementation::bytes() const {
+    return sizeof(*this) + instances_.bytes();
+}
+
+void World::Implementation::trim() {
+    instances_.trim();
+    scratch_ = std::vector<Job>(jobs_.count());
+    batch_ = {};
+    results_ = {};
+    candidates_ = {};
+}
+
+}  // namespace nearfield

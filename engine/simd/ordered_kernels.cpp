@@ -1,0 +1,245 @@
+#include <engine/simd/ordered_search.hpp>
+
+#include <bit>
+#include <limits>
+
+// Highway compiles the rest once per instruction set by including this file again.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/simd/ordered_kernels.cpp"
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <engine/simd/box_lanes-inl.hpp>
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace nearfield::simd::kernels::HWY_NAMESPACE {
+
+/// A path with what the test against boxes needs.
+struct PathLanes {
+    Lanes from_x;
+    Lanes from_y;
+    Lanes inverse_x;  ///< 1 / extent along x; large but finite if there is none
+    Lanes inverse_y;
+
+    explicit HWY_INLINE PathLanes(const Path& path)
+        : from_x(hn::Set(Tag(), path.from_x)),
+          from_y(hn::Set(Tag(), path.from_y)),
+          inverse_x(hn::Set(Tag(), Inverse(path.to_x - path.from_x))),
+          inverse_y(hn::Set(Tag(), Inverse(path.to_y - path.from_y))) {}
+
+private:
+    /// Finite, so that its product with zero is zero.
+    static HWY_INLINE double Inverse(double extent) {
+        constexpr double smallest = 1e-300;
+        return extent > smallest || extent < -smallest ? 1.0 / extent : 1.0 / smallest;
+    }
+};
+
+/// The parameters, from 0 to 1, at which a path enters boxes grown by a margin; infinity if it does
+/// not.
+HWY_INLINE Lanes entries(const LanesOfExtent& boxes, const PathLanes& path, Lanes margin) {
+    const Tag tag;
+    const Lanes low_x = hn::Mul(hn::Sub(hn::Sub(boxes.low_x, margin), path.from_x), path.inverse_x);
+    const Lanes high_x =
+        hn::Mul(hn::Sub(hn::Add(boxes.high_x, margin), path.from_x), path.inverse_x);
+    const Lanes low_y = hn::Mul(hn::Sub(hn::Sub(boxes.low_y, margin), path.from_y), path.inverse_y);
+    const Lanes high_y =
+        hn::Mul(hn::Sub(hn::Add(boxes.high_y, margin), path.from_y), path.inverse_y);
+    const Lanes begin =
+        hn::Max(hn::Max(hn::Min(low_x, high_x), hn::Min(low_y, high_y)), hn::Zero(tag));
+    const Lanes end =
+        hn::Min(hn::Min(hn::Max(low_x, high_x), hn::Max(low_y, high_y)), hn::Set(tag, 1.0));
+    // Boxes that hold nothing reach from infinity to minus infinity, which a path would enter.
+    const LaneMask enters = hn::And(hn::Le(begin, end), hn::Le(boxes.low_x, boxes.high_x));
+    return hn::IfThenElse(enters, begin, hn::Set(tag, std::numeric_limits<double>::infinity()));
+}
+
+/// Searches a tree, box by box in ascending order of a key. `Aim` measures and handles:
+///   Lanes Keys(boxes)               the keys of boxes; infinity excludes one
+///   double bound()                  boxes with a larger key are not entered
+///   void Use(edges)                 the edges of a lowest box
+template <class Aim>
+class OrderedSearch {
+public:
+    HWY_INLINE OrderedSearch(const AabbTree& tree, Aim& aim) : tree_(tree), aim_(aim) {}
+
+    void Run() { Visit(tree_.top_level(), 0); }
+
+private:
+    void Visit(std::uint32_t level, std::uint32_t first) {
+        const Tag tag;
+        double keys[fan_out];
+        std::uint32_t left = 0;
+        for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
+            const Lanes own = aim_.Keys(boxes_at(tree_.level(level), first + i));
+            hn::StoreU(own, tag, keys + i);
+            left |= bits_of(hn::Le(own, hn::Set(tag, aim_.bound()))) << i;
+        }
+        while (left != 0) {
+            auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
+            for (std::uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
+                const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
+                nearest = keys[other] < keys[nearest] ? other : nearest;
+            }
+            if (keys[nearest] > aim_.bound()) {
+                return;
+            }
+            left &= ~(1U << nearest);
+            if (level > 0) {
+                Visit(level - 1, fan_out * (first + nearest));
+            } else {
+                aim_.Use(tree_.edges_of(first + nearest));
+            }
+        }
+    }
+
+    const AabbTree& tree_;
+    Aim& aim_;
+};
+
+/// The edges along a path.
+class AlongPath {
+public:
+    HWY_INLINE AlongPath(const EdgeArrays& edges, const Path& path, double margin, double bound,
+                         const BoundedEdgeSink& sink)
+        : edges_(edges),
+          lanes_(path),
+          // Twice the margin, because the values that boxes are compared by are rounded too.
+          margin_(hn::Set(Tag(), 2.0 * margin)),
+          path_{1, &path.from_x, &path.from_y, &path.to_x, &path.to_y, nullptr},
+          own_margin_(margin),
+          sink_(sink),
+          bound_(bound) {}
+
+    [[nodiscard]] HWY_INLINE Lanes Keys(const LanesOfExtent& boxes) const {
+        return entries(boxes, lanes_, margin_);
+    }
+    [[nodiscard]] HWY_INLINE double bound() const { return bound_; }
+    HWY_INLINE void Use(const EdgeRange& range) {
+        std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            return may_meet(path_, 0, EdgeLanes(edges_, range.first + i), own_margin_);
+        });
+        for (found &= bits_of_range(range); found != 0; found &= found - 1) {
+            bound_ = sink_.use(sink_.user,
+                               range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
+        }
+    }
+
+private:
+    const EdgeArrays& edges_;
+    PathLanes lanes_;
+    Lanes margin_;
+    EdgeArrays path_;
+    double own_margin_;
+    const BoundedEdgeSink& sink_;
+    double bound_;
+};
+
+/// The edges near a point.
+class NearPoint {
+public:
+    HWY_INLINE NearPoint(const EdgeArrays& edges, double x, double y, double bound,
+                         const BoundedEdgeSink& sink)
+        : edges_(edges), point_(lanes_of({x, y, x, y})), sink_(sink), bound_(bound) {}
+
+    [[nodiscard]] HWY_INLINE Lanes Keys(const LanesOfExtent& boxes) const {
+        return squared_between(boxes, point_);
+    }
+    [[nodiscard]] HWY_INLINE double bound() const { return bound_; }
+    HWY_INLINE void Use(const EdgeRange& range) {
+        const Tag tag;
+        std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            return hn::Le(
+                squared_distances(edges_along(edges_, range.first + i), point_.low_x, point_.low_y),
+                hn::Set(tag, bound_));
+        });
+        for (found &= bits_of_range(range); found != 0; found &= found - 1) {
+            bound_ = sink_.use(sink_.user,
+                               range.first + static_cast<std::uint32_t>(std::countr_zero(found)));
+        }
+    }
+
+private:
+    const EdgeArrays& edges_;
+    LanesOfExtent point_;
+    const BoundedEdgeSink& sink_;
+    double bound_;
+};
+
+void ForEdgesAlong(const AabbTree& tree, const Path& path, double margin, double bound,
+                   const BoundedEdgeSink& sink) {
+    AlongPath aim(tree.edges(), path, margin, bound, sink);
+    OrderedSearch<AlongPath>(tree, aim).Run();
+}
+
+void ForEdgesNear(const AabbTree& tree, double x, double y, double bound,
+                  const BoundedEdgeSink& sink) {
+    NearPoint aim(tree.edges(), x, y, bound, sink);
+    OrderedSearch<NearPoint>(tree, aim).Run();
+}
+
+void MeasureBoxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
+                  BoxKeys& squared) {
+    const LanesOfExtent other = lanes_of(from);
+    for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
+        hn::StoreU(squared_between(boxes_at(boxes, first + i), other), Tag(), squared.data() + i);
+    }
+}
+
+void EnterBoxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
+                BoxKeys& parameters) {
+    const PathLanes lanes(path);
+    const Lanes grow = hn::Set(Tag(), margin);
+    for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
+        hn::StoreU(entries(boxes_at(boxes, first + i), lanes, grow), Tag(), parameters.data() + i);
+    }
+}
+
+Extent JoinBoxes(const BoxArrays& boxes, std::uint32_t first) {
+    LanesOfExtent all = boxes_at(boxes, first);
+    for (std::size_t i = hn::Lanes(Tag()); i < fan_out; i += hn::Lanes(Tag())) {
+        const LanesOfExtent more = boxes_at(boxes, first + i);
+        all = {hn::Min(all.low_x, more.low_x), hn::Min(all.low_y, more.low_y),
+               hn::Max(all.high_x, more.high_x), hn::Max(all.high_y, more.high_y)};
+    }
+    return {min_lane(all.low_x), min_lane(all.low_y), max_lane(all.high_x), max_lane(all.high_y)};
+}
+
+}  // namespace nearfield::simd::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nearfield::simd::kernels {
+
+HWY_EXPORT(ForEdgesAlong);
+HWY_EXPORT(ForEdgesNear);
+HWY_EXPORT(MeasureBoxes);
+HWY_EXPORT(EnterBoxes);
+HWY_EXPORT(JoinBoxes);
+
+void for_edges_along(const AabbTree& tree, const Path& path, double margin, double bound,
+                     const BoundedEdgeSink& sink) {
+    HWY_DYNAMIC_DISPATCH(ForEdgesAlong)(tree, path, margin, bound, sink);
+}
+
+void for_edges_near(const AabbTree& tree, double x, double y, double bound,
+                    const BoundedEdgeSink& sink) {
+    HWY_DYNAMIC_DISPATCH(ForEdgesNear)(tree, x, y, bound, sink);
+}
+
+void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
+                   BoxKeys& squared) {
+    HWY_DYNAMIC_DISPATCH(MeasureBoxes)(boxes, first, from, squared);
+}
+
+void enter_boxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
+                 BoxKeys& parameters) {
+    HWY_DYNAMIC_DISPATCH(EnterBoxes)(boxes, first, path, margin, parameters);
+}
+
+Extent join_boxes(const BoxArrays& boxes, std::uint32_t first) {
+    return HWY_DYNAMIC_DISPATCH(JoinBoxes)(boxes, first);
+}
+
+}  // namespace nearfield::simd::kernels
+#endif

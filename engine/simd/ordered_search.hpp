@@ -1,0 +1,56 @@
+#pragma once
+
+#include <engine/simd/aabb_tree.hpp>
+
+#include <array>
+#include <cstdint>
+
+/// \file
+/// Searches of trees from the nearest box on, with a bound that falls as something is found.
+
+namespace nearfield::simd {
+
+/// A straight path from one point to another; parameter 0 is the start, 1 the end.
+struct Path {
+    double from_x = 0.0;
+    double from_y = 0.0;
+    double to_x = 0.0;
+    double to_y = 0.0;
+};
+
+/// Receives edges, and returns the bound of the search from then on, which must not rise.
+struct BoundedEdgeSink {
+    double (*use)(void* user, std::uint32_t edge) = nullptr;
+    void* user = nullptr;
+};
+
+/// One number for each of eight boxes.
+using BoxKeys = std::array<double, AabbTree::fan_out>;
+
+namespace kernels {
+
+/// Calls `sink` for every edge that the path may come within `margin` of at a parameter of at most
+/// the bound, and for few others; begins with `bound`, which is at most 1.
+void for_edges_along(const AabbTree& tree, const Path& path, double margin, double bound,
+                     const BoundedEdgeSink& sink);
+
+/// Calls `sink` for every edge whose squared distance from a point is at most the bound, up to
+/// rounding; begins with `bound`.
+void for_edges_near(const AabbTree& tree, double x, double y, double bound,
+                    const BoundedEdgeSink& sink);
+
+/// Writes the squared distances of eight boxes from a box.
+void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
+                   BoxKeys& squared);
+
+/// Writes the parameters at which a path comes within `margin` of eight boxes; infinity if it does
+/// not.
+void enter_boxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
+                 BoxKeys& parameters);
+
+/// Returns the bounding box of eight boxes.
+[[nodiscard]] Extent join_boxes(const BoxArrays& boxes, std::uint32_t first);
+
+}  // namespace kernels
+
+}  // namespace nearfield::simd

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <engine/geometry/polygon.hpp>
+#include <engine/simd/transformed_edges.hpp>
+#include <engine/world/box_hierarchy.hpp>
+#include <nearfield/world.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace nearfield::world {
+
+/// Looks up a shape; null if there is none of that handle.
+struct FindShape {
+    const geometry::Polygon* (*find)(void* user, ShapeHandle shape) = nullptr;
+    void* user = nullptr;
+
+    [[nodiscard]] const geometry::Polygon* operator()(ShapeHandle shape) const {
+        return find(user, shape);
+    }
+};
+
+/// The instances of a world, each named by an index, with what is kept of them: their boxes in a
+/// hierarchy, and the edges at their poses with the boxes over them, made when first needed.
+///
+/// Between prepare() and the next change, any number of threads may read at the same time.
+class Instances {
+public:
+    /// Fails (unknown_instance) if there is no such instance. `call`: for the message.
+    [[nodiscard]] std::uint32_t find(InstanceHandle handle, const char* call) const;
+    [[nodiscard]] InstanceHandle add(const WorldInstance& instance);
+    void move(std::uint32_t index, const Pose& pose);
+    void set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask);
+    void remove(std::uint32_t index);
+
+    [[nodiscard]] const WorldInstance& operator[](std::uint32_t index) const {
+        return entries_[index].instance;
+    }
+    [[nodiscard]] InstanceHandle handle(std::uint32_t index) const {
+        return {index, entries_[index].generation};
+    }
+    [[nodiscard]] std::uint32_t count() const { return count_; }
+
+    /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
+    /// does.
+    void prepare(const FindShape& find_shape, std::uint64_t shapes_revision);
+
+    // The following hold between prepare() and the next change.
+
+    [[nodiscard]] const BoxHierarchy& boxes() const { return boxes_; }
+    /// True if a query considers the instance.
+    [[nodiscard]] bool passes(std::uint32_t index, const WorldFilter& filter) const {
+        const Entry& entry = entries_[index];
+        return (entry.instance.mask & filter.category) != 0 &&
+               (entry.instance.category & filter.mask) != 0 &&
+               (filter.ignored.index != index || filter.ignored.generation != entry.generation);
+    }
+    /// The order in which instances were added.
+    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return entries_[index].number; }
+    /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
+    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const {
+        return entries_[index].changed;
+    }
+    [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
+    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const {
+        return entries_[index].box;
+    }
+    /// Of its transformed vertices: localize::placement_rounding.
+    [[nodiscard]] double rounding(std::uint32_t index) const { return entries_[index].rounding; }
+    [[nodiscard]] double deviation(std::uint32_t index) const {
+        return entries_[index].polygon->deviation();
+    }
+    /// The largest of all instances.
+    [[nodiscard]] double max_rounding() const { return max_rounding_; }
+    [[nodiscard]] const geometry::Polygon& polygon(std::uint32_t index) const {
+        return *entries_[index].polygon;
+    }
+    /// Its complete edges, in world coordinates.
+    [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const;
+
+    [[nodiscard]] std::size_t bytes() const;
+    void trim();
+
+private:
+    struct Entry {
+        WorldInstance instance;
+        std::uint32_t generation = 0;
+        bool present = false;
+        bool is_changed = false;   // listed in changes_
+        std::uint64_t number = 0;  // in the order of adding
+        std::uint64_t changed = 0;
+        const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
+        std::uint64_t revision = 0;                  // of the polygon
+        geometry::Box box;
+        double rounding = 0.0;
+        // Made by the first thread that needs them.
+        mutable simd::TransformedInstances edges;
+        mutable std::atomic<bool> has_edges = false;
+    };
+
+    void note_change(std::uint32_t index);
+    void place(std::uint32_t index);
+
+    std::deque<Entry> entries_;  // which stay where they are
+    std::vector<std::uint32_t> free_;
+    std::vector<std::uint32_t> changes_;
+    BoxHierarchy boxes_;
+    std::uint32_t count_ = 0;
+    std::uint64_t next_number_ = 0;
+    std::uint64_t last_change_ = 0;
+    std::uint64_t shapes_revision_ = 0;
+    double max_rounding_ = 0.0;
+    mutable std::mutex making_edges_;
+};
+
+}  // namespace nearfield::world

@@ -1,0 +1,113 @@
+#include <engine/records/nearest_feature.hpp>
+#include <engine/world/nearest_queries.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::world {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+void NearestQueries::begin(const Instances& instances, const NearestQuery& query) {
+    instances_ = &instances;
+    query_ = query;
+    nearest_.reserve(query.count);
+}
+
+double NearestQueries::reach() const {
+    const double farthest = nearest_.size() == query_.count
+                                ? nearest_.back().distance
+                                : std::numeric_limits<double>::infinity();
+    return std::min(farthest, query_.max_distance);
+}
+
+double NearestQueries::squared_reach(double rounding) const {
+    // Slightly more, so that what is exactly as near is not left out.
+    const double most = std::max(reach(), 0.0) * (1.0 + 8.0 * epsilon) + rounding;
+    return most * most;
+}
+
+void NearestQueries::take(const Found& found) {
+    if (std::abs(found.distance) > query_.max_distance) {
+        return;
+    }
+    if (nearest_.size() == query_.count) {
+        if (!(found < nearest_.back())) {
+            return;
+        }
+        nearest_.pop_back();
+    }
+    nearest_.insert(std::upper_bound(nearest_.begin(), nearest_.end(), found), found);
+}
+
+void NearestQueries::find_on(std::uint32_t index) {
+    const simd::TransformedEdges& edges = instances_->edges(index);
+    const simd::AabbTree tree = edges.tree();
+    const bool inside =
+        edges.box.contains(point_) && simd::kernels::contain(tree, point_.x(), point_.y());
+    const double most = inside ? std::numeric_limits<double>::infinity()
+                               : std::nextafter(squared_reach(edges.rounding),
+                                                std::numeric_limits<double>::infinity());
+    const simd::NearEdge near =
+        simd::kernels::find_nearer(tree, point_.x(), point_.y(), {UINT32_MAX, most});
+    if (near.edge == UINT32_MAX) {
+        return;
+    }
+    const geometry::NearestOnSegment on_edge =
+        geometry::nearest_on_segment(point_, edges.start(near.edge), edges.end(near.edge));
+    const double distance = std::sqrt(on_edge.squared_distance);
+    take({inside ? -distance : distance, instances_->number(index), index, near.edge, on_edge});
+}
+
+void NearestQueries::find_edges_of(std::uint32_t index) {
+    const simd::TransformedEdges& edges = instances_->edges(index);
+    struct Search {
+        NearestQueries& all;
+        const simd::TransformedEdges& edges;
+        std::uint32_t index;
+    } search{*this, edges, index};
+    const auto use = [](void* user, std::uint32_t edge) {
+        Search& of = *static_cast<Search*>(user);
+        const geometry::NearestOnSegment on_edge =
+            geometry::nearest_on_segment(of.all.point_, of.edges.start(edge), of.edges.end(edge));
+        of.all.take({std::sqrt(on_edge.squared_distance), of.all.instances_->number(of.index),
+                     of.index, edge, on_edge});
+        return of.all.squared_reach(of.edges.rounding);
+    };
+    simd::kernels::for_edges_near(edges.tree(), point_.x(), point_.y(),
+                                  squared_reach(edges.rounding), {use, &search});
+}
+
+void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
+    point_ = geometry::to_vector(point);
+    nearest_.clear();
+    const geometry::Box box(point_, point_);
+    instances_->boxes().for_near(
+        box, [this] { return squared_reach(instances_->max_rounding()); },
+        [this](std::uint32_t index, double) {
+            if (!instances_->passes(index, query_.filter)) {
+                return;
+            }
+            if (query_.kind == NearestKind::instances) {
+                find_on(index);
+            } else {
+                find_edges_of(index);
+            }
+        });
+    std::fill(hits.begin(), hits.end(), NearestHit{});
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+        const Found& found = nearest_[i];
+        const simd::TransformedEdges& edges = instances_->edges(found.instance);
+        hits[i] = {instances_->handle(found.instance), found.distance,
+                   edges.rounding + instances_->deviation(found.instance) +
+                       8.0 * epsilon * std::abs(found.distance),
+                   geometry::to_public(found.on_edge.point),
+                   records::feature_at(edges.placed, found.edge, found.on_edge.parameter)};
+    }
+}
+
+}  // namespace nearfield::world

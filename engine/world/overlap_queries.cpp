@@ -1,0 +1,87 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/world/overlap_queries.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace nearfield::world {
+
+using geometry::Box;
+using geometry::Vector;
+
+void OverlapQueries::begin(const Instances& instances, const WorldFilter& filter) {
+    instances_ = &instances;
+    filter_ = filter;
+}
+
+void OverlapQueries::sort(std::vector<std::uint32_t>& found, std::ptrdiff_t first) const {
+    std::sort(found.begin() + first, found.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return instances_->number(a) < instances_->number(b);
+    });
+}
+
+void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& found) const {
+    const auto first = static_cast<std::ptrdiff_t>(found.size());
+    const Vector p = geometry::to_vector(point);
+    instances_->boxes().for_meeting({p, p}, [&](std::uint32_t index) {
+        if (instances_->passes(index, filter_) &&
+            simd::kernels::contain(instances_->edges(index).tree(), p.x(), p.y())) {
+            found.push_back(index);
+        }
+    });
+    sort(found, first);
+}
+
+/// True if an edge comes into the rectangle, or the rectangle lies inside.
+bool OverlapQueries::meets(std::uint32_t index, const Box& box) const {
+    const simd::TransformedEdges& edges = instances_->edges(index);
+    const simd::AabbTree tree = edges.tree();
+    const std::array<Vector, 4> corners{box.min(), box.corner(Box::BottomRight), box.max(),
+                                        box.corner(Box::TopLeft)};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vector& from = corners[i];
+        const Vector& to = corners[(i + 1) % corners.size()];
+        struct Side {
+            const Vector& from;
+            const Vector& to;
+            const simd::TransformedEdges& edges;
+            bool meets;
+        } side{from, to, edges, false};
+        const auto use = [](void* user, std::uint32_t edge) {
+            Side& of = *static_cast<Side*>(user);
+            of.meets = of.meets || geometry::segments_meet(of.from, of.to, of.edges.start(edge),
+                                                           of.edges.end(edge), of.edges.rounding);
+            return of.meets ? -1.0 : 1.0;
+        };
+        simd::kernels::for_edges_along(tree, {from.x(), from.y(), to.x(), to.y()}, edges.rounding,
+                                       1.0, {use, &side});
+        if (side.meets) {
+            return true;
+        }
+    }
+    // No edge crosses the rectangle's sides: each ring lies inside or outside of them.
+    const geometry::Polygon& polygon = instances_->polygon(index);
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        if (box.contains(edges.start(polygon.ring_begin(ring)))) {
+            return true;
+        }
+    }
+    return simd::kernels::contain(tree, box.min().x(), box.min().y());
+}
+
+void OverlapQueries::find(const Rectangle& rectangle, std::vector<std::uint32_t>& found) const {
+    const auto first = static_cast<std::ptrdiff_t>(found.size());
+    const Box box(geometry::to_vector(rectangle.min), geometry::to_vector(rectangle.max));
+    const Box search = geometry::grown(box, instances_->max_rounding());
+    instances_->boxes().for_meeting(search, [&](std::uint32_t index) {
+        const double rounding = instances_->rounding(index);
+        if (instances_->passes(index, filter_) &&
+            localize::boxes_meet(instances_->box(index), box, rounding) && meets(index, box)) {
+            found.push_back(index);
+        }
+    });
+    sort(found, first);
+}
+
+}  // namespace nearfield::world

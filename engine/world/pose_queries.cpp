@@ -1,0 +1,175 @@
+#include <engine/localize/hierarchy.hpp>
+#include <engine/world/pose_queries.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::world {
+namespace {
+
+using geometry::to_public;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+/// Slightly more than a length: so that what is exactly as far away is not left out.
+double with_slack(double length, double rounding) {
+    return length + rounding + 4.0 * std::numeric_limits<double>::epsilon() * length;
+}
+
+}  // namespace
+
+void PoseQueries::begin(const Instances& instances, const geometry::Polygon& shape,
+                        const WorldFilter& filter) {
+    instances_ = &instances;
+    shape_ = &shape;
+    filter_ = filter;
+    guess_ = none;
+}
+
+void PoseQueries::place(const Pose& pose) {
+    shape_edges_.clear();
+    static_cast<void>(shape_edges_.place(TransformedPolygon(*shape_, pose)));
+}
+
+const simd::TransformedEdges& PoseQueries::complete_edges() {
+    shape_edges_.complete(0);
+    return edges();
+}
+
+geometry::Box PoseQueries::search_box() const {
+    return geometry::grown(edges().box, edges().rounding + instances_->max_rounding());
+}
+
+bool PoseQueries::intersects(std::uint32_t index) {
+    const geometry::Box& box = instances_->box(index);
+    if (!localize::boxes_meet(edges().box, box, edges().rounding + instances_->rounding(index))) {
+        return false;
+    }
+    const simd::TransformedEdges& other = instances_->edges(index);
+    return overlap_test_.intersect(
+        is_small(edges()) && is_small(other) ? edges() : complete_edges(), other);
+}
+
+bool PoseQueries::intersects(const Pose& pose) {
+    place(pose);
+    // What was hit before is likely to be hit again.
+    if (guess_ != none && intersects(guess_)) {
+        return true;
+    }
+    candidates_.clear();
+    instances_->boxes().for_meeting(search_box(), [this](std::uint32_t index) {
+        if (index != guess_ && instances_->passes(index, filter_)) {
+            candidates_.push_back(index);
+        }
+    });
+    const auto hit = std::find_if(candidates_.begin(), candidates_.end(),
+                                  [this](std::uint32_t index) { return intersects(index); });
+    guess_ = hit == candidates_.end() ? none : *hit;
+    return guess_ != none;
+}
+
+void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
+    place(pose);
+    const auto first = static_cast<std::ptrdiff_t>(found.size());
+    instances_->boxes().for_meeting(search_box(), [&](std::uint32_t index) {
+        if (instances_->passes(index, filter_) && intersects(index)) {
+            found.push_back(index);
+        }
+    });
+    std::sort(found.begin() + first, found.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return instances_->number(a) < instances_->number(b);
+    });
+}
+
+bool PoseQueries::replaces(double distance, std::uint32_t index) const {
+    return distance < best_.distance || (distance == best_.distance && nearest_ != none &&
+                                         instances_->number(index) < instances_->number(nearest_));
+}
+
+void PoseQueries::write_depth(std::uint32_t index) {
+    const simd::TransformedEdges& other = instances_->edges(index);
+    const std::optional<DeepVertex> of_shape = deepest_vertex_.find(complete_edges(), other);
+    const std::optional<DeepVertex> of_other = deepest_vertex_.find(other, complete_edges());
+    const double depth_of_shape = of_shape ? of_shape->depth : 0.0;
+    const double depth_of_other = of_other ? of_other->depth : 0.0;
+    const double depth = std::max(depth_of_shape, depth_of_other);
+    if (!replaces(-depth, index)) {
+        return;
+    }
+    nearest_ = index;
+    best_ = {};
+    best_.distance = 0.0 - depth;
+    best_.error_bound = edges().rounding + instances_->rounding(index) + shape_->deviation() +
+                        instances_->deviation(index);
+    if (depth == 0.0) {
+        return;
+    }
+    const bool is_of_shape = depth_of_shape >= depth_of_other;
+    const DeepVertex& deep = is_of_shape ? *of_shape : *of_other;
+    const Vector way = (deep.nearest - deep.vertex) / deep.depth;
+    best_.point = to_public(is_of_shape ? deep.vertex : deep.nearest);
+    best_.nearest = to_public(is_of_shape ? deep.nearest : deep.vertex);
+    // The instance's vertex leaves the shape the opposite way.
+    best_.direction = to_public(is_of_shape ? way : Vector(-way));
+}
+
+void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
+    const simd::TransformedEdges& other = instances_->edges(index);
+    const double rounding = edges().rounding + other.rounding;
+    const double at_most = with_slack(std::min(best_.distance, max_clearance), 4.0 * rounding);
+    const narrowphase::ClosestPair pair = closest_pair_.find(complete_edges(), other, at_most, 0.0);
+    const double distance = std::sqrt(pair.squared_distance);
+    if (distance > max_clearance || !replaces(distance, index)) {
+        return;
+    }
+    nearest_ = index;
+    best_.distance = distance;
+    best_.error_bound = rounding + shape_->deviation() + instances_->deviation(index) +
+                        8.0 * std::numeric_limits<double>::epsilon() * distance;
+    best_.point = to_public(pair.point_a);
+    best_.nearest = to_public(pair.point_b);
+    best_.direction =
+        distance > 0.0 ? to_public((pair.point_b - pair.point_a) / distance) : Vector2();
+}
+
+void PoseQueries::measure(std::uint32_t index, double max_clearance) {
+    if (intersects(index)) {
+        write_depth(index);
+    } else if (!(best_.distance < 0.0)) {
+        write_distance(index, max_clearance);
+    }
+}
+
+Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) {
+    place(pose);
+    best_ = {};
+    nearest_ = none;
+    const std::uint32_t guess = guess_;
+    if (guess != none) {
+        measure(guess, query.max_clearance);
+    }
+    const double rounding = edges().rounding + instances_->max_rounding();
+    const auto bound = [&] {
+        const double farthest = std::min(best_.distance, query.max_clearance);
+        const double distance = with_slack(std::max(farthest, 0.0), 4.0 * rounding);
+        return best_.distance <= query.min_clearance ? -1.0 : distance * distance;
+    };
+    instances_->boxes().for_near(edges().box, bound, [&](std::uint32_t index, double) {
+        if (index != guess && instances_->passes(index, filter_)) {
+            measure(index, query.max_clearance);
+        }
+    });
+    guess_ = nearest_;
+    if (nearest_ == none || best_.distance <= query.min_clearance) {
+        best_ = {};
+        best_.distance = nearest_ == none ? query.max_clearance : query.min_clearance;
+        return best_;
+    }
+    best_.instance = instances_->handle(nearest_);
+    return best_;
+}
+
+}  // namespace nearfield::world
