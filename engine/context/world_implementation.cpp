@@ -15,6 +15,9 @@ using geometry::TransformedPolygon;
 
 /// The number of poses, points or segments that a job takes at a time: neighbours help each other.
 constexpr std::size_t part = 128;
+/// Points are answered in order of their place, this many at a time: neighbours need the same
+/// boxes.
+constexpr std::size_t sorted_at_a_time = std::size_t{1} << 18U;
 
 [[noreturn]] void refuse(const char* call, const std::string& why) {
     throw StatusException({StatusCode::invalid_query, std::string(call) + ": " + why});
@@ -180,13 +183,19 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
         require_point("find_nearest", "point", i, points[i]);
     }
     prepare();
-    jobs_.divide(points.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::NearestQueries& queries = scratch_[job].nearest;
-        queries.begin(instances_, query);
-        for (std::size_t i = first; i < end; ++i) {
-            queries.find(points[i], hits.subspan(i * query.count, query.count));
-        }
-    });
+    for (std::size_t block = 0; block < points.size(); block += sorted_at_a_time) {
+        const auto some = points.subspan(block, std::min(sorted_at_a_time, points.size() - block));
+        const auto order = hilbert_order_.sort(some);
+        const auto answer = [&](std::uint32_t job, std::size_t first, std::size_t end) {
+            world::NearestQueries& queries = scratch_[job].nearest;
+            queries.begin(instances_, query);
+            for (std::size_t i = first; i < end; ++i) {
+                const std::size_t point = order[i].second;
+                queries.find(some[point], hits.subspan((block + point) * query.count, query.count));
+            }
+        };
+        jobs_.divide(some.size(), part, answer);
+    }
 }
 
 void World::Implementation::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,

@@ -2,6 +2,7 @@
 
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/nearest_queries.hpp>
 #include <engine/world/overlap_queries.hpp>
@@ -78,7 +79,8 @@ private:
     world::Instances instances_;
     Jobs jobs_;
     std::vector<Job> scratch_;  // by job
-    Batch batch_;               // of shape casts
+    world::HilbertOrder hilbert_order_;
+    Batch batch_;  // of shape casts
     Results results_;
     std::vector<Candidate> candidates_;  // by query of the batch
 };

@@ -26,22 +26,25 @@ double square_longer(double squared, double by) {
 
 }  // namespace
 
-double ClosestPairFinder::squared_bound() const {
+double ClosestPairFinder::squared_bound(double known) const {
     // From a vertex near the other's box to the other boundary and back: this quickly gets close.
     const simd::TransformedEdges* from = a_;
-    const simd::TransformedEdges* to = b_;
+    const simd::TransformedEdges* other = b_;
+    const simd::AabbTree* tree = &*tree_b_;
+    const simd::AabbTree* other_tree = &*tree_a_;
     std::uint32_t vertex =
         simd::kernels::find_point_nearest_to(a_->starts(), geometry::extent_of(b_->box));
-    double least = infinity;
+    double least = known;
     for (int turn = 0; turn < 4; ++turn) {
         const simd::NearEdge nearest = simd::kernels::find_nearer(
-            to->tree(), from->start_x[vertex], from->start_y[vertex], {0, infinity});
+            *tree, from->start_x[vertex], from->start_y[vertex], {0, least});
         if (nearest.squared >= least) {
             break;
         }
         least = nearest.squared;
         vertex = nearest.edge;
-        std::swap(from, to);
+        std::swap(from, other);
+        std::swap(tree, other_tree);
     }
     return least;
 }
@@ -51,9 +54,11 @@ ClosestPair ClosestPairFinder::find(const simd::TransformedEdges& a,
                                     double margin) {
     a_ = &a;
     b_ = &b;
+    tree_a_.emplace(a.tree());
+    tree_b_.emplace(b.tree());
     // Covers the rounding of the kernels and of transforming the vertices.
     const double rounding = a.rounding + b.rounding;
-    double least = std::min(at_most * at_most, squared_bound());
+    double least = squared_bound(at_most * at_most);
     least = keep_near(least, 2.0 * rounding + margin, max_kept);
     keeps_all_ = near_.size() <= max_kept;
     if (!keeps_all_) {
@@ -94,7 +99,7 @@ double ClosestPairFinder::keep_near(double most, double margin, std::size_t max_
         return to.near.size() <= to.most;
     };
     near_.clear();
-    return simd::kernels::for_closest(a_->tree(), b_->tree(), most, margin, {keep, &kept});
+    return simd::kernels::for_closest(*tree_a_, *tree_b_, most, margin, {keep, &kept});
 }
 
 ClosestPair ClosestPairFinder::pair_of(const simd::VertexAndEdge& found) const {
@@ -135,7 +140,7 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     const auto go_on = [](void* user, const simd::VertexAndEdge& found) {
         return !(*static_cast<decltype(is_rival)*>(user))(found);
     };
-    return !simd::kernels::for_within(a_->tree(), b_->tree(),
+    return !simd::kernels::for_within(*tree_a_, *tree_b_,
                                       square_longer(limit, 2.0 * (a_->rounding + b_->rounding)),
                                       {go_on, &is_rival});
 }

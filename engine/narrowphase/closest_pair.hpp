@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace nearfield::narrowphase {
@@ -44,14 +45,16 @@ public:
 private:
     /// A vertex and an edge as points of A and B.
     [[nodiscard]] ClosestPair pair_of(const simd::VertexAndEdge& found) const;
-    /// An upper bound from some vertices and edges near them.
-    [[nodiscard]] double squared_bound() const;
+    /// An upper bound from some vertices and edges near them; at most the one that is known.
+    [[nodiscard]] double squared_bound(double known) const;
     /// Keeps the pairs within `margin` of the closest, and some more; stops once there are more
     /// than `max_pairs`. Returns the square of the least distance so far.
     [[nodiscard]] double keep_near(double most, double margin, std::size_t max_pairs);
 
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
+    std::optional<simd::AabbTree> tree_a_;
+    std::optional<simd::AabbTree> tree_b_;
     std::vector<simd::VertexAndEdge>
         near_;               // candidates for the closest, and those as close up to the margin
     bool keeps_all_ = true;  // near_ has all of the latter

@@ -3,9 +3,11 @@
 #include <engine/geometry/vector.hpp>
 #include <engine/simd/ordered_search.hpp>
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace nearfield::world {
@@ -37,8 +39,8 @@ public:
     void for_near(const geometry::Box& box, const Bound& bound, const Use& use) const {
         const simd::Extent extent = geometry::extent_of(box);
         search(
-            [&](const simd::BoxArrays& boxes, std::uint32_t first, simd::BoxKeys& keys) {
-                simd::kernels::measure_boxes(boxes, first, extent, keys);
+            [&](const Node& node, simd::BoxKeys& keys) {
+                simd::kernels::measure_boxes(node.boxes(), 0, extent, keys);
             },
             bound, use);
     }
@@ -49,8 +51,8 @@ public:
     void for_along(const simd::Path& path, double margin, const Bound& bound,
                    const Use& use) const {
         search(
-            [&](const simd::BoxArrays& boxes, std::uint32_t first, simd::BoxKeys& keys) {
-                simd::kernels::enter_boxes(boxes, first, path, margin, keys);
+            [&](const Node& node, simd::BoxKeys& keys) {
+                simd::kernels::enter_boxes(node.boxes(), 0, path, margin, keys);
             },
             bound, use);
     }
@@ -61,16 +63,21 @@ private:
     static constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
     static constexpr std::uint32_t nowhere = UINT32_MAX;
 
-    /// Boxes as a structure of arrays, whole nodes of eight.
-    struct Level {
-        std::vector<double> sides;  // low x of all, then low y, high x, high y
-        std::uint32_t count = 0;
+    /// Eight boxes as a structure of arrays, in one piece of memory.
+    struct alignas(64) Node {
+        std::array<double, fan_out> low_x;
+        std::array<double, fan_out> low_y;
+        std::array<double, fan_out> high_x;
+        std::array<double, fan_out> high_y;
 
-        [[nodiscard]] simd::BoxArrays arrays() const;
-        void resize(std::uint32_t boxes);
+        [[nodiscard]] simd::BoxArrays boxes() const {
+            return {fan_out, low_x.data(), low_y.data(), high_x.data(), high_y.data()};
+        }
+        void clear();
         void set(std::uint32_t box, const simd::Extent& extent);
         [[nodiscard]] simd::Extent at(std::uint32_t box) const;
     };
+    using Level = std::vector<Node>;
 
     template <class Measure, class Bound, class Use>
     void search(const Measure& measure, const Bound& bound, const Use& use) const {
@@ -84,49 +91,56 @@ private:
     }
 
     template <class Use>
-    void visit_meeting(std::uint32_t level, std::uint32_t first, const simd::Extent& extent,
+    void visit_meeting(std::uint32_t level, std::uint32_t number, const simd::Extent& extent,
                        const Use& use) const {
         simd::BoxKeys keys;
-        simd::kernels::measure_boxes(levels_[level].arrays(), first, extent, keys);
+        simd::kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
         for (std::uint32_t i = 0; i < fan_out; ++i) {
             if (keys[i] > 0.0) {
                 continue;
             }
             if (level > 0) {
-                visit_meeting(level - 1, fan_out * (first + i), extent, use);
-            } else if (names_[first + i] != nowhere) {
-                use(names_[first + i]);
+                visit_meeting(level - 1, fan_out * number + i, extent, use);
+            } else if (names_[fan_out * number + i] != nowhere) {
+                use(names_[fan_out * number + i]);
             }
         }
     }
 
     template <class Measure, class Bound, class Use>
-    void visit(std::uint32_t level, std::uint32_t first, const Measure& measure, const Bound& bound,
-               const Use& use) const {
+    void visit(std::uint32_t level, std::uint32_t number, const Measure& measure,
+               const Bound& bound, const Use& use) const {
         simd::BoxKeys keys;
-        measure(levels_[level].arrays(), first, keys);
-        for (std::uint32_t left = fan_out; left > 0; --left) {
-            std::uint32_t nearest = 0;
-            for (std::uint32_t i = 1; i < fan_out; ++i) {
-                nearest = keys[i] < keys[nearest] ? i : nearest;
+        measure(levels_[level][number], keys);
+        std::uint32_t left = 0;
+        for (std::uint32_t i = 0; i < fan_out; ++i) {
+            left |= (keys[i] <= bound() && keys[i] < largest_key ? 1U : 0U) << i;
+        }
+        while (left != 0) {
+            auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
+            for (std::uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
+                const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
+                nearest = keys[other] < keys[nearest] ? other : nearest;
             }
-            if (!(keys[nearest] <= bound()) || keys[nearest] > largest_key) {
+            if (keys[nearest] > bound()) {
                 return;
             }
-            const double key = keys[nearest];
-            keys[nearest] = 2.0 * largest_key;
+            left &= ~(1U << nearest);
             if (level > 0) {
-                visit(level - 1, fan_out * (first + nearest), measure, bound, use);
-            } else if (names_[first + nearest] != nowhere) {
-                use(names_[first + nearest], key);
+                visit(level - 1, fan_out * number + nearest, measure, bound, use);
+            } else if (names_[fan_out * number + nearest] != nowhere) {
+                use(names_[fan_out * number + nearest], keys[nearest]);
             }
         }
     }
 
-    /// Keys above this are those of boxes that hold nothing, or that were already visited.
+    /// Keys from this on are those of boxes that hold nothing.
     static constexpr double largest_key = 1e300;
 
     void build();
+    void set_box(std::size_t level, std::uint32_t box, const simd::Extent& extent);
+    /// Writes the box over a node into the level above.
+    void join(std::size_t level, std::uint32_t node);
     /// Makes the boxes above a lowest box fit again.
     void refit(std::uint32_t leaf);
     [[nodiscard]] double size_of_node(std::uint32_t node) const;

@@ -114,19 +114,17 @@ void Instances::place(std::uint32_t index) {
     boxes_.set(index, entry.box);
 }
 
-const simd::TransformedEdges& Instances::edges(std::uint32_t index) const {
-    const Entry& entry = entries_[index];
-    if (!entry.has_edges.load(std::memory_order_acquire)) {
-        const std::lock_guard lock(making_edges_);
-        if (!entry.has_edges.load(std::memory_order_relaxed)) {
-            entry.edges.clear();
-            const std::uint32_t only =
-                entry.edges.place(TransformedPolygon(*entry.polygon, entry.instance.pose));
-            entry.edges.complete(only);
-            entry.has_edges.store(true, std::memory_order_release);
-        }
+void Instances::keep(const Entry& entry) const {
+    const std::lock_guard lock(making_edges_);
+    if (entry.has_edges.load(std::memory_order_relaxed)) {
+        return;
     }
-    return entry.edges[0];
+    entry.edges.clear();
+    const std::uint32_t only =
+        entry.edges.place(TransformedPolygon(*entry.polygon, entry.instance.pose));
+    entry.edges.complete(only);
+    entry.tree.emplace(entry.edges[only].tree());
+    entry.has_edges.store(true, std::memory_order_release);
 }
 
 std::size_t Instances::bytes() const {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -81,7 +82,13 @@ public:
         return *entries_[index].polygon;
     }
     /// Its complete edges, in world coordinates.
-    [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const;
+    [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const {
+        return kept(index).edges[0];
+    }
+    /// The boxes over them.
+    [[nodiscard]] const simd::AabbTree& tree(std::uint32_t index) const {
+        return *kept(index).tree;
+    }
 
     [[nodiscard]] std::size_t bytes() const;
     void trim();
@@ -100,8 +107,18 @@ private:
         double rounding = 0.0;
         // Made by the first thread that needs them.
         mutable simd::TransformedInstances edges;
+        mutable std::optional<simd::AabbTree> tree;
         mutable std::atomic<bool> has_edges = false;
     };
+
+    [[nodiscard]] const Entry& kept(std::uint32_t index) const {
+        const Entry& entry = entries_[index];
+        if (!entry.has_edges.load(std::memory_order_acquire)) {
+            keep(entry);
+        }
+        return entry;
+    }
+    void keep(const Entry& entry) const;
 
     void note_change(std::uint32_t index);
     void place(std::uint32_t index);

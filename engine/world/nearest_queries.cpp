@@ -8,6 +8,7 @@
 namespace nearfield::world {
 namespace {
 
+constexpr std::uint32_t none = UINT32_MAX;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -16,6 +17,7 @@ void NearestQueries::begin(const Instances& instances, const NearestQuery& query
     instances_ = &instances;
     query_ = query;
     nearest_.reserve(query.count);
+    guess_ = none;
 }
 
 double NearestQueries::reach() const {
@@ -46,7 +48,7 @@ void NearestQueries::take(const Found& found) {
 
 void NearestQueries::find_on(std::uint32_t index) {
     const simd::TransformedEdges& edges = instances_->edges(index);
-    const simd::AabbTree tree = edges.tree();
+    const simd::AabbTree& tree = instances_->tree(index);
     const bool inside =
         edges.box.contains(point_) && simd::kernels::contain(tree, point_.x(), point_.y());
     const double most = inside ? std::numeric_limits<double>::infinity()
@@ -78,26 +80,33 @@ void NearestQueries::find_edges_of(std::uint32_t index) {
                      of.index, edge, on_edge});
         return of.all.squared_reach(of.edges.rounding);
     };
-    simd::kernels::for_edges_near(edges.tree(), point_.x(), point_.y(),
+    simd::kernels::for_edges_near(instances_->tree(index), point_.x(), point_.y(),
                                   squared_reach(edges.rounding), {use, &search});
+}
+
+void NearestQueries::find_in(std::uint32_t index) {
+    if (query_.kind == NearestKind::instances) {
+        find_on(index);
+    } else {
+        find_edges_of(index);
+    }
 }
 
 void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
     point_ = geometry::to_vector(point);
     nearest_.clear();
-    const geometry::Box box(point_, point_);
+    const std::uint32_t guess = guess_;
+    if (guess != none) {
+        find_in(guess);
+    }
     instances_->boxes().for_near(
-        box, [this] { return squared_reach(instances_->max_rounding()); },
-        [this](std::uint32_t index, double) {
-            if (!instances_->passes(index, query_.filter)) {
-                return;
-            }
-            if (query_.kind == NearestKind::instances) {
-                find_on(index);
-            } else {
-                find_edges_of(index);
+        {point_, point_}, [this] { return squared_reach(instances_->max_rounding()); },
+        [&](std::uint32_t index, double) {
+            if (index != guess && instances_->passes(index, query_.filter)) {
+                find_in(index);
             }
         });
+    guess_ = nearest_.empty() ? none : nearest_.front().instance;
     std::fill(hits.begin(), hits.end(), NearestHit{});
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
         const Found& found = nearest_[i];

@@ -38,6 +38,7 @@ private:
     /// Boundaries farther from the point than this are of no interest.
     [[nodiscard]] double reach() const;
     [[nodiscard]] double squared_reach(double rounding) const;
+    void find_in(std::uint32_t index);
     void find_on(std::uint32_t index);
     void find_edges_of(std::uint32_t index);
     void take(const Found& found);
@@ -45,7 +46,8 @@ private:
     const Instances* instances_ = nullptr;
     NearestQuery query_;
     geometry::Vector point_ = geometry::Vector::Zero();
-    std::vector<Found> nearest_;  // in ascending order
+    std::vector<Found> nearest_;        // in ascending order
+    std::uint32_t guess_ = UINT32_MAX;  // the nearest instance of the point before
 };
 
 }  // namespace nearfield::world

@@ -26,7 +26,7 @@ void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& foun
     const Vector p = geometry::to_vector(point);
     instances_->boxes().for_meeting({p, p}, [&](std::uint32_t index) {
         if (instances_->passes(index, filter_) &&
-            simd::kernels::contain(instances_->edges(index).tree(), p.x(), p.y())) {
+            simd::kernels::contain(instances_->tree(index), p.x(), p.y())) {
             found.push_back(index);
         }
     });
@@ -36,7 +36,7 @@ void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& foun
 /// True if an edge comes into the rectangle, or the rectangle lies inside.
 bool OverlapQueries::meets(std::uint32_t index, const Box& box) const {
     const simd::TransformedEdges& edges = instances_->edges(index);
-    const simd::AabbTree tree = edges.tree();
+    const simd::AabbTree& tree = instances_->tree(index);
     const std::array<Vector, 4> corners{box.min(), box.corner(Box::BottomRight), box.max(),
                                         box.corner(Box::TopLeft)};
     for (std::size_t i = 0; i < corners.size(); ++i) {

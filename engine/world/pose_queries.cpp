@@ -1,3 +1,4 @@
+#include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/world/pose_queries.hpp>
 
@@ -91,8 +92,12 @@ bool PoseQueries::replaces(double distance, std::uint32_t index) const {
 
 void PoseQueries::write_depth(std::uint32_t index) {
     const simd::TransformedEdges& other = instances_->edges(index);
-    const std::optional<DeepVertex> of_shape = deepest_vertex_.find(complete_edges(), other);
-    const std::optional<DeepVertex> of_other = deepest_vertex_.find(other, complete_edges());
+    const simd::AabbTree own_tree = complete_edges().tree();
+    const EdgesInTree own{edges(), own_tree};
+    const EdgesInTree others{other, instances_->tree(index)};
+    const bool is_guess = index == guess_;
+    const auto of_shape = deepest_vertex_.find(own, others, is_guess ? guess_vertex_ : none);
+    const auto of_other = deepest_vertex_.find(others, own, is_guess ? guess_edge_ : none);
     const double depth_of_shape = of_shape ? of_shape->depth : 0.0;
     const double depth_of_other = of_other ? of_other->depth : 0.0;
     const double depth = std::max(depth_of_shape, depth_of_other);
@@ -100,6 +105,8 @@ void PoseQueries::write_depth(std::uint32_t index) {
         return;
     }
     nearest_ = index;
+    nearest_vertex_ = of_shape ? of_shape->index : 0;
+    nearest_edge_ = of_other ? of_other->index : 0;
     best_ = {};
     best_.distance = 0.0 - depth;
     best_.error_bound = edges().rounding + instances_->rounding(index) + shape_->deviation() +
@@ -119,13 +126,24 @@ void PoseQueries::write_depth(std::uint32_t index) {
 void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     const simd::TransformedEdges& other = instances_->edges(index);
     const double rounding = edges().rounding + other.rounding;
-    const double at_most = with_slack(std::min(best_.distance, max_clearance), 4.0 * rounding);
+    double known = std::min(best_.distance, max_clearance);
+    if (index == guess_) {
+        // What was nearest at the pose before is still near.
+        const geometry::Vector vertex = edges().start(guess_vertex_);
+        known =
+            std::min(known, std::sqrt(geometry::nearest_on_segment(vertex, other.start(guess_edge_),
+                                                                   other.end(guess_edge_))
+                                          .squared_distance));
+    }
+    const double at_most = with_slack(known, 4.0 * rounding);
     const narrowphase::ClosestPair pair = closest_pair_.find(complete_edges(), other, at_most, 0.0);
     const double distance = std::sqrt(pair.squared_distance);
     if (distance > max_clearance || !replaces(distance, index)) {
         return;
     }
     nearest_ = index;
+    nearest_vertex_ = pair.edge_a;
+    nearest_edge_ = pair.edge_b;
     best_.distance = distance;
     best_.error_bound = rounding + shape_->deviation() + instances_->deviation(index) +
                         8.0 * std::numeric_limits<double>::epsilon() * distance;
@@ -135,11 +153,17 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
         distance > 0.0 ? to_public((pair.point_b - pair.point_a) / distance) : Vector2();
 }
 
-void PoseQueries::measure(std::uint32_t index, double max_clearance) {
-    if (intersects(index)) {
+void PoseQueries::measure(std::uint32_t index, const ClearanceQuery& query) {
+    if (!intersects(index)) {
+        if (!(best_.distance < 0.0)) {
+            write_distance(index, query.max_clearance);
+        }
+    } else if (query.min_clearance >= 0.0) {
+        best_.distance = 0.0;  // how deep is of no interest
+        nearest_ = index;
+        nearest_vertex_ = nearest_edge_ = 0;
+    } else {
         write_depth(index);
-    } else if (!(best_.distance < 0.0)) {
-        write_distance(index, max_clearance);
     }
 }
 
@@ -149,7 +173,7 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     nearest_ = none;
     const std::uint32_t guess = guess_;
     if (guess != none) {
-        measure(guess, query.max_clearance);
+        measure(guess, query);
     }
     const double rounding = edges().rounding + instances_->max_rounding();
     const auto bound = [&] {
@@ -159,10 +183,12 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     };
     instances_->boxes().for_near(edges().box, bound, [&](std::uint32_t index, double) {
         if (index != guess && instances_->passes(index, filter_)) {
-            measure(index, query.max_clearance);
+            measure(index, query);
         }
     });
     guess_ = nearest_;
+    guess_vertex_ = nearest_vertex_;
+    guess_edge_ = nearest_edge_;
     if (nearest_ == none || best_.distance <= query.min_clearance) {
         best_ = {};
         best_.distance = nearest_ == none ? query.max_clearance : query.min_clearance;

@@ -34,7 +34,7 @@ private:
     [[nodiscard]] geometry::Box search_box() const;
     [[nodiscard]] bool intersects(std::uint32_t index);
     /// Takes an instance into account if it is nearer, or deeper, than the best so far.
-    void measure(std::uint32_t index, double max_clearance);
+    void measure(std::uint32_t index, const ClearanceQuery& query);
     [[nodiscard]] bool replaces(double distance, std::uint32_t index) const;
     void write_depth(std::uint32_t index);
     void write_distance(std::uint32_t index, double max_clearance);
@@ -47,8 +47,14 @@ private:
     narrowphase::ClosestPairFinder closest_pair_;
     DeepestVertex deepest_vertex_;
     Clearance best_;
-    std::uint32_t nearest_ = UINT32_MAX;  // the instance of best_
-    std::uint32_t guess_ = UINT32_MAX;    // that of the pose before
+    // The instance of best_, and an edge of each shape near the places where they are closest.
+    std::uint32_t nearest_ = UINT32_MAX;
+    std::uint32_t nearest_vertex_ = 0;
+    std::uint32_t nearest_edge_ = 0;
+    // Those of the pose before.
+    std::uint32_t guess_ = UINT32_MAX;
+    std::uint32_t guess_vertex_ = 0;
+    std::uint32_t guess_edge_ = 0;
     std::vector<std::uint32_t> candidates_;
 };
 

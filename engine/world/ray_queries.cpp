@@ -43,8 +43,8 @@ void RayQueries::search_edges_of(std::uint32_t index) {
         }
         return of.bound();
     };
-    simd::kernels::for_edges_along(edges.tree(), path_, edges.rounding + rounding_, search.bound(),
-                                   {use, &search});
+    simd::kernels::for_edges_along(instances_->tree(index), path_, edges.rounding + rounding_,
+                                   search.bound(), {use, &search});
 }
 
 void RayQueries::search(const Segment& segment, bool all) {
