@@ -11,6 +11,7 @@
 #include <nearfield/world.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,10 @@ public:
     void find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                        InstanceLists& lists);
 
+    /// Defined in world_pairs.cpp for the queries of the public class.
+    template <class Query>
+    void update(PairTable<Query>& table);
+
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();
 
@@ -58,12 +63,24 @@ private:
         world::OverlapQueries overlaps;
         std::vector<std::uint32_t> found;
     };
-    /// Part of a shape cast's answer.
+    /// What a query of the batch is about: a sweep or a pair by its number, and an instance.
     struct Candidate {
-        std::size_t sweep;
+        std::size_t number;
         std::uint32_t instance;
     };
 
+    template <class Query>
+    void answer_new_pairs(PairTable<Query>& table);
+    template <class Query>
+    void append_rows(PairTable<Query>& table);
+    template <class Query>
+    void merge_rows(PairTable<Query>& table);
+
+    [[nodiscard]] Instance instance_of(std::uint32_t index) const {
+        return {instances_[index].shape, instances_[index].pose};
+    }
+    /// Answers the queries of the batch.
+    void run_batch();
     /// Takes in what has changed in the world.
     void prepare();
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
@@ -72,15 +89,16 @@ private:
     void write_lists(std::size_t count, InstanceLists& lists, const Find& find);
     void find_candidates(const ShapeCastQuery& query, const geometry::Polygon& shape,
                          const Sweep& sweep, std::size_t number);
-    void answer_candidates(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
-                           std::span<ShapeCastHit> hits);
+    void answer_candidates(std::span<ShapeCastHit> hits);
 
     Context::Implementation* context_;
+    // Another world may come to have the address of this one, but not its identity.
+    std::shared_ptr<const void> identity_ = std::make_shared<char>();
     world::Instances instances_;
     Jobs jobs_;
     std::vector<Job> scratch_;  // by job
     world::HilbertOrder hilbert_order_;
-    Batch batch_;  // of shape casts
+    Batch batch_;  // of shape casts and pairs
     Results results_;
     std::vector<Candidate> candidates_;  // by query of the batch
 };

@@ -46,6 +46,8 @@ public:
         return {index, entries_[index].generation};
     }
     [[nodiscard]] std::uint32_t count() const { return count_; }
+    /// Indices are below this; some of them may be unused.
+    [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
 
     /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
     /// does.
@@ -60,6 +62,16 @@ public:
         return (entry.instance.mask & filter.category) != 0 &&
                (entry.instance.category & filter.mask) != 0 &&
                (filter.ignored.index != index || filter.ignored.generation != entry.generation);
+    }
+    /// True if two instances form a pair, by their categories and masks.
+    [[nodiscard]] bool is_pair(std::uint32_t a, std::uint32_t b) const {
+        const WorldInstance& one = entries_[a].instance;
+        const WorldInstance& other = entries_[b].instance;
+        return (one.category & other.mask) != 0 && (other.category & one.mask) != 0;
+    }
+    /// True if there is an instance and its shape exists.
+    [[nodiscard]] bool is_placed(std::uint32_t index) const {
+        return entries_[index].present && entries_[index].polygon != nullptr;
     }
     /// The order in which instances were added.
     [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return entries_[index].number; }

@@ -19,3 +19,4 @@
 #include <nearfield/tile.hpp>
 #include <nearfield/version.hpp>
 #include <nearfield/world.hpp>
+#include <nearfield/world_pairs.hpp>

@@ -43,6 +43,9 @@ struct ResultSummary {
     Technique technique = Technique::raster;  ///< the technique that answered; never automatic
 };
 
+/// The record type of results that list no records.
+struct NoRecord {};
+
 /// A part of a boundary: an edge without its end points, or a vertex. Indices count through all
 /// rings of the shape in the order given.
 struct Feature {
@@ -68,6 +71,12 @@ struct PenetrationRecord {
     bool unique = true;
 };
 
+/// What a PenetrationResult states besides its summary and records.
+struct PenetrationValues {
+    std::uint32_t count = 0;    ///< number of penetrating points
+    PenetrationRecord deepest;  ///< meaningful if count > 0
+};
+
 /// Answer to a PenetrationQuery.
 ///
 /// The numbers of a record are computed in double precision from the vertices as given. The nearest
@@ -78,9 +87,9 @@ struct PenetrationRecord {
 /// vertex, for PenetrationPoints::vertices). For shapes with a deviation it also bounds how much
 /// less deep the deepest boundary point of the shapes themselves can be; the depth of a record is
 /// then off by at most the deviation of B, at a point that is off by at most that of A.
-struct PenetrationResult : ResultSummary {
-    std::uint32_t count = 0;    ///< number of penetrating points
-    PenetrationRecord deepest;  ///< meaningful if count > 0
+struct PenetrationResult : ResultSummary, PenetrationValues {
+    using Values = PenetrationValues;  ///< what it states besides summary and records
+    using Record = PenetrationRecord;  ///< what it lists
     /// In order along A's rings. A sequence that continues past the first vertex of a ring may
     /// stand at the start of the ring as a whole; techniques differ in this.
     std::vector<PenetrationRecord> records;
@@ -94,17 +103,23 @@ struct IntersectionSample {
     std::uint32_t edge = no_edge;  ///< an edge of A nearby, if A takes part by its boundary
 };
 
-/// Answer to an IntersectionQuery.
-///
-/// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
-/// in both shapes has a sample within it; for a shape that takes part by its boundary, every point
-/// on the boundary.
-struct IntersectionResult : ResultSummary {
+/// What an IntersectionResult states besides its summary and samples.
+struct IntersectionValues {
     IntersectionKind kind = IntersectionKind::volume_volume;        ///< of the query
     IntersectionStrategy strategy = IntersectionStrategy::stencil;  ///< of the query
     std::uint64_t count = 0;                                        ///< number of samples found
     double area = 0.0;  ///< count times the area of a cell
     Rectangle box;      ///< bounding box of all samples' points; meaningful if count > 0
+};
+
+/// Answer to an IntersectionQuery.
+///
+/// `error_bound`: every sample is within it of both shapes, and every point that is deeper than it
+/// in both shapes has a sample within it; for a shape that takes part by its boundary, every point
+/// on the boundary.
+struct IntersectionResult : ResultSummary, IntersectionValues {
+    using Values = IntersectionValues;        ///< what it states besides summary and samples
+    using Record = IntersectionSample;        ///< what it lists
     std::vector<IntersectionSample> samples;  ///< by region, then row by row from the low corner
 };
 
@@ -192,23 +207,27 @@ struct ContactCluster {
     std::uint32_t count = 0;
 };
 
+/// What a ContactResult states besides its summary, manifold and records.
+struct ContactValues {
+    std::uint32_t count = 0;  ///< number of contacts, on both boundaries
+};
+
 /// Answer to a ContactQuery.
 ///
 /// The numbers of a record are computed in double precision from the vertices as given, except the
 /// normal with ContactNormals::gradient. No record is farther from the other boundary than the
 /// contact distance. Every point of either boundary that is no farther from the other than the
 /// contact distance minus `error_bound` has a record within `error_bound` of it.
-struct ContactResult : ResultSummary {
-    std::uint32_t count = 0;               ///< number of contacts, on both boundaries
+struct ContactResult : ResultSummary, ContactValues {
+    using Values = ContactValues;          ///< what it states besides summary, manifold and records
+    using Record = ContactRecord;          ///< what it lists
     std::vector<ContactCluster> manifold;  ///< in order along A's rings, then those of B alone
     /// A's, then B's, each in order along the rings as PenetrationResult::records are.
     std::vector<ContactRecord> records;
 };
 
-/// Answer to a ClosestPointQuery. `error_bound` bounds the error of `distance`: the rounding of
-/// double precision, plus the shapes' deviations. Shapes that intersect have distance 0, no
-/// direction, and a common point.
-struct ClosestPointResult : ResultSummary {
+/// What a ClosestPointResult states besides its summary.
+struct ClosestPointValues {
     Vector2 point;          ///< of A: closest to B
     Vector2 nearest;        ///< of B: closest to `point`
     double distance = 0.0;  ///< from `point` to `nearest`; 0 if the shapes intersect
@@ -223,10 +242,16 @@ struct ClosestPointResult : ResultSummary {
     double sampled_distance = 0.0;
 };
 
-/// Answer to a SeparationQuery; `error_bound` and intersecting shapes as for ClosestPointResult.
-/// Swapping A and B gives the same distance. `unique` refers to both points: false if another pair
-/// is as close up to d/1000 and one of its points is farther than d from this pair's.
-struct SeparationResult : ResultSummary {
+/// Answer to a ClosestPointQuery. `error_bound` bounds the error of `distance`: the rounding of
+/// double precision, plus the shapes' deviations. Shapes that intersect have distance 0, no
+/// direction, and a common point.
+struct ClosestPointResult : ResultSummary, ClosestPointValues {
+    using Values = ClosestPointValues;  ///< what it states besides its summary
+    using Record = NoRecord;            ///< what it lists, nothing
+};
+
+/// What a SeparationResult states besides its summary.
+struct SeparationValues {
     double distance = 0.0;  ///< from point_a to point_b, world units; 0 if they intersect
     Vector2 point_a;        ///< of A
     Vector2 point_b;        ///< of B
@@ -238,10 +263,24 @@ struct SeparationResult : ResultSummary {
     double sampled_distance = 0.0;
 };
 
+/// Answer to a SeparationQuery; `error_bound` and intersecting shapes as for ClosestPointResult.
+/// Swapping A and B gives the same distance. `unique` refers to both points: false if another pair
+/// is as close up to d/1000 and one of its points is farther than d from this pair's.
+struct SeparationResult : ResultSummary, SeparationValues {
+    using Values = SeparationValues;  ///< what it states besides its summary
+    using Record = NoRecord;          ///< what it lists, nothing
+};
+
+/// What an IntersectionTestResult states besides its summary: nothing.
+struct IntersectionTestValues {};
+
 /// Answer to an IntersectionTestQuery: `intersects`. Exact, except that shapes whose distance is at
 /// most `error_bound` (the rounding of transformed vertices plus the shapes' deviations) may be
 /// reported either way. `tolerance` and `cell` are 0.
-struct IntersectionTestResult : ResultSummary {};
+struct IntersectionTestResult : ResultSummary, IntersectionTestValues {
+    using Values = IntersectionTestValues;  ///< what it states besides its summary
+    using Record = NoRecord;                ///< what it lists, nothing
+};
 
 /// The outcome of a TimeOfImpactQuery.
 enum class ImpactState : std::uint8_t {
@@ -287,18 +326,24 @@ struct TimeOfImpactResult : ResultSummary {
     std::uint32_t steps = 0;  ///< number of evaluations of the shapes
 };
 
+/// What a SeparationVectorResult states besides its summary.
+struct SeparationVectorValues {
+    Vector2 vector;       ///< add it to the translation of A's pose
+    double length = 0.0;  ///< of the vector
+    /// No translation of A shorter than this takes the shapes farther apart than `error_bound`.
+    double lower_bound = 0.0;
+    std::uint64_t work = 0;  ///< work done, in the unit of SeparationVectorQuery::max_work
+};
+
 /// Answer to a SeparationVectorQuery. The vector is verified by the intersection test: A moved by
 /// it shares no point with B. If `intersects` is false, vector and lengths are zero.
 ///
 /// `error_bound`: the rounding of transformed vertices plus the shapes' deviations. The rings as
 /// given are separated; shapes with a deviation may still be as deep in each other as the sum of
 /// their deviations.
-struct SeparationVectorResult : ResultSummary {
-    Vector2 vector;       ///< add it to the translation of A's pose
-    double length = 0.0;  ///< of the vector
-    /// No translation of A shorter than this takes the shapes farther apart than `error_bound`.
-    double lower_bound = 0.0;
-    std::uint64_t work = 0;  ///< work done, in the unit of SeparationVectorQuery::max_work
+struct SeparationVectorResult : ResultSummary, SeparationVectorValues {
+    using Values = SeparationVectorValues;  ///< what it states besides its summary
+    using Record = NoRecord;                ///< what it lists, nothing
 };
 
 /// The time of one pass on the device.

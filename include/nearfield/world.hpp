@@ -171,6 +171,9 @@ struct ShapeCastHit {
     Vector2 direction = {};    ///< unit vector from `point` to `nearest`; (0, 0) where they meet
 };
 
+template <class Query>
+class PairTable;
+
 /// Instances of shapes of one context, kept from frame to frame.
 ///
 /// A shape may be deformed (Context::update_shape) between any two calls; all its instances follow.
@@ -259,6 +262,23 @@ public:
     /// For each pose, the instances with which the shape there shares a point.
     Status find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                          InstanceLists& lists);
+
+    /// Brings a table of pairs (world_pairs.hpp) up to date. Fails with invalid_query if its reach
+    /// or technique is invalid, and as Context::run(); the table is empty then. Errors of single
+    /// pairs are the status of their rows.
+    Status update(PairTable<PenetrationQuery>& table);
+    /// Likewise.
+    Status update(PairTable<ContactQuery>& table);
+    /// Likewise.
+    Status update(PairTable<IntersectionQuery>& table);
+    /// Likewise.
+    Status update(PairTable<ClosestPointQuery>& table);
+    /// Likewise.
+    Status update(PairTable<SeparationQuery>& table);
+    /// Likewise.
+    Status update(PairTable<IntersectionTestQuery>& table);
+    /// Likewise.
+    Status update(PairTable<SeparationVectorQuery>& table);
 
     /// Host memory of the instances and of all that is kept with them, in bytes.
     [[nodiscard]] std::uint64_t memory_use() const noexcept;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <engine/base/status_exception.hpp>
+#include <engine/plan/check_query.hpp>
+#include <nearfield/shape.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+/// \file Checks of what the calls of a world are given, before any work. They throw.
+
+namespace nearfield {
+
+[[noreturn]] inline void refuse(const char* call, const std::string& why) {
+    throw StatusException({StatusCode::invalid_query, std::string(call) + ": " + why});
+}
+
+inline void require_lengths(const char* call, const char* what, std::size_t in, std::size_t out) {
+    if (in != out) {
+        refuse(call, "there are " + std::to_string(in) + " " + what + " and space for " +
+                         std::to_string(out) + " answers");
+    }
+}
+
+inline void require_pose(const char* call, const char* what, std::size_t i, const Pose& pose) {
+    if (Status status = plan::check_pose(pose, what); !status.ok()) {
+        refuse(call, status.message() + " (number " + std::to_string(i) + ")");
+    }
+}
+
+inline bool is_usable(const Vector2& point) {
+    return std::abs(point.x) <= largest_coordinate && std::abs(point.y) <= largest_coordinate;
+}
+
+inline void require_point(const char* call, const char* what, std::size_t i, const Vector2& point) {
+    if (!is_usable(point)) {
+        refuse(call, std::string(what) + " " + std::to_string(i) + " is (" +
+                         geometry::number(point.x) + ", " + geometry::number(point.y) +
+                         "); coordinates must be finite and at most " +
+                         geometry::number(largest_coordinate) + " in magnitude");
+    }
+}
+
+}  // namespace nearfield

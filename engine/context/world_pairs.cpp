@@ -1,0 +1,221 @@
+#include <engine/context/pair_table_state.hpp>
+#include <engine/context/world_implementation.hpp>
+
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace nearfield {
+namespace {
+
+/// Queries whose answer is the same with the shapes swapped have one row per pair.
+template <class Query>
+constexpr bool is_symmetric =
+    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery>;
+
+template <class Result>
+auto* records_of(Result& result) {
+    if constexpr (requires { result.samples; }) {
+        return &result.samples;
+    } else if constexpr (requires { result.records; }) {
+        return &result.records;
+    } else {
+        return static_cast<std::vector<NoRecord>*>(nullptr);
+    }
+}
+
+template <class Query>
+bool is_hit(const PairRow<Query>& row, double reach) {
+    if (row.status != StatusCode::ok || row.intersects) {
+        return true;
+    }
+    if constexpr (requires { row.distance; }) {
+        return row.distance <= reach;
+    } else if constexpr (requires { row.count; }) {
+        return row.count > 0;
+    } else {
+        return false;
+    }
+}
+
+template <class Query>
+void check(const PairTable<Query>& table) {
+    const double reach = table.selection().reach;
+    if (!(reach >= 0.0 && reach <= largest_coordinate)) {
+        throw StatusException(
+            {StatusCode::invalid_query, "update: the reach is " + geometry::number(reach) +
+                                            "; it must be a finite number of at least 0"});
+    }
+    bool on_device = table.query().technique == Technique::raster ||
+                     table.query().technique == Technique::compute;
+    if constexpr (requires { table.query().resident; }) {
+        on_device = on_device || table.query().resident;
+    }
+    if (on_device) {
+        throw StatusException(
+            {StatusCode::invalid_query,
+             "update: pairs of a world are answered by Technique::cpu; the table's "
+             "query asks for another technique, or for resident results"});
+    }
+}
+
+}  // namespace
+
+PairTableBase::PairTableBase(const PairSelection& selection)
+    : selection_(selection), state_(std::make_unique<State>()) {}
+PairTableBase::~PairTableBase() = default;
+PairTableBase::PairTableBase(PairTableBase&&) noexcept = default;
+PairTableBase& PairTableBase::operator=(PairTableBase&&) noexcept = default;
+
+std::uint32_t PairTableBase::candidates() const noexcept {
+    return static_cast<std::uint32_t>(state_->list.pairs().size());
+}
+
+std::uint32_t PairTableBase::answered() const noexcept {
+    return state_->answered;
+}
+
+/// Answers the candidates that are new or have changed.
+template <class Query>
+void World::Implementation::answer_new_pairs(PairTable<Query>& table) {
+    constexpr std::size_t queries_at_a_time = 4096;
+    const auto pairs = table.state_->list.pairs();
+    table.state_->answered = 0;
+    table.answered_.rows.clear();
+    table.answered_.records.clear();
+    Query query = table.query_;
+    query.technique = Technique::cpu;
+    batch_.clear();
+    candidates_.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (pairs[i].before == world::PairList::none) {
+            query.a = instance_of(pairs[i].a);
+            query.b = instance_of(pairs[i].b);
+            batch_.add(query);
+            candidates_.push_back({i, pairs[i].b});
+        }
+        if (candidates_.size() == queries_at_a_time ||
+            (i + 1 == pairs.size() && !candidates_.empty())) {
+            run_batch();
+            append_rows(table);
+            batch_.clear();
+            candidates_.clear();
+        }
+    }
+}
+
+template <class Query>
+void World::Implementation::append_rows(PairTable<Query>& table) {
+    using Result = typename Query::Result;
+    auto& [rows, records] = table.answered_;
+    const auto pairs = table.state_->list.pairs();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        const Result& result = *std::get_if<Result>(&results_.results[i]);
+        const world::PairList::Pair& pair = pairs[candidates_[i].number];
+        PairRow<Query>& row = rows.emplace_back();
+        static_cast<typename Result::Values&>(row) = result;
+        row.a = instances_.handle(pair.a);
+        row.b = instances_.handle(pair.b);
+        row.status = result.status.code();
+        row.intersects = result.intersects;
+        row.error_bound = result.error_bound;
+        row.first_record = static_cast<std::uint32_t>(records.size());
+        if (const auto* const found = records_of(result)) {
+            row.record_count = static_cast<std::uint32_t>(found->size());
+            records.insert(records.end(), found->begin(), found->end());
+        }
+    }
+    table.state_->answered += static_cast<std::uint32_t>(candidates_.size());
+}
+
+/// Puts the rows that stay and the new ones into the order of the candidates.
+template <class Query>
+void World::Implementation::merge_rows(PairTable<Query>& table) {
+    PairTableBase::State& state = *table.state_;
+    table.before_.rows.clear();
+    table.before_.records.clear();
+    state.row_of_before.clear();
+    std::size_t next_answered = 0;
+    const auto add = [&](const PairRow<Query>& row, const auto& from) {
+        auto& [rows, records] = table.before_;
+        state.row_of_before.push_back(static_cast<std::uint32_t>(rows.size()));
+        const auto first = from.records.begin() + row.first_record;
+        if (records.size() + row.record_count > UINT32_MAX) {
+            throw StatusException({StatusCode::too_large,
+                                   "update: the table has more records than 32 bits can count"});
+        }
+        rows.emplace_back(row).first_record = static_cast<std::uint32_t>(records.size());
+        records.insert(records.end(), first, first + row.record_count);
+    };
+    for (const world::PairList::Pair& pair : state.list.pairs()) {
+        if (pair.before == world::PairList::none) {
+            const PairRow<Query>& row = table.answered_.rows[next_answered++];
+            if (!table.selection_.hits_only || is_hit(row, table.selection_.reach)) {
+                add(row, table.answered_);
+                continue;
+            }
+        } else if (const std::uint32_t row = state.row_of[pair.before];
+                   row != world::PairList::none) {
+            add(table.now_.rows[row], table.now_);
+            continue;
+        }
+        state.row_of_before.push_back(world::PairList::none);
+    }
+    std::swap(table.now_, table.before_);
+    state.row_of.swap(state.row_of_before);
+}
+
+template <class Query>
+void World::Implementation::update(PairTable<Query>& table) {
+    PairTableBase::State& state = *table.state_;
+    const auto start_anew = [&] {
+        state.list.clear();
+        state.row_of.clear();
+        table.now_.rows.clear();
+        table.now_.records.clear();
+    };
+    try {
+        check(table);
+        prepare();
+        if (state.world.lock() != identity_) {
+            start_anew();
+            state.world = identity_;
+        }
+        state.list.update(instances_, table.selection_.reach, !is_symmetric<Query>);
+        answer_new_pairs(table);
+        merge_rows(table);
+    } catch (...) {
+        start_anew();
+        throw;
+    }
+}
+
+Status World::update(PairTable<PenetrationQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<ContactQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<IntersectionQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<ClosestPointQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<SeparationQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<IntersectionTestQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<SeparationVectorQuery>& table) {
+    return catch_to_status([&] { implementation_->update(table); });
+}
+
+}  // namespace nearfield

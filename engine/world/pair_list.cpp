@@ -1,0 +1,82 @@
+#include <engine/localize/hierarchy.hpp>
+#include <engine/world/pair_list.hpp>
+
+#include <algorithm>
+#include <iterator>
+
+namespace nearfield::world {
+
+void PairList::clear() {
+    last_change_ = 0;
+    pairs_.clear();
+    generations_.clear();
+}
+
+void PairList::find_changed(const Instances& instances) {
+    const std::uint32_t size = instances.size();
+    has_changed_.assign(std::max<std::size_t>(size, generations_.size()), 0);
+    for (std::uint32_t i = 0; i < size; ++i) {
+        const bool is_new =
+            i >= generations_.size() || generations_[i] != instances.handle(i).generation;
+        has_changed_[i] = is_new || instances.changed(i) > last_change_ ? 1 : 0;
+    }
+    generations_.resize(size);
+    for (std::uint32_t i = 0; i < size; ++i) {
+        generations_[i] = instances.handle(i).generation;
+    }
+    last_change_ = instances.last_change();
+}
+
+void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, double reach,
+                             bool both_ways) {
+    const geometry::Box& box = instances.box(index);
+    // Slightly more, for the rounding of what is compared below.
+    const geometry::Box search =
+        geometry::grown(box, reach * (1.0 + 1e-9) + instances.max_rounding());
+    instances.boxes().for_meeting(search, [&](std::uint32_t other) {
+        const bool is_found_twice =
+            has_changed_[other] != 0 && instances.number(other) < instances.number(index);
+        if (other == index || is_found_twice || !instances.is_pair(index, other)) {
+            return;
+        }
+        const bool is_first = instances.number(index) < instances.number(other);
+        const std::uint32_t first = is_first ? index : other;
+        const std::uint32_t second = is_first ? other : index;
+        if (!localize::boxes_meet(instances.box(first), instances.box(second), reach)) {
+            return;
+        }
+        found_.push_back({first, second, none});
+        if (both_ways) {
+            found_.push_back({second, first, none});
+        }
+    });
+}
+
+void PairList::update(const Instances& instances, double reach, bool both_ways) {
+    find_changed(instances);
+    found_.clear();
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        if (has_changed_[i] != 0 && instances.is_placed(i)) {
+            find_pairs_of(i, instances, reach, both_ways);
+        }
+    }
+    const auto comes_before = [&](const Pair& one, const Pair& other) {
+        return one.a != other.a ? instances.number(one.a) < instances.number(other.a)
+                                : instances.number(one.b) < instances.number(other.b);
+    };
+    std::sort(found_.begin(), found_.end(), comes_before);
+    pairs_before_.swap(pairs_);
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < pairs_before_.size(); ++i) {
+        const Pair& pair = pairs_before_[i];
+        if (has_changed_[pair.a] == 0 && has_changed_[pair.b] == 0) {
+            pairs_before_[kept++] = {pair.a, pair.b, i};
+        }
+    }
+    pairs_before_.resize(kept);
+    pairs_.clear();
+    std::merge(pairs_before_.begin(), pairs_before_.end(), found_.begin(), found_.end(),
+               std::back_inserter(pairs_), comes_before);
+}
+
+}  // namespace nearfield::world

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <engine/world/instances.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::world {
+
+/// The pairs of instances whose boxes are near each other, kept from frame to frame: only instances
+/// that changed are looked for again. Keeps its memory.
+class PairList {
+public:
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    /// Two instances, and what is known of the pair.
+    struct Pair {
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        std::uint32_t before =
+            none;  ///< its place in the list before, if neither has changed since
+    };
+
+    /// Brings the list up to date with prepared instances. `both_ways`: each pair appears in both
+    /// orders; otherwise with the instance added first as `a`.
+    void update(const Instances& instances, double reach, bool both_ways);
+    /// In ascending order of the instances' numbers.
+    [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
+    /// Forgets all.
+    void clear();
+
+private:
+    void find_changed(const Instances& instances);
+    void find_pairs_of(std::uint32_t index, const Instances& instances, double reach,
+                       bool both_ways);
+
+    std::uint64_t last_change_ = 0;  // of the instances, at the last update
+    std::vector<Pair> pairs_;
+    std::vector<Pair> pairs_before_;
+    std::vector<Pair> found_;                 // of instances that changed
+    std::vector<std::uint32_t> generations_;  // by index, at the last update
+    std::vector<std::uint8_t> has_changed_;   // by index
+};
+
+}  // namespace nearfield::world
