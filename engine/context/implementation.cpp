@@ -108,7 +108,6 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
         return Status(StatusCode::invalid_query, "find_pairs: the reach is " + plan::number(reach) +
                                                      "; it must be a finite number of at least 0");
     }
-    boxes_.clear();
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
@@ -118,9 +117,17 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
             return Status(status.code(),
                           "find_pairs: instance " + std::to_string(i) + ": " + status.message());
         }
-        boxes_.push_back(geometry::TransformedPolygon(*polygon, instances[i].pose).box());
+        if (i == boxes_.size()) {
+            boxes_.emplace_back();
+            box_origins_.emplace_back();
+        }
+        if (const BoxOrigin origin{polygon, polygon->revision(), instances[i].pose};
+            !(box_origins_[i] == origin)) {
+            box_origins_[i] = origin;
+            boxes_[i] = geometry::TransformedPolygon(*polygon, instances[i].pose).box();
+        }
     }
-    broad_phase_.find(boxes_, reach, box_pairs_);
+    broad_phase_.find(std::span(boxes_).first(instances.size()), reach, box_pairs_);
     instance_pairs_.clear();
     for (const auto& [first, second] : box_pairs_) {
         instance_pairs_.push_back({first, second});

@@ -33,6 +33,15 @@ class Context::Implementation {
         batch::BatchRing ring;
     };
 
+    /// What a bounding box was computed from.
+    struct BoxOrigin {
+        const geometry::Polygon* polygon = nullptr;
+        std::uint64_t revision = 0;
+        Pose pose;
+
+        [[nodiscard]] bool operator==(const BoxOrigin&) const = default;
+    };
+
 public:
     /// Without a device.
     explicit Implementation(const Settings& settings);
@@ -97,7 +106,9 @@ private:
     CostModel costs_;
     batch::ShapeStore shapes_;
     localize::BroadPhase broad_phase_;
+    // Of the instances of find_pairs(), by position; they stay while their origins do.
     std::vector<geometry::Box> boxes_;
+    std::vector<BoxOrigin> box_origins_;
     std::vector<localize::BroadPhase::Pair> box_pairs_;
     std::vector<InstancePair> instance_pairs_;
     std::unique_ptr<Machinery> machinery_;

@@ -1,4 +1,5 @@
 #include <engine/context/pair_table_state.hpp>
+#include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
 
 #include <string>
@@ -42,20 +43,22 @@ template <class Query>
 void check(const PairTable<Query>& table) {
     const double reach = table.selection().reach;
     if (!(reach >= 0.0 && reach <= largest_coordinate)) {
-        throw StatusException(
-            {StatusCode::invalid_query, "update: the reach is " + geometry::number(reach) +
-                                            "; it must be a finite number of at least 0"});
+        refuse("update", "the reach is " + geometry::number(reach) +
+                             "; it must be a finite number of at least 0");
     }
-    bool on_device = table.query().technique == Technique::raster ||
-                     table.query().technique == Technique::compute;
-    if constexpr (requires { table.query().resident; }) {
-        on_device = on_device || table.query().resident;
+    Query query = table.query();
+    bool on_device = query.technique == Technique::raster || query.technique == Technique::compute;
+    if constexpr (requires { query.resident; }) {
+        on_device = on_device || query.resident;
     }
     if (on_device) {
-        throw StatusException(
-            {StatusCode::invalid_query,
-             "update: pairs of a world are answered by Technique::cpu; the table's "
-             "query asks for another technique, or for resident results"});
+        refuse("update",
+               "pairs of a world are answered by Technique::cpu; the table's query asks "
+               "for another technique, or for resident results");
+    }
+    query.technique = Technique::cpu;
+    if (Status status = plan::check_query(query, {}); !status.ok()) {
+        refuse("update", status.message());
     }
 }
 

@@ -17,16 +17,11 @@ struct InstancePairIndex {
     std::uint32_t b = none;
 };
 
-[[nodiscard]] inline bool same(const Pose& a, const Pose& b) {
-    return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
-           a.angle == b.angle;
-}
-
 /// True if the second query has the same instances as the first in the opposite order.
 [[nodiscard]] inline bool is_reverse(const plan::PlannedQuery& first,
                                      const plan::PlannedQuery& second) {
-    return first.a == second.b && first.b == second.a && same(first.pose_a, second.pose_b) &&
-           same(first.pose_b, second.pose_a);
+    return first.a == second.b && first.b == second.a && first.pose_a == second.pose_b &&
+           first.pose_b == second.pose_a;
 }
 
 [[nodiscard]] inline InstancePairIndex place_pair(const plan::PlannedQuery& query,

@@ -45,6 +45,8 @@ public:
 private:
     /// A vertex and an edge as points of A and B.
     [[nodiscard]] ClosestPair pair_of(const simd::VertexAndEdge& found) const;
+    /// A vertex of A near B.
+    [[nodiscard]] std::uint32_t first_vertex() const;
     /// An upper bound from some vertices and edges near them; at most the one that is known.
     [[nodiscard]] double squared_bound(double known) const;
     /// Keeps the pairs within `margin` of the closest, and some more; stops once there are more

@@ -23,7 +23,7 @@ bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
 }
 
 void QueryAnswers::begin_batch() {
-    instances_.clear();
+    instances_.begin_batch();
     simplified_.clear();
     penetration_.begin_batch();
 }

@@ -28,7 +28,8 @@ namespace nearfield::results {
 /// batch.
 class QueryAnswers {
 public:
-    /// Forgets all shapes, which may have moved or deformed since.
+    /// Forgets all shapes, which may have moved or deformed since; large ones that did not are
+    /// kept. Precondition: polygons of different batches have different addresses or revisions.
     void begin_batch();
 
     /// Writes the results of the queries of the batch from `first` up to, but without, `end`:
@@ -63,7 +64,7 @@ private:
     void answer(const Asked& asked, TimeOfImpactResult& result);
     void answer(const Asked& asked, SeparationVectorResult& result);
 
-    simd::TransformedInstances instances_;  // of the batch, made when first needed
+    simd::TransformedInstances instances_;  // of the batch, made when first needed; large ones kept
     plan::SimplifiedShapes simplified_;     // likewise
     records::PointResolver resolver_;
     decode::ContactDecoder contact_decoder_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -20,11 +21,6 @@ constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
 /// read.
 std::size_t arrays_of(std::uint32_t count) {
     return count <= max_edges_one_by_one ? 5 : 4;
-}
-
-bool same(const Pose& a, const Pose& b) {
-    return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
-           a.angle == b.angle;
 }
 
 /// Each number has its own factor, so the products are independent.
@@ -91,15 +87,47 @@ NearEdge find_nearest(const TransformedEdges& edges, const geometry::Vector& poi
                            : kernels::find_nearer(edges.tree(), point.x(), point.y(), nothing);
 }
 
+void TransformedInstances::Memory::clear() {
+    used = 0;
+    pieces.clear();
+}
+
 void TransformedInstances::clear() {
-    entries_.clear();
-    pieces_.clear();
-    used_ = 0;
+    for (Entry& entry : entries_) {
+        entry.is_placed = false;
+    }
+    begin_batch();
+}
+
+void TransformedInstances::begin_batch() {
+    const auto is_kept = [](const Entry& entry) {
+        return entry.own && entry.is_placed &&
+               entry.revision == entry.edges.placed.polygon().revision();
+    };
+    for (Entry& entry : entries_) {
+        if (entry.own && !is_kept(entry)) {
+            entry.own->clear();
+            spare_.push_back(std::move(entry.own));
+        }
+    }
+    std::erase_if(entries_, std::not_fn(is_kept));
+    for (Entry& entry : entries_) {
+        entry.is_placed = false;
+    }
+    shared_.clear();
+    fill_slots();
+}
+
+void TransformedInstances::fill_slots() {
     std::fill(slots_.begin(), slots_.end(), empty_slot);
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+        slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
+    }
 }
 
 bool TransformedInstances::is(const Entry& entry, const Polygon& polygon, const Pose& pose) {
-    return &entry.edges.placed.polygon() == &polygon && same(entry.pose, pose);
+    return &entry.edges.placed.polygon() == &polygon && entry.revision == polygon.revision() &&
+           entry.pose == pose;
 }
 
 std::size_t TransformedInstances::slot_of(const Polygon& polygon, const Pose& pose) const {
@@ -122,11 +150,13 @@ std::uint32_t TransformedInstances::place(const Polygon& polygon, const Pose& po
         if (index < entries_.size() && is(entries_[index], polygon, pose)) {
             // An instance that recurs in successive pairs is kept.
             recent_ = {recent_[0] == index ? recent_[1] : recent_[0], index};
+            entries_[index].is_placed = true;
             return index;
         }
     }
     const std::uint32_t index = find_or_add(polygon, pose);
     recent_ = {recent_[1], index};
+    entries_[index].is_placed = true;
     return index;
 }
 
@@ -143,18 +173,17 @@ std::uint32_t TransformedInstances::find_or_add(const Polygon& polygon, const Po
 }
 
 void TransformedInstances::rehash() {
-    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), empty_slot);
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        slots_[slot_of(entries_[i].edges.placed.polygon(), entries_[i].pose)] = i;
-    }
+    slots_.resize(std::max<std::size_t>(64, 2 * slots_.size()));
+    fill_slots();
 }
 
-void TransformedInstances::find_arrays(Entry& entry) const {
+void TransformedInstances::find_arrays(Entry& entry) {
+    Memory& memory = memory_of(entry);
     if (entry.first != nowhere) {
         const std::uint32_t count = entry.edges.count;
         const std::size_t length = length_of_arrays(entry.edges.placed.polygon()) / max_lanes;
         const auto array = [&](std::size_t number) {
-            return coordinates_[entry.first + number * length].values;
+            return memory.coordinates[entry.first + number * length].values;
         };
         static_cast<EdgeArrays&>(entry.edges) = {count,    array(0), array(1),
                                                  array(2), array(3), nullptr};
@@ -163,19 +192,30 @@ void TransformedInstances::find_arrays(Entry& entry) const {
         }
     }
     if (entry.first_boxes != nowhere) {
-        entry.edges.boxes = coordinates_[entry.first_boxes].values;
-        entry.edges.pieces =
-            std::span(pieces_).subspan(entry.first_piece, entry.end_piece - entry.first_piece);
+        entry.edges.boxes = memory.coordinates[entry.first_boxes].values;
+        entry.edges.pieces = std::span(memory.pieces)
+                                 .subspan(entry.first_piece, entry.end_piece - entry.first_piece);
     }
 }
 
-std::size_t TransformedInstances::grow(std::size_t by) {
-    const std::size_t first = std::exchange(used_, used_ + by);
-    if (used_ > coordinates_.size()) {
-        coordinates_.resize(std::max(used_, 2 * coordinates_.size()));
-        for (Entry& entry : entries_) {
-            find_arrays(entry);
+void TransformedInstances::find_moved_arrays(Entry& entry) {
+    if (entry.own) {
+        find_arrays(entry);
+        return;
+    }
+    for (Entry& other : entries_) {
+        if (!other.own) {
+            find_arrays(other);
         }
+    }
+}
+
+std::size_t TransformedInstances::grow(Entry& entry, std::size_t by) {
+    Memory& memory = memory_of(entry);
+    const std::size_t first = std::exchange(memory.used, memory.used + by);
+    if (memory.used > memory.coordinates.size()) {
+        memory.coordinates.resize(std::max(memory.used, 2 * memory.coordinates.size()));
+        find_moved_arrays(entry);
     }
     return first;
 }
@@ -187,14 +227,20 @@ std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
 
 void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
     const Polygon& polygon = placed.polygon();
-    Entry& entry = entries_.emplace_back(Entry{pose, nowhere, nowhere, 0, 0, {{}, placed, {}}});
+    Entry& entry = entries_.emplace_back(
+        Entry{pose, polygon.revision(), nullptr, true, nowhere, nowhere, 0, 0, {{}, placed, {}}});
     TransformedEdges& edges = entry.edges;
     edges.count = polygon.size();
     if (is_small(edges)) {
-        entry.first = grow(arrays_of(edges.count) * length_of_arrays(polygon) / max_lanes);
+        entry.first = grow(entry, arrays_of(edges.count) * length_of_arrays(polygon) / max_lanes);
         find_arrays(entry);
         edges.box = write_arrays(entry);
     } else {
+        if (spare_.empty()) {
+            spare_.push_back(std::make_unique<Memory>());
+        }
+        entry.own = std::move(spare_.back());
+        spare_.pop_back();
         edges.box = placed.box();
     }
     edges.rounding = localize::placement_rounding(placed, edges.box);
@@ -209,7 +255,7 @@ void TransformedInstances::complete(std::uint32_t index) {
     const std::uint32_t count = entry.edges.count;
     const Polygon& polygon = entry.edges.placed.polygon();
     if (entry.first == nowhere) {
-        entry.first = grow(arrays_of(count) * length_of_arrays(polygon) / max_lanes);
+        entry.first = grow(entry, arrays_of(count) * length_of_arrays(polygon) / max_lanes);
         find_arrays(entry);
         static_cast<void>(write_arrays(entry));
     }
@@ -219,9 +265,9 @@ void TransformedInstances::complete(std::uint32_t index) {
         rings = morton_order_.find(polygon, entry.edges, entry.edges.box);
         lowest = cut_into_pieces(entry, rings);
     }
-    entry.first_boxes = grow(AabbTree::room(lowest) / max_lanes);
+    entry.first_boxes = grow(entry, AabbTree::room(lowest) / max_lanes);
     find_arrays(entry);
-    double* const boxes = coordinates_[entry.first_boxes].values;
+    double* const boxes = memory_of(entry).coordinates[entry.first_boxes].values;
     if (is_in_pieces(polygon)) {
         write_ring_starts(polygon, entry.edges, rings, padded(lowest), boxes);
     } else {
@@ -231,36 +277,48 @@ void TransformedInstances::complete(std::uint32_t index) {
 }
 
 std::size_t TransformedInstances::bytes() const {
-    return sizeof(Entry) * entries_.capacity() + sizeof(Coordinates) * coordinates_.capacity() +
-           sizeof(EdgeRange) * pieces_.capacity() + sizeof(std::uint32_t) * slots_.capacity() +
-           morton_order_.bytes();
+    std::size_t bytes = sizeof(Entry) * entries_.capacity() +
+                        sizeof(std::uint32_t) * slots_.capacity() + morton_order_.bytes();
+    const auto add = [&bytes](const Memory* memory) {
+        bytes += memory == nullptr
+                     ? 0
+                     : sizeof(Memory) + sizeof(Coordinates) * memory->coordinates.capacity() +
+                           sizeof(EdgeRange) * memory->pieces.capacity();
+    };
+    add(&shared_);
+    for (const Entry& entry : entries_) {
+        add(entry.own.get());
+    }
+    for (const std::unique_ptr<Memory>& spare : spare_) {
+        add(spare.get());
+    }
+    return bytes;
 }
 
 std::uint32_t TransformedInstances::cut_into_pieces(Entry& entry,
                                                     std::span<const std::uint32_t> rings) {
     const Polygon& polygon = entry.edges.placed.polygon();
-    const std::size_t room_before = pieces_.capacity();
-    entry.first_piece = pieces_.size();
+    std::vector<EdgeRange>& pieces = memory_of(entry).pieces;
+    const std::size_t room_before = pieces.capacity();
+    entry.first_piece = pieces.size();
     for (const std::uint32_t ring : rings) {
         const std::uint32_t end = polygon.ring_end(ring);
         for (std::uint32_t i = polygon.ring_begin(ring); i < end; i += AabbTree::fan_out) {
-            pieces_.push_back({i, std::min(i + AabbTree::fan_out, end)});
+            pieces.push_back({i, std::min(i + AabbTree::fan_out, end)});
         }
     }
-    entry.end_piece = pieces_.size();
-    if (pieces_.capacity() != room_before) {
-        for (Entry& other : entries_) {
-            find_arrays(other);
-        }
+    entry.end_piece = pieces.size();
+    if (pieces.capacity() != room_before) {
+        find_moved_arrays(entry);
     }
     return static_cast<std::uint32_t>(entry.end_piece - entry.first_piece);
 }
 
-Box TransformedInstances::write_arrays(const Entry& entry) {
+Box TransformedInstances::write_arrays(Entry& entry) {
     const Polygon& polygon = entry.edges.placed.polygon();
     const std::uint32_t count = polygon.size();
     const std::size_t length = length_of_arrays(polygon);
-    double* const start_x = coordinates_[entry.first].values;
+    double* const start_x = memory_of(entry).coordinates[entry.first].values;
     double* const start_y = start_x + length;
     double* const end_x = start_y + length;
     double* const end_y = end_x + length;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -57,7 +58,12 @@ using geometry::extent_of;
 /// The instances of a batch, each transformed once, however many pairs it is in. Reuses its memory.
 class TransformedInstances {
 public:
+    /// Forgets all instances.
     void clear();
+    /// Forgets all instances but those that have many edges and were placed since the last call:
+    /// if neither rings nor pose change, they are still there for the next batch. Precondition: all
+    /// polygons placed so far still exist.
+    void begin_batch();
     /// Returns the index of an instance, and transforms it if it is new. If it has many edges, only
     /// its box, rounding and magnitude are known until complete().
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
@@ -75,19 +81,29 @@ public:
 private:
     static constexpr std::size_t nowhere = SIZE_MAX;
 
-    struct Entry {
-        Pose pose;
-        std::size_t first;        // of its arrays, which are consecutive
-        std::size_t first_boxes;  // `nowhere`, like the arrays, until they exist
-        std::size_t first_piece;  // of its pieces, if any
-        std::size_t end_piece;
-        TransformedEdges edges;
-    };
     /// One widest vector, aligned for the fastest loads.
     struct alignas(max_lanes * sizeof(double)) Coordinates {
         double values[max_lanes];
     };
+    /// Where the arrays of entries are.
+    struct Memory {
+        std::vector<Coordinates> coordinates;  // the first `used` are in use
+        std::size_t used = 0;
+        std::vector<EdgeRange> pieces;
 
+        void clear();
+    };
+    struct Entry {
+        Pose pose;
+        std::uint64_t revision;       // of the polygon
+        std::unique_ptr<Memory> own;  // null: its arrays are in the memory that entries share
+        bool is_placed;               // since the last batch began
+        std::size_t first;            // of its arrays, which are consecutive
+        std::size_t first_boxes;      // `nowhere`, like the arrays, until they exist
+        std::size_t first_piece;      // of its pieces, if any
+        std::size_t end_piece;
+        TransformedEdges edges;
+    };
     [[nodiscard]] std::size_t slot_of(const geometry::Polygon& polygon, const Pose& pose) const;
     [[nodiscard]] static bool is(const Entry& entry, const geometry::Polygon& polygon,
                                  const Pose& pose);
@@ -96,17 +112,20 @@ private:
     /// Cuts the rings of an entry into pieces, in this order; returns their number.
     [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
     /// Writes the arrays of an entry, whose space is allocated; returns its bounding box.
-    [[nodiscard]] geometry::Box write_arrays(const Entry& entry);
+    [[nodiscard]] geometry::Box write_arrays(Entry& entry);
     void rehash();
+    void fill_slots();
+    [[nodiscard]] Memory& memory_of(Entry& entry) { return entry.own ? *entry.own : shared_; }
     /// Sets the array pointers of an entry.
-    void find_arrays(Entry& entry) const;
-    /// Allocates space for `by` more coordinates; returns its index.
-    [[nodiscard]] std::size_t grow(std::size_t by);
+    void find_arrays(Entry& entry);
+    /// The same for all entries whose arrays are where those of `entry` are.
+    void find_moved_arrays(Entry& entry);
+    /// Allocates space for `by` more coordinates of an entry; returns its index.
+    [[nodiscard]] std::size_t grow(Entry& entry, std::size_t by);
 
     std::vector<Entry> entries_;
-    std::vector<Coordinates> coordinates_;  // the first used_ are in use
-    std::size_t used_ = 0;
-    std::vector<EdgeRange> pieces_;
+    Memory shared_;
+    std::vector<std::unique_ptr<Memory>> spare_;  // of former entries
     MortonOrder morton_order_;
     std::array<std::uint32_t, 2> recent_{};  // most recent indices: pairs come in both orders
     std::vector<std::uint32_t> slots_;       // a hash table of entries; its size is a power of two

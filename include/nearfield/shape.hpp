@@ -52,6 +52,9 @@ struct ShapeHandle {
 struct Pose {
     Vector2 translation = {};  ///< world units, applied after the rotation
     double angle = 0.0;        ///< radians, counter-clockwise
+
+    /// True if translation and angle are equal.
+    friend bool operator==(const Pose&, const Pose&) = default;
 };
 
 /// A shape with a pose.

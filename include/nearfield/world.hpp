@@ -264,7 +264,7 @@ public:
                          InstanceLists& lists);
 
     /// Brings a table of pairs (world_pairs.hpp) up to date. Fails with invalid_query if its reach
-    /// or technique is invalid, and as Context::run(); the table is empty then. Errors of single
+    /// or query is invalid, and as Context::run(); the table is empty then. Errors of single
     /// pairs are the status of their rows.
     Status update(PairTable<PenetrationQuery>& table);
     /// Likewise.
