@@ -1,0 +1,58 @@
+#pragma once
+
+#include <nearfield/world.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+/// \file Questions that name a world, for nearfield and for libraries that keep an index too.
+
+namespace nearfield::peers {
+
+/// A shape and where it is.
+struct WorldShape {
+    std::vector<Ring> rings;
+    Pose pose;
+};
+
+/// What a row asks, and of which world. Only one kind of input is given.
+struct WorldProblem {
+    std::string name;
+    std::vector<WorldShape> shapes;
+    std::vector<Ring> item;  ///< the shape at the poses
+    std::vector<Pose> poses;
+    std::vector<Vector2> points;
+    std::vector<Segment> segments;
+    bool asks_distances = false;  ///< of the poses: the least distances, not only whether it is 0
+};
+
+/// Another library with an index of its own over the world, built once.
+class WorldPeer {
+public:
+    WorldPeer() = default;
+    virtual ~WorldPeer() = default;
+    WorldPeer(const WorldPeer&) = delete;
+    WorldPeer& operator=(const WorldPeer&) = delete;
+
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// The functions that answer a problem; empty if it cannot.
+    [[nodiscard]] virtual std::string how(const WorldProblem& problem) const = 0;
+    /// Builds the index.
+    virtual void build(const WorldProblem& problem) = 0;
+    /// One number per pose (distance, or 0 and 1 for apart and intersecting), point (distance from
+    /// the nearest shape) or segment (parameter of the first hit, 2 if there is none).
+    virtual void answer(const WorldProblem& problem, std::vector<double>& answers) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<WorldPeer> make_geos_world();
+[[nodiscard]] std::unique_ptr<WorldPeer> make_cgal_world();
+
+/// A point of a shape at a pose, in world coordinates.
+[[nodiscard]] Vector2 at_pose(const Vector2& point, const Pose& pose);
+
+/// The problems of all rows.
+[[nodiscard]] std::vector<WorldProblem> world_problems();
+
+}  // namespace nearfield::peers
