@@ -2,6 +2,7 @@
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -131,38 +132,66 @@ void World::Implementation::append_rows(PairTable<Query>& table) {
     table.state_->answered += static_cast<std::uint32_t>(candidates_.size());
 }
 
+/// Appends consecutive rows and their records to a table's content.
+template <class Content>
+void append(const Content& from, std::size_t first, std::size_t end, Content& to) {
+    if (first == end) {
+        return;
+    }
+    const std::size_t row = to.rows.size();
+    const std::size_t record = from.rows[first].first_record;
+    const std::size_t end_record =
+        from.rows[end - 1].first_record + from.rows[end - 1].record_count;
+    const std::size_t to_record = to.records.size();
+    if (to_record + end_record - record > UINT32_MAX) {
+        throw StatusException(
+            {StatusCode::too_large, "update: the table has more records than 32 bits can count"});
+    }
+    to.rows.insert(to.rows.end(), from.rows.begin() + static_cast<std::ptrdiff_t>(first),
+                   from.rows.begin() + static_cast<std::ptrdiff_t>(end));
+    to.records.insert(to.records.end(), from.records.begin() + static_cast<std::ptrdiff_t>(record),
+                      from.records.begin() + static_cast<std::ptrdiff_t>(end_record));
+    for (std::size_t i = row; i < to.rows.size(); ++i) {
+        to.rows[i].first_record += static_cast<std::uint32_t>(to_record - record);
+    }
+}
+
 /// Puts the rows that stay and the new ones into the order of the candidates.
 template <class Query>
 void World::Implementation::merge_rows(PairTable<Query>& table) {
+    constexpr std::uint32_t none = world::PairList::none;
     PairTableBase::State& state = *table.state_;
-    table.before_.rows.clear();
-    table.before_.records.clear();
+    const auto pairs = state.list.pairs();
+    auto& merged = table.before_;
+    merged.rows.clear();
+    merged.records.clear();
     state.row_of_before.clear();
     std::size_t next_answered = 0;
-    const auto add = [&](const PairRow<Query>& row, const auto& from) {
-        auto& [rows, records] = table.before_;
-        state.row_of_before.push_back(static_cast<std::uint32_t>(rows.size()));
-        const auto first = from.records.begin() + row.first_record;
-        if (records.size() + row.record_count > UINT32_MAX) {
-            throw StatusException({StatusCode::too_large,
-                                   "update: the table has more records than 32 bits can count"});
-        }
-        rows.emplace_back(row).first_record = static_cast<std::uint32_t>(records.size());
-        records.insert(records.end(), first, first + row.record_count);
-    };
-    for (const world::PairList::Pair& pair : state.list.pairs()) {
-        if (pair.before == world::PairList::none) {
+    for (std::size_t i = 0; i < pairs.size();) {
+        if (pairs[i].before == none) {
             const PairRow<Query>& row = table.answered_.rows[next_answered++];
-            if (!table.selection_.hits_only || is_hit(row, table.selection_.reach)) {
-                add(row, table.answered_);
-                continue;
-            }
-        } else if (const std::uint32_t row = state.row_of[pair.before];
-                   row != world::PairList::none) {
-            add(table.now_.rows[row], table.now_);
+            const bool is_listed =
+                !table.selection_.hits_only || is_hit(row, table.selection_.reach);
+            state.row_of_before.push_back(is_listed ? static_cast<std::uint32_t>(merged.rows.size())
+                                                    : none);
+            append(table.answered_, next_answered - 1, next_answered - (is_listed ? 0 : 1), merged);
+            ++i;
             continue;
         }
-        state.row_of_before.push_back(world::PairList::none);
+        // A run of pairs that stay has its rows, if they are listed, in one piece.
+        const auto to_row = static_cast<std::uint32_t>(merged.rows.size());
+        std::uint32_t first = none;
+        std::uint32_t end = 0;
+        const std::size_t begin = i;
+        for (; i < pairs.size() && pairs[i].before == pairs[begin].before + (i - begin); ++i) {
+            const std::uint32_t row = state.row_of[pairs[i].before];
+            if (row != none) {
+                first = std::min(first, row);
+                end = row + 1;
+            }
+            state.row_of_before.push_back(row == none ? none : to_row + row - first);
+        }
+        append(table.now_, std::min(first, end), end, merged);
     }
     std::swap(table.now_, table.before_);
     state.row_of.swap(state.row_of_before);

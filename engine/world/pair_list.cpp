@@ -2,7 +2,6 @@
 #include <engine/world/pair_list.hpp>
 
 #include <algorithm>
-#include <iterator>
 
 namespace nearfield::world {
 
@@ -74,9 +73,16 @@ void PairList::update(const Instances& instances, double reach, bool both_ways) 
         }
     }
     pairs_before_.resize(kept);
+    // Few are new, so most pairs are copied in long runs.
     pairs_.clear();
-    std::merge(pairs_before_.begin(), pairs_before_.end(), found_.begin(), found_.end(),
-               std::back_inserter(pairs_), comes_before);
+    auto next = pairs_before_.cbegin();
+    for (const Pair& pair : found_) {
+        const auto end = std::lower_bound(next, pairs_before_.cend(), pair, comes_before);
+        pairs_.insert(pairs_.end(), next, end);
+        pairs_.push_back(pair);
+        next = end;
+    }
+    pairs_.insert(pairs_.end(), next, pairs_before_.cend());
 }
 
 }  // namespace nearfield::world
