@@ -1,5 +1,6 @@
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/polygon.hpp>
+#include <engine/geometry/ring_check.hpp>
 #include <engine/geometry/vertex_kernels.hpp>
 
 #include <algorithm>
@@ -26,26 +27,6 @@ std::span<const Vector2> open_ring(const Ring& ring) {
     return closed_twice ? vertices.first(vertices.size() - 1) : vertices;
 }
 
-/// Why a coordinate cannot be used; empty if it can.
-std::string coordinate_error(double value) {
-    if (std::isnan(value)) {
-        return "is not a number";
-    }
-    if (std::isinf(value)) {
-        return "is infinite";
-    }
-    if (std::abs(value) > largest_coordinate) {
-        return "is " + number(value) + ", more than " + number(largest_coordinate) +
-               " from the origin";
-    }
-    return {};
-}
-
-bool usable(const Vector2& v) {
-    // Also false for NaN.
-    return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate;
-}
-
 /// The bounding box and size of a ring.
 struct Range {
     Box box;
@@ -69,11 +50,7 @@ struct Range {
 /// Returns an error that names the first unusable vertex of a ring. Precondition: there is one.
 Status bad_coordinates(std::size_t ring, std::span<const Vector2> vertices) {
     const auto bad = std::find_if_not(vertices.begin(), vertices.end(), usable);
-    const std::string error_of_x = coordinate_error(bad->x);
-    const std::string what =
-        error_of_x.empty() ? "y " + coordinate_error(bad->y) : "x " + error_of_x;
-    return invalid(ring_name(ring) + ", vertex " + std::to_string(bad - vertices.begin()) + ": " +
-                   what);
+    return invalid(vertex_error(ring, static_cast<std::size_t>(bad - vertices.begin()), *bad));
 }
 
 bool has_three_different(std::span<const Vector2> vertices) {

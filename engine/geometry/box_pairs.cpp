@@ -1,0 +1,65 @@
+#include <engine/geometry/box_pairs.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace nearfield::geometry {
+namespace {
+
+/// The lower 16 bits, with a zero before each.
+std::uint32_t spread(std::uint32_t bits) {
+    bits &= 0xFFFFU;
+    bits = (bits | (bits << 8U)) & 0x00FF00FFU;
+    bits = (bits | (bits << 4U)) & 0x0F0F0F0FU;
+    bits = (bits | (bits << 2U)) & 0x33333333U;
+    return (bits | (bits << 1U)) & 0x55555555U;
+}
+
+std::vector<std::uint32_t> morton_order(std::span<const Box> boxes) {
+    Box all;
+    for (const Box& box : boxes) {
+        all.extend(box.center());
+    }
+    const Vector scale = 65535.0 * all.sizes().cwiseMax(1e-300).cwiseInverse();
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
+    codes.reserve(boxes.size());
+    for (const Box& box : boxes) {
+        const Vector place = (box.center() - all.min()).cwiseProduct(scale);
+        codes.emplace_back(spread(static_cast<std::uint32_t>(place.x())) |
+                               (spread(static_cast<std::uint32_t>(place.y())) << 1U),
+                           static_cast<std::uint32_t>(codes.size()));
+    }
+    std::sort(codes.begin(), codes.end());
+    std::vector<std::uint32_t> order;
+    order.reserve(codes.size());
+    for (const auto& [code, index] : codes) {
+        order.push_back(index);
+    }
+    return order;
+}
+
+}  // namespace
+
+BoxPairs::BoxPairs(std::span<const Box> boxes) : order_(morton_order(boxes)) {
+    std::vector<Box>& leaves = levels_.emplace_back();
+    leaves.reserve(boxes.size());
+    for (const std::uint32_t index : order_) {
+        leaves.push_back(boxes[index]);
+    }
+    while (levels_.back().size() > 1) {
+        const std::vector<Box>& below = levels_.back();
+        std::vector<Box> level;
+        level.reserve(below.size() / children + 1);
+        for (std::size_t first = 0; first < below.size(); first += children) {
+            Box box;
+            for (std::size_t i = first; i < std::min(first + children, below.size()); ++i) {
+                box.extend(below[i]);
+            }
+            level.push_back(box);
+        }
+        levels_.push_back(std::move(level));
+    }
+}
+
+}  // namespace nearfield::geometry

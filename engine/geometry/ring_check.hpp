@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nearfield/shape.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace nearfield::geometry {
+
+/// Why a coordinate cannot be used; empty if it can: it is finite and at most `largest_coordinate`.
+[[nodiscard]] std::string coordinate_error(double value);
+
+/// True if both coordinates can be used.
+[[nodiscard]] bool usable(const Vector2& vertex);
+
+/// "ring 3, vertex 0: x is not a number"; precondition: the vertex is not usable.
+[[nodiscard]] std::string vertex_error(std::size_t ring, std::size_t vertex, const Vector2& point);
+
+/// Throws StatusException with invalid_shape that names the first vertex that is not usable.
+void require_usable(std::span<const Ring> rings);
+
+/// The largest magnitude of a coordinate.
+[[nodiscard]] double largest_coordinate_of(std::span<const Ring> rings);
+
+/// The least width of a ring that is told from none: 2^-46 of the largest coordinate. A shape
+/// accepts every ring whose strip_width() is larger.
+[[nodiscard]] double smallest_width(double largest_magnitude);
+
+/// The width of a strip that holds all vertices of a ring, up to rounding: one along its longest
+/// diagonal, nearly, which is at most a few times as wide as the narrowest.
+[[nodiscard]] double strip_width(std::span<const Vector2> vertices);
+
+}  // namespace nearfield::geometry

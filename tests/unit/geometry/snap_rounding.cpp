@@ -1,0 +1,136 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/geometry/snap_rounding.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace nearfield::geometry {
+namespace {
+
+/// A fraction with a denominator above 0.
+struct Fraction {
+    std::int64_t over;
+    std::int64_t under;
+};
+
+int compare(const Fraction& a, const Fraction& b) {
+    const std::int64_t difference = a.over * b.under - b.over * a.under;
+    return (difference > 0 ? 1 : 0) - (difference < 0 ? 1 : 0);
+}
+
+/// The parameters at which a segment is in a cell.
+class Stretch {
+public:
+    /// Keeps where low <= from + t * step < high.
+    void keep(std::int64_t from, std::int64_t step, std::int64_t low, std::int64_t high) {
+        if (step == 0) {
+            empty_ = empty_ || from < low || from >= high;
+        } else if (step > 0) {
+            begin({low - from, step}, false);
+            end({high - from, step}, true);
+        } else {
+            begin({from - high, -step}, true);
+            end({from - low, -step}, false);
+        }
+    }
+    [[nodiscard]] bool empty() const {
+        const int order = compare(begin_, end_);
+        return empty_ || order > 0 || (order == 0 && (begin_open_ || end_open_));
+    }
+
+private:
+    void begin(const Fraction& at, bool open) {
+        const int order = compare(at, begin_);
+        begin_open_ = order > 0 ? open : begin_open_ || (order == 0 && open);
+        begin_ = order > 0 ? at : begin_;
+    }
+    void end(const Fraction& at, bool open) {
+        const int order = compare(at, end_);
+        end_open_ = order < 0 ? open : end_open_ || (order == 0 && open);
+        end_ = order < 0 ? at : end_;
+    }
+
+    Fraction begin_{0, 1};
+    Fraction end_{1, 1};
+    bool begin_open_ = false;
+    bool end_open_ = false;
+    bool empty_ = false;
+};
+
+/// All segments between points of a fine grid against cells around the origin.
+TEST(SnapRounding, EdgesPassHalfOpenCells) {
+    constexpr int fine = 4;  // parts of a cell
+    constexpr int reach = 9;
+    int passed = 0;
+    for (int i = 0; i < 19 * 19 * 19 * 19; ++i) {
+        const int ax = i % 19 - reach;
+        const int ay = i / 19 % 19 - reach;
+        const int bx = i / (19 * 19) % 19 - reach;
+        const int by = i / (19 * 19 * 19) - reach;
+        if (ax == bx && ay == by) {
+            continue;
+        }
+        const Cell cell{i % 3 - 1, i % 5 % 3 - 1};
+        Stretch stretch;
+        stretch.keep(ax, bx - ax, fine * cell.x - fine / 2, fine * cell.x + fine / 2);
+        stretch.keep(ay, by - ay, fine * cell.y - fine / 2, fine * cell.y + fine / 2);
+        ASSERT_EQ(passes({0.25 * ax, 0.25 * ay}, {0.25 * bx, 0.25 * by}, cell), !stretch.empty())
+            << ax << ' ' << ay << ' ' << bx << ' ' << by << " in " << cell.x << ' ' << cell.y;
+        passed += stretch.empty() ? 0 : 1;
+    }
+    EXPECT_GT(passed, 10'000);
+}
+
+TEST(SnapRounding, CellsHoldTheirLowerAndLeftSides) {
+    EXPECT_EQ(cell_of({0.5, -0.5}), (Cell{1, 0}));
+    EXPECT_EQ(cell_of({-0.5, 0.49999999999999994}), (Cell{0, 0}));
+    EXPECT_EQ(cell_of({-1e-300, -1.5}), (Cell{0, -1}));
+    EXPECT_EQ(cell_of({0x1p49 + 0.5, -0x1p49 - 0.5}), (Cell{(1LL << 49) + 1, -(1LL << 49)}));
+}
+
+/// Edges of the result share ends, coincide, or have nothing in common.
+TEST(SnapRounding, EdgesMeetAtEndsAlone) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 300; ++round) {
+        std::uniform_real_distribution<double> place(-12.0, 12.0);
+        Ring ring(12);
+        for (Vector2& vertex : ring) {
+            vertex = {place(random), place(random)};
+            if (round % 3 == 0) {
+                vertex = {0.25 * std::round(4 * vertex.x), 0.25 * std::round(4 * vertex.y)};
+            }
+        }
+        const SnapRounding rounding = snap_round({&ring, 1}, 1000);
+        ASSERT_TRUE(std::is_sorted(rounding.cells.begin(), rounding.cells.end()));
+        for (const SnappedEdge& edge : rounding.edges) {
+            const Cell& a = rounding.cells[edge.from];
+            const Cell& b = rounding.cells[edge.to];
+            ASSERT_NE(a, b);
+            for (const Cell& cell : rounding.cells) {
+                const bool between = std::min(a, b) < cell && cell < std::max(a, b);
+                ASSERT_FALSE(between && orientation(a, b, cell) == 0)
+                    << "an edge passes the centre of a hot cell";
+            }
+            for (const SnappedEdge& other : rounding.edges) {
+                const Cell& c = rounding.cells[other.from];
+                const Cell& d = rounding.cells[other.to];
+                ASSERT_FALSE(orientation(a, b, c) * orientation(a, b, d) < 0 &&
+                             orientation(c, d, a) * orientation(c, d, b) < 0)
+                    << "edges cross";
+            }
+        }
+    }
+}
+
+TEST(SnapRounding, CrossingsCount) {
+    const std::vector<Ring> rings{{{0, 0}, {100, 100}, {100, 0}, {0, 100}}};
+    EXPECT_EQ(snap_round(rings, 5).cells.size(), 5U);
+    EXPECT_THROW(static_cast<void>(snap_round(rings, 4)), StatusException);
+}
+
+}  // namespace
+}  // namespace nearfield::geometry
