@@ -144,7 +144,7 @@ bool has_three_different(std::span<const Vector2> vertices) {
 
 class RingCleaner {
 public:
-    RingCleaner(const Cleaning& cleaning, double width) : cleaning_(cleaning), width_(width) {}
+    explicit RingCleaner(const Cleaning& cleaning) : cleaning_(cleaning) {}
 
     void add(std::size_t index, const Ring& ring) {
         const std::span<const Vector2> vertices = open_ring(ring);
@@ -152,6 +152,8 @@ public:
             drop(index, ring, 0.0, 0.0);
             return;
         }
+        const double least = geometry::smallest_width(geometry::largest_coordinate_of({&ring, 1}));
+        width_ = std::max(cleaning_.width, least);
         const double width = geometry::strip_width(vertices);
         if (width <= width_) {
             drop(index, ring, width, 0.5 * width);
@@ -189,7 +191,7 @@ private:
     }
 
     const Cleaning& cleaning_;
-    double width_;
+    double width_ = 0.0;  // of the ring that is being cleaned
     CleanedRings result_;
 };
 
@@ -201,8 +203,7 @@ CleanedRings cleaned(std::span<const Ring> rings, const Cleaning& cleaning) {
                                             geometry::number(largest_coordinate)});
     }
     geometry::require_usable(rings);
-    const double least = geometry::smallest_width(geometry::largest_coordinate_of(rings));
-    RingCleaner cleaner(cleaning, std::max(cleaning.width, least));
+    RingCleaner cleaner(cleaning);
     for (std::size_t index = 0; index < rings.size(); ++index) {
         cleaner.add(index, rings[index]);
     }

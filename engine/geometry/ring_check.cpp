@@ -18,6 +18,24 @@ Vector farthest_from(const Vector& point, std::span<const Vector2> vertices) {
         [&](const Vector2& a, const Vector2& b) { return distance(a) < distance(b); }));
 }
 
+/// The width of the strip along a line that holds all vertices; 0 if they are all at `start`.
+double width_along(const Vector& start, const Vector& end, std::span<const Vector2> vertices) {
+    const double extent = (end - start).cwiseAbs().maxCoeff();
+    if (extent == 0.0) {
+        return 0.0;
+    }
+    // Dividing by the extent first keeps the products of a tiny ring from underflowing.
+    const Vector along = ((end - start) / extent).normalized();
+    double least = 0.0;
+    double greatest = 0.0;
+    for (const Vector2& vertex : vertices) {
+        const double side = cross(along, (to_vector(vertex) - start) / extent);
+        least = std::min(least, side);
+        greatest = std::max(greatest, side);
+    }
+    return (greatest - least) * extent;
+}
+
 }  // namespace
 
 std::string coordinate_error(double value) {
@@ -66,29 +84,17 @@ double largest_coordinate_of(std::span<const Ring> rings) {
 }
 
 double smallest_width(double largest_magnitude) {
-    return 0x1p-46 * largest_magnitude;
+    return 0x1p-47 * largest_magnitude;
 }
 
 double strip_width(std::span<const Vector2> vertices) {
     if (vertices.empty()) {
         return 0.0;
     }
-    const Vector start = farthest_from(to_vector(vertices.front()), vertices);
+    const Vector front = to_vector(vertices.front());
+    const Vector start = farthest_from(front, vertices);
     const Vector end = farthest_from(start, vertices);
-    const double extent = (end - start).cwiseAbs().maxCoeff();
-    if (extent == 0.0) {
-        return 0.0;
-    }
-    // Dividing by the extent first keeps the products of a tiny ring from underflowing.
-    const Vector along = ((end - start) / extent).normalized();
-    double least = 0.0;
-    double greatest = 0.0;
-    for (const Vector2& vertex : vertices) {
-        const double side = cross(along, (to_vector(vertex) - start) / extent);
-        least = std::min(least, side);
-        greatest = std::max(greatest, side);
-    }
-    return (greatest - least) * extent;
+    return std::min(width_along(front, start, vertices), width_along(start, end, vertices));
 }
 
 }  // namespace nearfield::geometry

@@ -23,12 +23,14 @@ void require_usable(std::span<const Ring> rings);
 /// The largest magnitude of a coordinate.
 [[nodiscard]] double largest_coordinate_of(std::span<const Ring> rings);
 
-/// The least width of a ring that is told from none: 2^-46 of the largest coordinate. A shape
-/// accepts every ring whose strip_width() is larger.
+/// The least width of a ring that is told from none: 2^-47 of its largest coordinate. A shape
+/// accepts every ring whose strip_width() is larger: it refuses rings whose vertices are within
+/// 2^-49 of the largest coordinate of the line that the first of the two strips lies along.
 [[nodiscard]] double smallest_width(double largest_magnitude);
 
-/// The width of a strip that holds all vertices of a ring, up to rounding: one along its longest
-/// diagonal, nearly, which is at most a few times as wide as the narrowest.
+/// The width of a strip that holds all vertices of a ring, up to rounding: along the line from the
+/// first vertex to the one farthest from it, or from there to the farthest vertex, whichever is
+/// narrower. At most a few times the least width of any strip.
 [[nodiscard]] double strip_width(std::span<const Vector2> vertices);
 
 }  // namespace nearfield::geometry

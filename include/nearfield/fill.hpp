@@ -72,9 +72,9 @@ struct ResolvedFill {
 
 /// What clean() drops.
 struct Cleaning {
-    /// What is no wider than this vanishes, in the units of the rings, >= 0. At least 2^-46 of the
-    /// largest coordinate, for which 0 stands: rounding of coordinates makes such widths
-    /// meaningless, and Context::add_shape refuses rings that are thinner than an eighth of that.
+    /// What is no wider than this vanishes, in the units of the rings, >= 0. At least 2^-47 of a
+    /// ring's largest coordinate, for which 0 stands: rounding of coordinates makes such widths
+    /// meaningless, and Context::add_shape refuses rings that are thinner than half of that.
     double width = 0.0;
     /// Drops vertices as well: repeated ones, those on a straight line between their neighbours,
     /// and spikes. Otherwise only whole rings, and indices within the others stay the caller's.

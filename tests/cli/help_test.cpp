@@ -33,8 +33,9 @@ const std::map<std::string, Names>& own_options() {
     return options;
 }
 
-const Names common_options{"-h",       "--help",      "-d",        "--deviation", "--pose-a",
-                           "--pose-b", "--technique", "--threads", "--json",      "--image"};
+const Names common_options{"-h",          "--help",        "-d",        "--deviation", "--pose-a",
+                           "--pose-b",    "--technique",   "--threads", "--json",      "--image",
+                           "--fill-rule", "--clean-width", "--strict"};
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;

@@ -81,8 +81,13 @@ QueryRequest make_request(const QueryArguments& arguments) {
     return request;
 }
 
-PlacedOutline place(const Outline& outline, double deviation, const DegreesPose& pose) {
-    OutlineRings rings = tessellate_outline(outline, deviation);
+/// Says on the standard error what of the outline was dropped.
+PlacedOutline place(const Outline& outline, double deviation, const OutlineTreatment& treatment,
+                    const DegreesPose& pose) {
+    ShapeRings rings = make_shape_rings(outline, deviation, treatment);
+    if (!rings.note.empty()) {
+        std::cerr << "nearfield: " << rings.note << '\n';
+    }
     return {outline.file, std::move(rings.rings), rings.deviation, to_pose(pose)};
 }
 
@@ -284,11 +289,14 @@ void run_query(const QueryArguments& arguments) {
     if (arguments.file_a == "-" && arguments.file_b == "-") {
         throw InputError("A and B: only one of them can be -, the standard input");
     }
+    if (arguments.treatment.strict && arguments.treatment.clean_width) {
+        throw InputError("--strict: drops nothing, so it cannot stand beside --clean-width");
+    }
     const Outline outline_a = read_input(arguments.file_a);
     const Outline outline_b = read_input(arguments.file_b);
     const double deviation = choose_deviation(arguments, request, outline_a, outline_b);
-    const PlacedOutline a = place(outline_a, deviation, arguments.pose_a);
-    const PlacedOutline b = place(outline_b, deviation, arguments.pose_b);
+    const PlacedOutline a = place(outline_a, deviation, arguments.treatment, arguments.pose_a);
+    const PlacedOutline b = place(outline_b, deviation, arguments.treatment, arguments.pose_b);
     if (request.tolerance == 0.0 && request.type != QueryType::intersection_test) {
         request.tolerance = usual_tolerance({a.rings, a.deviation, a.pose.translation},
                                             {b.rings, b.deviation, b.pose.translation});

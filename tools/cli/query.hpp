@@ -2,6 +2,7 @@
 
 #include <tools/cli/settings_options.hpp>
 #include <tools/io/query_request.hpp>
+#include <tools/io/shape_rings.hpp>
 #include <tools/io/values.hpp>
 
 #include <optional>
@@ -16,6 +17,7 @@ struct QueryArguments {
     std::string file_a;
     std::string file_b;
     std::optional<double> deviation;
+    OutlineTreatment treatment;
     DegreesPose pose_a;
     DegreesPose pose_b;
     std::optional<DegreesPose> end_pose_a;

@@ -81,6 +81,18 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                       "0; A's and B's together at most a quarter of the tolerance; default a "
                       "sixteenth of it each")
         ->type_name("DEVIATION");
+    add_parsed_option(kind, "--fill-rule", arguments.treatment.fill_rule, parse_fill_rule,
+                      "What the rings of A and B enclose: odd-even, nonzero, positive (a winding "
+                      "number above 0), or union (of the polygons, each odd-even); edges inside "
+                      "are no boundary; default odd-even, and no edge is changed")
+        ->type_name("NAME");
+    add_parsed_option(kind, "--clean-width", arguments.treatment.clean_width, parse_positive,
+                      "Drop rings, spikes and vertices that are no wider than this, world units, > "
+                      "0; part of the deviation; default only rings that enclose nothing")
+        ->type_name("W");
+    kind.add_flag("--strict", arguments.treatment.strict,
+                  "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
+                  "the standard error");
     add_parsed_option(kind, "--pose-a", arguments.pose_a, parse_pose,
                       "Where A stands: turned counter-clockwise by degrees about its origin, then "
                       "moved by world units; default 0,0,0")

@@ -48,6 +48,10 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         ->add_option("--technique", arguments.technique,
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
         ->type_name("NAME");
+    command->add_flag(
+        "--strict", arguments.strict,
+        "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
+        "the standard error");
     add_settings_options(*command, arguments.settings);
     command
         ->add_option("--json", arguments.json,
@@ -68,7 +72,8 @@ void print_notes(const Scene& scene) {
 int run_scene(const SceneArguments& arguments) {
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.settings);
-    Scene scene = read_scene(arguments.scene, BadEntries::recorded);
+    Scene scene = read_scene(arguments.scene, BadEntries::recorded,
+                             arguments.strict ? EmptyRings::kept : EmptyRings::dropped);
     print_notes(scene);
     set_technique(scene, technique);
     ReportTarget report(arguments.json);

@@ -13,6 +13,7 @@ namespace nearfield::tools {
 struct SceneArguments {
     std::string scene;
     std::optional<std::string> technique;
+    bool strict = false;
     SettingsArguments settings;
     std::optional<std::string> json;
 };
@@ -25,7 +26,7 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments);
 /// std::runtime_error.
 [[nodiscard]] int run_scene(const SceneArguments& arguments);
 
-/// Says on the standard error what was skipped of the files of a scene.
+/// Says on the standard error what was skipped or dropped of the shapes of a scene.
 void print_notes(const Scene& scene);
 
 }  // namespace nearfield::tools

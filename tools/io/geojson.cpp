@@ -59,6 +59,9 @@ public:
         return std::move(rings_);
     }
 
+    /// The number of rings of each polygon.
+    [[nodiscard]] const std::vector<std::uint32_t>& part_sizes() const { return part_sizes_; }
+
 private:
     void read_geometry(const JsonPlace& geometry, int depth) {
         const JsonPlace type = geometry.member("type");
@@ -87,8 +90,9 @@ private:
     }
 
     void read_polygon(const JsonPlace& coordinates) {
-        if (count_of(coordinates) > 0) {
+        if (const std::size_t count = count_of(coordinates); count > 0) {
             append_rings(coordinates, rings_);
+            part_sizes_.push_back(static_cast<std::uint32_t>(count));
         }
     }
 
@@ -124,6 +128,7 @@ private:
 
     SkippedParts& skipped_;
     std::vector<Ring> rings_;
+    std::vector<std::uint32_t> part_sizes_;
 };
 
 }  // namespace
@@ -139,9 +144,14 @@ void append_rings(const JsonPlace& coordinates, std::vector<Ring>& rings) {
 }
 
 std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
-                                SkippedParts& skipped) {
+                                SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
     const json document = parse_json(text, file);
-    return GeojsonReader(skipped).read(JsonPlace(document, file));
+    GeojsonReader reader(skipped);
+    std::vector<Ring> rings = reader.read(JsonPlace(document, file));
+    if (part_sizes != nullptr) {
+        *part_sizes = reader.part_sizes();
+    }
+    return rings;
 }
 
 std::vector<Ring> parse_geojson(const std::string& text, const std::string& file) {

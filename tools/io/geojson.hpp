@@ -16,7 +16,8 @@ namespace nearfield::tools {
 /// so is an unknown type. Coordinates are planar; those beyond x and y are ignored. `file` is for
 /// the messages of InputError.
 [[nodiscard]] std::vector<Ring> parse_geojson(const std::string& text, const std::string& file,
-                                              SkippedParts& skipped);
+                                              SkippedParts& skipped,
+                                              std::vector<std::uint32_t>* part_sizes = nullptr);
 /// Likewise, where nobody is to be told what was skipped.
 [[nodiscard]] std::vector<Ring> parse_geojson(const std::string& text, const std::string& file);
 

@@ -93,16 +93,16 @@ Outline parse_outline(std::string bytes, const std::string& name, const std::str
     }
     const Format format = find_format(extension, content, name);
     if (format == Format::binary_wkb) {
-        outline.rings = parse_wkb(bytes, name, outline.skipped);
+        outline.rings = parse_wkb(bytes, name, outline.skipped, &outline.part_sizes);
         return outline;
     }
     const std::string text = to_text(std::move(bytes), name);
     if (format == Format::geojson) {
-        outline.rings = parse_geojson(text, name, outline.skipped);
+        outline.rings = parse_geojson(text, name, outline.skipped, &outline.part_sizes);
     } else if (format == Format::wkt) {
-        outline.rings = parse_wkt(text, name, outline.skipped);
+        outline.rings = parse_wkt(text, name, outline.skipped, &outline.part_sizes);
     } else if (format == Format::hex_wkb) {
-        outline.rings = parse_hex_wkb(text, name, outline.skipped);
+        outline.rings = parse_hex_wkb(text, name, outline.skipped, &outline.part_sizes);
     } else if (format == Format::svg) {
         outline.path = parse_svg(text, name);
     } else {

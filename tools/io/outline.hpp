@@ -4,6 +4,7 @@
 
 #include <tools/io/skipped_parts.hpp>
 
+#include <cstdint>
 #include <istream>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ namespace nearfield::tools {
 struct Outline {
     std::string file;
     std::vector<Ring> rings;  ///< empty if there is a path
+    /// The number of rings of each polygon; empty if there is a path.
+    std::vector<std::uint32_t> part_sizes = {};
     CurvePath path;
     SkippedParts skipped = {};  ///< what else the file holds
 

@@ -60,6 +60,12 @@ constexpr std::array<Named<GradientMethod>, 3> gradient_methods{{
     {"central-differences", GradientMethod::central_differences},
     {"blended", GradientMethod::blended},
 }};
+constexpr std::array<Named<FillRule>, 4> fill_rules{{
+    {"odd-even", FillRule::odd_even},
+    {"nonzero", FillRule::nonzero},
+    {"positive", FillRule::positive},
+    {"union", FillRule::union_of_parts},
+}};
 constexpr std::array<Named<FieldPicture>, 3> pictures{{
     {"field", FieldPicture::field},
     {"voronoi", FieldPicture::voronoi},
@@ -119,6 +125,10 @@ SignEncoding parse_sign(const std::string& name, const std::string& what) {
     return parse_name<SignEncoding>(encodings, name, what);
 }
 
+FillRule parse_fill_rule(const std::string& name, const std::string& what) {
+    return parse_name<FillRule>(fill_rules, name, what);
+}
+
 GradientMethod parse_gradient(const std::string& name, const std::string& what) {
     return parse_name<GradientMethod>(gradient_methods, name, what);
 }
@@ -145,6 +155,10 @@ std::string_view name_of(IntersectionKind kind) noexcept {
 
 std::string_view name_of(IntersectionStrategy strategy) noexcept {
     return find_name<IntersectionStrategy>(strategies, strategy);
+}
+
+std::string_view name_of(FillRule rule) noexcept {
+    return find_name<FillRule>(fill_rules, rule);
 }
 
 std::string_view name_of(ImpactState state) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nearfield/fill.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
@@ -76,12 +77,15 @@ struct QueryRequest {
 [[nodiscard]] IntersectionStrategy parse_strategy(const std::string& name, const std::string& what);
 [[nodiscard]] SignEncoding parse_sign(const std::string& name, const std::string& what);
 [[nodiscard]] GradientMethod parse_gradient(const std::string& name, const std::string& what);
+/// odd-even, nonzero, positive or union
+[[nodiscard]] FillRule parse_fill_rule(const std::string& name, const std::string& what);
 [[nodiscard]] FieldPicture parse_picture(const std::string& name, const std::string& what);
 [[nodiscard]] std::string_view name_of(QueryType type) noexcept;
 [[nodiscard]] std::string_view name_of(SignEncoding encoding) noexcept;
 [[nodiscard]] std::string_view name_of(GradientMethod method) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionKind kind) noexcept;
 [[nodiscard]] std::string_view name_of(IntersectionStrategy strategy) noexcept;
+[[nodiscard]] std::string_view name_of(FillRule rule) noexcept;
 [[nodiscard]] std::string_view name_of(ImpactState state) noexcept;
 
 [[nodiscard]] Technique parse_technique(const std::string& name, const std::string& what);

@@ -3,6 +3,7 @@
 #include <tools/io/json_document.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/scene.hpp>
+#include <tools/io/shape_rings.hpp>
 #include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
 
@@ -53,13 +54,14 @@ double read_above_zero(const JsonPlace& place) {
 }
 
 Outline read_shape(const JsonPlace& place) {
-    require_known_members(place, {"file", "rings", "deviation"});
+    require_known_members(place, {"file", "rings", "deviation", "fill_rule", "clean_width"});
     if (place.has("file") == place.has("rings")) {
         place.fail("needs either \"file\" or \"rings\"");
     }
     Outline outline;
     if (place.has("rings")) {
         append_rings(place.member("rings"), outline.rings);
+        outline.file = place.member("rings").text();
     } else {
         const std::filesystem::path folder = std::filesystem::path(place.file()).parent_path();
         outline = read_outline((folder / place.member("file").string()).string());
@@ -95,6 +97,26 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
         place.fail("has curves and is in no query with a tolerance; needs \"deviation\"");
     }
     return usual_deviation * smallest;
+}
+
+OutlineTreatment read_treatment(const JsonPlace& place, EmptyRings empty) {
+    OutlineTreatment treatment{.strict = empty == EmptyRings::kept};
+    if (place.has("fill_rule")) {
+        const JsonPlace rule = place.member("fill_rule");
+        treatment.fill_rule = parse_fill_rule(rule.string(), rule.text());
+    }
+    if (place.has("clean_width")) {
+        treatment.clean_width = read_above_zero(place.member("clean_width"));
+    }
+    return treatment;
+}
+
+/// Adds to what is said about a place; nothing where there is nothing to say.
+void add_note(std::string& note, const JsonPlace& place, const std::string& text) {
+    if (!text.empty()) {
+        const bool names_place = text.starts_with(place.text());
+        note += note.empty() ? (names_place ? text : place.text() + ": " + text) : "; " + text;
+    }
 }
 
 /// Finds the index of the entry named by the string at a place.
@@ -325,8 +347,9 @@ std::string text_of(const JsonPlace& place, const char* key) {
 /// Reads shapes, instances and queries, in this order.
 class SceneReader {
 public:
-    SceneReader(const JsonPlace& root, BadEntries bad)
+    SceneReader(const JsonPlace& root, BadEntries bad, EmptyRings empty)
         : bad_(bad),
+          empty_(empty),
           shapes_(root.member("shapes")),
           instances_(root.member("instances")),
           queries_(root.member("queries")) {}
@@ -370,7 +393,7 @@ private:
         attempt(shapes_.member(name), shape.problem, [&](const JsonPlace& place) {
             outline = read_shape(place);
             if (!outline.skipped.empty()) {
-                shape.note = place.text() + ": " + skipped_note(outline);
+                add_note(shape.note, place, skipped_note(outline));
             }
         });
         scene_.shapes.push_back(std::move(shape));
@@ -405,13 +428,15 @@ private:
         attempt(shapes_.member(shape.name), shape.problem, [&](const JsonPlace& place) {
             const Outline& outline = outlines_[index];
             const double deviation = outline.curved() ? shape_deviation(place, index, scene_) : 0.0;
-            OutlineRings rings = tessellate_outline(outline, deviation);
+            ShapeRings rings = make_shape_rings(outline, deviation, read_treatment(place, empty_));
             shape.rings = std::move(rings.rings);
             shape.deviation = rings.deviation;
+            add_note(shape.note, place, rings.note);
         });
     }
 
     BadEntries bad_;
+    EmptyRings empty_;
     JsonPlace shapes_;
     JsonPlace instances_;
     JsonPlace queries_;
@@ -421,9 +446,9 @@ private:
 
 }  // namespace
 
-Scene read_scene(const std::string& path, BadEntries bad) {
+Scene read_scene(const std::string& path, BadEntries bad, EmptyRings empty) {
     const json document = parse_json(read_text(path), path);
-    return SceneReader(JsonPlace(document, path), bad).read();
+    return SceneReader(JsonPlace(document, path), bad, empty).read();
 }
 
 }  // namespace nearfield::tools

@@ -17,7 +17,7 @@ struct SceneShape {
     std::vector<Ring> rings = {};
     double deviation = 0.0;    ///< how far the rings may be from its curves
     std::string problem = {};  ///< why it cannot be used; empty where it can
-    std::string note = {};     ///< what was skipped of its file; empty where nothing was
+    std::string note = {};     ///< what was skipped or dropped of it; empty where nothing was
 };
 
 /// A shape of a scene with a pose.
@@ -60,6 +60,12 @@ enum class BadEntries {
     recorded,  ///< its `problem` says why it cannot be used; the others can be
 };
 
+/// What becomes of rings that enclose nothing.
+enum class EmptyRings {
+    dropped,  ///< with a note
+    kept,     ///< the library refuses them
+};
+
 /// Reads a scene and the outlines it names, whose paths are relative to the scene's folder. Throws
 /// InputError with the file and the place in it. Curves are tessellated with the `deviation` a
 /// shape states, else with usual_deviation of the smallest tolerance among the queries that use it.
@@ -67,6 +73,7 @@ enum class BadEntries {
 /// The scene as a whole is refused where it is not JSON, where `shapes`, `instances` or `queries`
 /// is not there, and where a shape, an instance or a query has a member that is not known: a
 /// misspelt one would change the answer silently.
-[[nodiscard]] Scene read_scene(const std::string& path, BadEntries bad = BadEntries::refused);
+[[nodiscard]] Scene read_scene(const std::string& path, BadEntries bad = BadEntries::refused,
+                               EmptyRings empty = EmptyRings::dropped);
 
 }  // namespace nearfield::tools

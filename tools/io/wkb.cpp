@@ -71,6 +71,9 @@ public:
         return std::move(rings_);
     }
 
+    /// The number of rings of each polygon.
+    [[nodiscard]] const std::vector<std::uint32_t>& part_sizes() const { return part_sizes_; }
+
 private:
     [[noreturn]] void fail(std::size_t byte, const std::string& reason) const {
         throw InputError(file_ + ": byte " + std::to_string(byte) + ": " + reason);
@@ -179,6 +182,7 @@ private:
     }
 
     void parse_polygon(const Header& header) {
+        const std::size_t first = rings_.size();
         const std::size_t count = read_count(header, sizeof(std::uint32_t), "rings");
         if (count == 0) {
             skipped_.add(empty_part);
@@ -195,6 +199,9 @@ private:
             } else {
                 rings_.push_back(std::move(ring));
             }
+        }
+        if (rings_.size() > first) {
+            part_sizes_.push_back(static_cast<std::uint32_t>(rings_.size() - first));
         }
     }
 
@@ -248,6 +255,7 @@ private:
     SkippedParts& skipped_;
     std::size_t position_ = 0;
     std::vector<Ring> rings_;
+    std::vector<std::uint32_t> part_sizes_;
 };
 
 /// The value of a hexadecimal digit; -1 for any other character.
@@ -264,12 +272,17 @@ int digit_value(char c) {
 }  // namespace
 
 std::vector<Ring> parse_wkb(const std::string& bytes, const std::string& file,
-                            SkippedParts& skipped) {
-    return WkbParser(bytes, file, skipped).parse();
+                            SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
+    WkbParser parser(bytes, file, skipped);
+    std::vector<Ring> rings = parser.parse();
+    if (part_sizes != nullptr) {
+        *part_sizes = parser.part_sizes();
+    }
+    return rings;
 }
 
 std::vector<Ring> parse_hex_wkb(const std::string& text, const std::string& file,
-                                SkippedParts& skipped) {
+                                SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
     std::string bytes;
     bytes.reserve(text.size() / 2);
     int high = -1;
@@ -293,7 +306,7 @@ std::vector<Ring> parse_hex_wkb(const std::string& text, const std::string& file
         throw InputError(text_position(file, text, text.size()) +
                          ": an odd number of hexadecimal digits");
     }
-    return parse_wkb(bytes, file, skipped);
+    return parse_wkb(bytes, file, skipped, part_sizes);
 }
 
 }  // namespace nearfield::tools

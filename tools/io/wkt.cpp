@@ -58,6 +58,9 @@ public:
         return std::move(rings_);
     }
 
+    /// The number of rings of each polygon.
+    [[nodiscard]] const std::vector<std::uint32_t>& part_sizes() const { return part_sizes_; }
+
 private:
     /// How many numbers a position has.
     struct Ordinates {
@@ -177,6 +180,7 @@ private:
     }
 
     void parse_polygon() {
+        const std::size_t first = rings_.size();
         bool is_first = true;
         bool has_outer_ring = true;
         parse_part([&] {
@@ -192,6 +196,9 @@ private:
             has_outer_ring = has_outer_ring && (any || !is_first);
             is_first = false;
         });
+        if (rings_.size() > first) {
+            part_sizes_.push_back(static_cast<std::uint32_t>(rings_.size() - first));
+        }
     }
 
     /// The positions of points and lines: one, a list, or a list of lists.
@@ -279,13 +286,19 @@ private:
     std::size_t position_ = 0;
     Ordinates ordinates_;
     std::vector<Ring> rings_;
+    std::vector<std::uint32_t> part_sizes_;
 };
 
 }  // namespace
 
-std::vector<Ring> parse_wkt(const std::string& text, const std::string& file,
-                            SkippedParts& skipped) {
-    return WktParser(text, file, skipped).parse();
+std::vector<Ring> parse_wkt(const std::string& text, const std::string& file, SkippedParts& skipped,
+                            std::vector<std::uint32_t>* part_sizes) {
+    WktParser parser(text, file, skipped);
+    std::vector<Ring> rings = parser.parse();
+    if (part_sizes != nullptr) {
+        *part_sizes = parser.part_sizes();
+    }
+    return rings;
 }
 
 }  // namespace nearfield::tools

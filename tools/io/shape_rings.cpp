@@ -1,0 +1,156 @@
+#include <tools/io/input_error.hpp>
+#include <tools/io/query_request.hpp>
+#include <tools/io/shape_rings.hpp>
+
+#include <cstddef>
+#include <cstdio>
+#include <utility>
+
+namespace nearfield::tools {
+namespace {
+
+std::string describe(const DroppedRing& dropped) {
+    char text[120];
+    std::snprintf(text, sizeof text, "ring %zu from (%.17g, %.17g), %.3g wide", dropped.ring,
+                  dropped.at.x, dropped.at.y, dropped.width);
+    return text;
+}
+
+/// "ring 1 from (1, 1), 3e-16 wide; ring 4 ..."
+std::string describe(const std::vector<DroppedRing>& dropped) {
+    constexpr std::size_t most_listed = 20;
+    std::string text;
+    for (std::size_t i = 0; i < dropped.size() && i < most_listed; ++i) {
+        text += (i == 0 ? "" : "; ") + describe(dropped[i]);
+    }
+    if (dropped.size() > most_listed) {
+        text += "; and " + std::to_string(dropped.size() - most_listed) + " more";
+    }
+    return text;
+}
+
+/// "dropped 1 of 3 rings that ...: ..., 2 vertices (1 repeated, 1 collinear, 0 spikes)"; empty if
+/// nothing was dropped. `why`: "that enclose nothing"
+std::string describe(const CleanedRings& cleaned, const std::string& why) {
+    std::string text;
+    if (!cleaned.dropped.empty()) {
+        const std::size_t count = cleaned.dropped.size() + cleaned.rings.size();
+        text = "dropped " + std::to_string(cleaned.dropped.size()) + " of " +
+               std::to_string(count) + (count == 1 ? " ring " : " rings ") + why + ": " +
+               describe(cleaned.dropped);
+    }
+    const std::size_t vertices = cleaned.repeated + cleaned.collinear + cleaned.spikes;
+    if (vertices > 0) {
+        text += (text.empty() ? "" : "; ") + std::string("dropped ") + std::to_string(vertices) +
+                " vertices: " + std::to_string(cleaned.repeated) + " repeated, " +
+                std::to_string(cleaned.collinear) + " on straight lines, " +
+                std::to_string(cleaned.spikes) + " tips of spikes";
+    }
+    return text;
+}
+
+/// Makes the rings of a shape from those of an outline, step by step.
+class Treatment {
+public:
+    Treatment(const Outline& outline, double deviation, const OutlineTreatment& asked)
+        : outline_(outline), asked_(asked) {
+        // Room for the deviation of the fill rule, so that the sum is what the caller allowed.
+        const double share = asked.fill_rule ? 1.0 - 0x1p-10 : 1.0;
+        OutlineRings rings = tessellate_outline(outline, share * deviation);
+        result_.rings = std::move(rings.rings);
+        result_.deviation = rings.deviation;
+    }
+
+    ShapeRings run() {
+        if (asked_.fill_rule) {
+            report_empty_rings();
+            fill();
+        }
+        if (asked_.clean_width) {
+            clean_all(*asked_.clean_width);
+        } else if (!asked_.fill_rule && !asked_.strict) {
+            drop_empty_rings();
+        }
+        return std::move(result_);
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& reason) const {
+        throw InputError(outline_.file + ": " + reason);
+    }
+
+    void note(const std::string& text) {
+        if (!text.empty()) {
+            result_.note += (result_.note.empty() ? outline_.file + ": " : "; ") + text;
+        }
+    }
+
+    /// They vanish with the fill rule, so they are only reported.
+    void report_empty_rings() {
+        const Expected<CleanedRings> cleaned = clean(result_.rings, {.vertices = false});
+        if (!cleaned || cleaned->dropped.empty()) {
+            return;
+        }
+        if (asked_.strict) {
+            const std::size_t count = cleaned->dropped.size();
+            fail(std::to_string(count) + " of " + std::to_string(result_.rings.size()) +
+                 (count == 1 ? " rings encloses nothing: " : " rings enclose nothing: ") +
+                 describe(cleaned->dropped));
+        }
+        note(describe(*cleaned, "that enclose nothing"));
+    }
+
+    void fill() {
+        FillSettings settings;
+        settings.part_sizes = outline_.part_sizes;
+        Expected<ResolvedFill> fill = resolve_fill(result_.rings, *asked_.fill_rule, settings);
+        if (!fill) {
+            fail(fill.error().message());
+        }
+        if (fill->rings.empty()) {
+            fail("nothing is left of it by the fill rule " +
+                 std::string(name_of(*asked_.fill_rule)));
+        }
+        result_.rings = std::move(fill->rings);
+        result_.deviation += fill->deviation;
+    }
+
+    void drop_empty_rings() {
+        Expected<CleanedRings> cleaned = clean(result_.rings, {.vertices = false});
+        if (cleaned && !cleaned->rings.empty()) {
+            take(*cleaned, "that enclose nothing");
+        }
+    }
+
+    void clean_all(double width) {
+        Expected<CleanedRings> cleaned = clean(result_.rings, {.width = width});
+        if (!cleaned) {
+            fail(cleaned.error().message());
+        }
+        char why[80];
+        std::snprintf(why, sizeof why, "no wider than %.17g", width);
+        if (cleaned->rings.empty()) {
+            fail(std::string("all of it is ") + why + ": " + describe(cleaned->dropped));
+        }
+        take(*cleaned, asked_.fill_rule ? std::string("of the filled region ") + why : why);
+    }
+
+    void take(CleanedRings& cleaned, const std::string& why) {
+        note(describe(cleaned, why));
+        result_.rings = std::move(cleaned.rings);
+        result_.deviation += cleaned.deviation;
+    }
+
+    const Outline& outline_;
+    const OutlineTreatment& asked_;
+    ShapeRings result_;
+};
+
+}  // namespace
+
+ShapeRings make_shape_rings(const Outline& outline, double deviation,
+                            const OutlineTreatment& treatment) {
+    return Treatment(outline, deviation, treatment).run();
+}
+
+}  // namespace nearfield::tools
