@@ -68,13 +68,24 @@ bool curves_are_wrong() {
     return failed(rings.error()) || wrong(rings->size() == 2, "how many rings there are");
 }
 
+bool fills_are_wrong() {
+    const nearfield::Ring squares[] = {{{0, 0}, {2, 0}, {2, 2}, {0, 2}},
+                                       {{1, 1}, {3, 1}, {3, 3}, {1, 3}},
+                                       {{0, 0}, {1, 1}, {2, 2}}};
+    const auto fill = nearfield::resolve_fill(squares, nearfield::FillRule::nonzero);
+    const auto cleaned = nearfield::clean(squares);
+    return failed(fill.error()) || failed(cleaned.error()) ||
+           wrong(fill->rings.size() == 1, "how many rings a union has") ||
+           wrong(cleaned->dropped.size() == 1, "how many rings enclose nothing");
+}
+
 }  // namespace
 
 int main() {
     const nearfield::Version version = nearfield::version();
     if (wrong(std::strcmp(version.text, NEARFIELD_VERSION) == 0, "the library's version") ||
         wrong(version.abi == NEARFIELD_ABI_VERSION, "the library's ABI version") ||
-        curves_are_wrong()) {
+        curves_are_wrong() || fills_are_wrong()) {
         return 1;
     }
     const auto devices = nearfield::list_devices();
