@@ -154,7 +154,7 @@ Status check_pair(const Query& query, const AvailableTechniques& available) {
     if (Status status = check_technique(query, available); !status.ok()) {
         return status;
     }
-    if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
+    if constexpr (requires { query.tolerance; }) {
         if (!is_length(query.tolerance)) {
             return no_length(query.tolerance, "the tolerance");
         }
@@ -248,6 +248,10 @@ Status check_query(const TimeOfImpactQuery& query, const AvailableTechniques& av
 }
 
 Status check_query(const SeparationVectorQuery& query, const AvailableTechniques& available) {
+    return check_pair(query, available);
+}
+
+Status check_query(const ContainmentQuery& query, const AvailableTechniques& available) {
     return check_pair(query, available);
 }
 

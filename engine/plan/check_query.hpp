@@ -31,6 +31,8 @@ namespace nearfield::plan {
                                  const AvailableTechniques& available);
 [[nodiscard]] Status check_query(const SeparationVectorQuery& query,
                                  const AvailableTechniques& available);
+[[nodiscard]] Status check_query(const ContainmentQuery& query,
+                                 const AvailableTechniques& available);
 
 /// The error for a query that needs a second submission when there is only one command buffer.
 [[nodiscard]] Status not_recordable(Technique technique);

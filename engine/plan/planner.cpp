@@ -125,7 +125,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
             [&](const auto& query) {
                 using Query = std::decay_t<decltype(query)>;
                 auto& result = reuse<typename Query::Result>(results[query_]);
-                if constexpr (!std::is_same_v<Query, IntersectionTestQuery>) {
+                if constexpr (requires { query.tolerance; }) {
                     result.tolerance = query.tolerance;
                 }
                 result.technique = query.technique;

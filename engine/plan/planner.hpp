@@ -77,6 +77,8 @@ private:
     void add(const TimeOfImpactQuery& /*query*/, TimeOfImpactResult& /*result*/) {}
     /// Nothing to plan: SeparationVector answers it.
     void add(const SeparationVectorQuery& /*query*/, SeparationVectorResult& /*result*/) {}
+    /// Nothing to plan: Containment answers it.
+    void add(const ContainmentQuery& /*query*/, ContainmentResult& /*result*/) {}
 
     /// Checks that the device has what a strategy needs, if a device is involved; the result states
     /// the error.

@@ -34,6 +34,8 @@ template <>
 inline constexpr const char* answered_by_cpu_alone<TimeOfImpactQuery> = "times of impact";
 template <>
 inline constexpr const char* answered_by_cpu_alone<SeparationVectorQuery> = "separation vectors";
+template <>
+inline constexpr const char* answered_by_cpu_alone<ContainmentQuery> = "containment";
 
 /// Describes, for a message, the part of a query that a technique does not answer; null if it
 /// answers all of it.

@@ -33,6 +33,7 @@ std::size_t weight_of(const plan::PlannedQuery& query) {
         return edges_of(query) + samples_of(query);
     }
     const bool looks_once = std::holds_alternative<IntersectionTestQuery>(*query.query) ||
+                            std::holds_alternative<ContainmentQuery>(*query.query) ||
                             std::holds_alternative<SeparationQuery>(*query.query) ||
                             std::holds_alternative<ClosestPointQuery>(*query.query);
     return looks_once ? edges_of(query) : edges_of_a_part;

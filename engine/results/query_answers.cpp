@@ -120,6 +120,10 @@ void QueryAnswers::answer(const Asked& asked, SeparationVectorResult& result) {
     separation_vector_.answer(asked.planned(), instances_, result);
 }
 
+void QueryAnswers::answer(const Asked& asked, ContainmentResult& result) {
+    containment_.answer(asked.planned(), instances_, result);
+}
+
 std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::size_t end,
                                 bool on_cpu, std::span<std::uint32_t> words,
                                 decode::FieldDecoder& fields, std::vector<AnyResult>& results) {

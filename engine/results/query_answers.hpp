@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/cpu/closest.hpp>
+#include <engine/cpu/containment.hpp>
 #include <engine/cpu/exact_field.hpp>
 #include <engine/cpu/exact_overlap.hpp>
 #include <engine/cpu/exact_points.hpp>
@@ -63,6 +64,7 @@ private:
     void answer(const Asked& asked, IntersectionTestResult& result);
     void answer(const Asked& asked, TimeOfImpactResult& result);
     void answer(const Asked& asked, SeparationVectorResult& result);
+    void answer(const Asked& asked, ContainmentResult& result);
 
     simd::TransformedInstances instances_;  // of the batch, made when first needed; large ones kept
     plan::SimplifiedShapes simplified_;     // likewise
@@ -76,6 +78,7 @@ private:
     cpu::IntersectionTest intersection_test_;
     cpu::TimeOfImpact time_of_impact_;
     cpu::SeparationVector separation_vector_;
+    cpu::Containment containment_;
     cpu::PointPenetration penetration_;
     cpu::ClosestDecoder closest_;
 };

@@ -29,6 +29,7 @@ struct SeparationResult;
 struct IntersectionTestResult;
 struct TimeOfImpactResult;
 struct SeparationVectorResult;
+struct ContainmentResult;
 
 /// Upper limit of the deviations of a query's two shapes (Context::add_shape) added together, as a
 /// fraction of its tolerance; above it the query fails (invalid_query).
@@ -54,8 +55,8 @@ enum class Technique {
     /// Runs entirely on the CPU. Points are resolved to single edges in double precision,
     /// intersections by bit masks of the raster's samples, distance fields by the near edges of
     /// each block of cells. Answers every query except GradientMethod::blended and resident results
-    /// (invalid_query); it alone answers intersection tests, times of impact and separation
-    /// vectors.
+    /// (invalid_query); it alone answers intersection tests, times of impact, separation vectors
+    /// and containment.
     ///
     /// ResultSummary::regions are not sampled grids for points. They are the common box of both
     /// shapes (none for penetration without records); for contacts the box around the parts of
@@ -308,6 +309,19 @@ struct SeparationVectorQuery {
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
+/// Tests whether A lies inside B, and with how much clearance: A is inside if every point of the
+/// closed shape A is a point of the closed shape B. A part of A outside B, or a hole of B in the
+/// area of A, however small, means that it is not. Exact up to the rounding of transformed
+/// vertices, so it has no tolerance. Goes beyond the paper. Always answered on the CPU, as
+/// IntersectionTestQuery.
+struct ContainmentQuery {
+    using Result = ContainmentResult;  ///< its answer (result.hpp)
+
+    Instance a = {};                             ///< the shape that may be inside
+    Instance b = {};                             ///< the shape that may contain it
+    Technique technique = Technique::automatic;  ///< automatic or cpu
+};
+
 /// Names a query of a batch. Its result is a Query::Result.
 template <class Query>
 struct QueryHandle {
@@ -317,7 +331,7 @@ struct QueryHandle {
 /// One query of any kind.
 using AnyQuery = std::variant<PenetrationQuery, IntersectionQuery, DistanceFieldQuery, ContactQuery,
                               ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
-                              TimeOfImpactQuery, SeparationVectorQuery>;
+                              TimeOfImpactQuery, SeparationVectorQuery, ContainmentQuery>;
 
 /// An ordered list of queries. Clearing keeps the memory, so refilling a batch every frame does not
 /// allocate. Not thread-safe; different batches are independent.

@@ -346,6 +346,33 @@ struct SeparationVectorResult : ResultSummary, SeparationVectorValues {
     using Record = NoRecord;                ///< what it lists, nothing
 };
 
+/// Answer to a ContainmentQuery. Holds for the rings as given, as `intersects` does.
+///
+/// Touching from inside counts as inside: a shape is inside itself, with clearance 0. Every edge of
+/// a ring counts as boundary, also one that two parts of B share: a shape across it is inside, with
+/// clearance 0.
+///
+/// `error_bound` (the rounding of transformed vertices plus the shapes' deviations) bounds the
+/// error of `clearance`. The shapes may be reported either way if moving each boundary by at most
+/// this much could change the answer; but rings that lie inside without any move are never reported
+/// as not inside. `tolerance` and `cell` are 0.
+struct ContainmentResult : ResultSummary {
+    bool inside = false;  ///< every point of A is a point of B
+    /// The least distance between the boundaries if A is inside. 0 if they touch, or are so close
+    /// that rounding cannot tell; 0 if A is not inside.
+    double clearance = 0.0;
+    /// Of A's boundary, closest to B's; at clearance 0 a common point of the boundaries. Both
+    /// points are (0, 0) if A is not inside.
+    Vector2 point_a;
+    Vector2 point_b;    ///< of B's boundary, closest to A's; likewise
+    Vector2 direction;  ///< unit vector from point_a to point_b; (0, 0) at clearance 0
+    Feature feature_a;  ///< where point_a lies on A's boundary; meaningful if clearance > 0
+    Feature feature_b;  ///< where point_b lies on B's boundary; likewise
+    /// False if the pair is one of several: another one is as close up to the rounding of the
+    /// vertices, and one of its points is farther than that from this pair's. True at clearance 0.
+    bool unique = true;
+};
+
 /// The time of one pass on the device.
 struct PassTime {
     std::string name;           ///< as in the render graph and in debuggers
@@ -368,9 +395,10 @@ struct Timings {
 };
 
 /// One result of any kind, in the order of AnyQuery.
-using AnyResult = std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult,
-                               ContactResult, ClosestPointResult, SeparationResult,
-                               IntersectionTestResult, TimeOfImpactResult, SeparationVectorResult>;
+using AnyResult =
+    std::variant<PenetrationResult, IntersectionResult, DistanceFieldResult, ContactResult,
+                 ClosestPointResult, SeparationResult, IntersectionTestResult, TimeOfImpactResult,
+                 SeparationVectorResult, ContainmentResult>;
 
 /// The results of one batch, in the order of its queries. Reusing the object from frame to frame
 /// keeps its memory.

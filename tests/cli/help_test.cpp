@@ -27,6 +27,7 @@ const std::map<std::string, Names>& own_options() {
         {"distance-field", both(sampled, Names{"--rect", "--gradient", "--at", "--sign", "--show",
                                                "--field", "--gradient-field", "--features"})},
         {"intersection-test", {}},
+        {"containment", {}},
         {"time-of-impact",
          {"--end-pose-a", "--end-pose-b", "--contact-distance", "--time-bound", "--most-steps"}},
         {"separation-vector", {"--most-work"}}};

@@ -149,9 +149,9 @@ TEST_F(QueryLine, EveryKindTakesWhatWasTakenOfEveryKind) {
     // Without effect on some kinds, whose help does not list them.
     const Arguments all{"-d",       "0.1",      "--strategy", "depth",  "--boxes",
                         "oriented", "--height", "2",          "--tiles"};
-    for (const char* kind :
-         {"penetration", "contacts", "intersection", "separation", "closest-point",
-          "distance-field", "intersection-test", "time-of-impact", "separation-vector"}) {
+    for (const char* kind : {"penetration", "contacts", "intersection", "separation",
+                             "closest-point", "distance-field", "intersection-test",
+                             "time-of-impact", "separation-vector", "containment"}) {
         const Json json = lasting(Arguments{kind, a_, b_, "--pose-b", pose_} + all);
         ASSERT_TRUE(json.is_object()) << kind;
         EXPECT_EQ(json.at("query"), kind);
@@ -164,7 +164,7 @@ TEST_F(QueryLine, EveryKindTakesWhatWasTakenOfEveryKind) {
 TEST_F(QueryLine, KindsThatAreMissingOrUnknownAreRefusedWithTheirNames) {
     const std::string names =
         "penetration, contacts, intersection, separation, closest-point, distance-field, "
-        "intersection-test, time-of-impact, separation-vector";
+        "intersection-test, time-of-impact, separation-vector, containment";
     for (const Arguments& words :
          {Arguments{}, Arguments{"-d", "1"}, Arguments{"--json"}, Arguments{"--tiles"},
           Arguments{"-d", "1", "--", "--tiles", "penetration", a_}}) {

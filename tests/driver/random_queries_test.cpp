@@ -35,6 +35,7 @@ Batch every_query(const Instance& a, const Instance& b, double tolerance) {
         batch.add(field);
     }
     batch.add(IntersectionTestQuery{a, b});
+    batch.add(ContainmentQuery{a, b});
     batch.add(
         TimeOfImpactQuery{{a.shape, {{-9.0, 1.0}, 0.0}}, b, {{9.0, -1.0}, 9.0}, b.pose, tolerance});
     batch.add(SeparationVectorQuery{a, b, tolerance});

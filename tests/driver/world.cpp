@@ -236,6 +236,7 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
     batch.add(ClosestPointQuery{here(), apart, tolerance, technique});
     batch.add(SeparationQuery{here(), apart, tolerance, technique});
     batch.add(IntersectionTestQuery{here(), there()});
+    batch.add(ContainmentQuery{here(), here()});
     batch.add(TimeOfImpactQuery{here(), apart, there().pose, apart.pose, tolerance});
     batch.add(SeparationVectorQuery{here(), there(), tolerance});
     for (const IntersectionKind kind :

@@ -124,6 +124,42 @@ double area_of(const Geos& geos, const Geometry& geometry) {
     return value;
 }
 
+/// Points of every part of a geometry: the vertices of its lines and the points halfway between
+/// them, and an inner point of each polygon.
+std::vector<Vector2> points_of(const Geos& geos, const GEOSGeometry& geometry) {
+    std::vector<Vector2> points;
+    const auto add = [&](const GEOSGeometry* of) {
+        const GEOSCoordSequence* line = GEOSGeom_getCoordSeq_r(geos.handle(), of);
+        unsigned count = 0;
+        geos.require(GEOSCoordSeq_getSize_r(geos.handle(), line, &count) == 1);
+        for (unsigned i = 0; i < count; ++i) {
+            Vector2 at;
+            geos.require(GEOSCoordSeq_getXY_r(geos.handle(), line, i, &at.x, &at.y) == 1);
+            if (i > 0) {
+                points.push_back(times(plus(points.back(), at), 0.5));
+            }
+            points.push_back(at);
+        }
+    };
+    const auto collect = [&](const auto& self, const GEOSGeometry* part) -> void {
+        const int type = GEOSGeomTypeId_r(geos.handle(), part);
+        if (type == GEOS_POLYGON) {
+            const Geometry inner = geos.own(GEOSPointOnSurface_r(geos.handle(), part));
+            if (GEOSisEmpty_r(geos.handle(), inner.get()) == 0) {
+                add(inner.get());
+            }
+        } else if (type >= GEOS_MULTIPOINT) {
+            for (int i = 0; i < GEOSGetNumGeometries_r(geos.handle(), part); ++i) {
+                self(self, GEOSGetGeometryN_r(geos.handle(), part, i));
+            }
+        } else if (GEOSisEmpty_r(geos.handle(), part) == 0) {
+            add(part);
+        }
+    };
+    collect(collect, &geometry);
+    return points;
+}
+
 bool holds_a_ring(const ShapeOracle& outer, const ShapeOracle& inner) {
     return std::any_of(inner.ring_begins().begin(), inner.ring_begins().end(),
                        [&](std::uint32_t first) { return outer.contains(inner.vertex(first)); });
@@ -163,6 +199,26 @@ bool intersects(const ShapeOracle& a, const ShapeOracle& b) {
     GEOSPreparedGeom_destroy_r(geos.handle(), prepared);
     geos.require(meet != 2);
     return meet == 1 || holds_a_ring(a, b) || holds_a_ring(b, a);
+}
+
+double protrusion(const ShapeOracle& a, const ShapeOracle& b) {
+    const Geos geos;
+    const Geometry filled_b = filled(geos, b, a.origin());
+    double most = 0.0;
+    const auto examine = [&](const Geometry& part) {
+        const Geometry outside =
+            geos.own(GEOSDifference_r(geos.handle(), part.get(), filled_b.get()));
+        for (const Vector2& local : points_of(geos, *outside)) {
+            // GEOS rounds; the point itself is judged.
+            const Vector2 point = plus(local, a.origin());
+            const double from_a = a.contains(point) ? 0.0 : a.nearest(point).distance;
+            const double from_b = b.contains(point) ? 0.0 : b.nearest(point).distance;
+            most = std::max(most, from_b - from_a);
+        }
+    };
+    examine(filled(geos, a, a.origin()));
+    examine(lines_of(geos, a, a.origin()));
+    return most;
 }
 
 double boundary_distance(const ShapeOracle& a, const ShapeOracle& b) {

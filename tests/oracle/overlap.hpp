@@ -25,6 +25,11 @@ struct Overlap {
 /// too), or one shape contains a ring of the other.
 [[nodiscard]] bool intersects(const ShapeOracle& a, const ShapeOracle& b);
 
+/// How far A reaches out of B: 0 if every point of the closed shape A is a point of the closed
+/// shape B, and otherwise the distance from B of a point of A outside B: not always the farthest,
+/// but one in the middle of a part of A that is outside.
+[[nodiscard]] double protrusion(const ShapeOracle& a, const ShapeOracle& b);
+
 /// The minimum distance between the two boundaries.
 [[nodiscard]] double boundary_distance(const ShapeOracle& a, const ShapeOracle& b);
 

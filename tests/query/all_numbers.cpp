@@ -76,6 +76,10 @@ public:
     void add_rest(const SeparationVectorResult& r) {
         add_all(r.vector, r.length, r.lower_bound, r.work);
     }
+    void add_rest(const ContainmentResult& r) {
+        add_all(r.inside, r.clearance, r.point_a, r.point_b, r.direction, r.feature_a, r.feature_b,
+                r.unique);
+    }
 
 private:
     template <class... Parts>

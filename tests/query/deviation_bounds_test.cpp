@@ -145,6 +145,18 @@ TEST_F(DeviationBounds, SeparationVectorsLeaveCirclesThatDeepInEachOther) {
     });
 }
 
+TEST_F(DeviationBounds, ClearanceIsOffByBothDeviationsAndTheBoundSaysSo) {
+    const Circle small{{1.0, 0.5}, 0.7};  // 1 from the centre of B
+    constexpr double clearance = 2.0 - 1.0 - 0.7;
+    for_each_pair(small, right, false, [&](const Deviations& of) {
+        const ContainmentResult result = ask(ContainmentQuery{a_, b_}, Technique::cpu);
+        EXPECT_TRUE(result.inside);
+        EXPECT_NEAR(result.clearance, clearance + of.a - of.b, slack);
+        EXPECT_LE(std::abs(result.clearance - clearance), result.error_bound + slack);
+        EXPECT_NEAR(result.error_bound, of.a + of.b, rounding);
+    });
+}
+
 TEST_F(DeviationBounds, PenetrationIsOffByBothDeviationsAndTheBoundSaysSo) {
     const Circle small{{1.0, 0.5}, 0.7};  // its deepest point is 1 - 0.7 from the centre of B
     constexpr double depth = 2.0 - 0.3;

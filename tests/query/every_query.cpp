@@ -24,6 +24,8 @@ void add_points(Batch& batch, const Instance& a, const Instance& b, bool recorda
     batch.add(IntersectionTestQuery{a, b, Technique::cpu});
     batch.add(TimeOfImpactQuery{a, apart, {{5.0, 0.0}, 1.0}, apart.pose, 0.05});
     batch.add(SeparationVectorQuery{a, b, 0.05});
+    batch.add(ContainmentQuery{a, b});
+    batch.add(ContainmentQuery{a, a});
 }
 
 void add_intersections(Batch& batch, const Instance& a, const Instance& b) {

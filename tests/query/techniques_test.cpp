@@ -280,6 +280,7 @@ TEST_F(Techniques, AutomaticIsWhatCostsLeast) {
         const Instance b = pair.instance_b();
         expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
         expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
+        expect(ContainmentQuery{a, b}, Technique::cpu);
     }
 }
 
@@ -373,6 +374,8 @@ TEST_F(Techniques, AFrameOfTheCpuLikeTheOneBeforeAllocatesNothing) {
             batch.add(field);
             batch.add(SeparationQuery{a, b, 0.01, Technique::cpu});
             batch.add(IntersectionTestQuery{a, b});
+            batch.add(ContainmentQuery{a, b});
+            batch.add(ContainmentQuery{a, a});
             batch.add(TimeOfImpactQuery{{a.shape, {{-4, 1}, 0.0}}, b, a.pose, b.pose, 0.01});
             batch.add(SeparationVectorQuery{a, b, 0.01});
             batch.add(SeparationQuery{a, {b.shape, {{4, 4}, 0.0}}, 0.01, Technique::cpu});

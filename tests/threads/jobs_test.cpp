@@ -106,6 +106,7 @@ private:
                 batch_.add(PenetrationQuery{b, a, 0.02, points, true, Technique::cpu});
             }
             batch_.add(IntersectionTestQuery{a, b});
+            batch_.add(ContainmentQuery{a, b});
             batch_.add(SeparationQuery{a, b, 0.02, Technique::cpu});
         }
         for (std::size_t i = 1; i < 4; ++i) {

@@ -297,7 +297,7 @@ void run_query(const QueryArguments& arguments) {
     const double deviation = choose_deviation(arguments, request, outline_a, outline_b);
     const PlacedOutline a = place(outline_a, deviation, arguments.treatment, arguments.pose_a);
     const PlacedOutline b = place(outline_b, deviation, arguments.treatment, arguments.pose_b);
-    if (request.tolerance == 0.0 && request.type != QueryType::intersection_test) {
+    if (request.tolerance == 0.0 && has_tolerance(request.type)) {
         request.tolerance = usual_tolerance({a.rings, a.deviation, a.pose.translation},
                                             {b.rings, b.deviation, b.pose.translation});
     }

@@ -18,7 +18,7 @@ struct QueryKind {
     const char* example;  ///< the arguments after "nearfield query KIND"
 };
 
-constexpr std::array<QueryKind, 9> query_kinds{{
+constexpr std::array<QueryKind, 10> query_kinds{{
     {QueryType::penetration, "How deep the boundary of A lies inside B, and the way out",
      "A.geojson B.wkt -d 0.8 --json - --image out.png"},
     {QueryType::contacts, "The points of either boundary near the other, and normals",
@@ -37,12 +37,15 @@ constexpr std::array<QueryKind, 9> query_kinds{{
      "A.geojson B.wkt -d 0.01 --end-pose-a 400,0,90"},
     {QueryType::separation_vector, "A short translation of A that separates it from B",
      "A.geojson B.wkt -d 1 --pose-b 120,20,30"},
+    {QueryType::containment, "Whether A lies inside B, and its clearance to B's boundary",
+     "A.geojson B.wkt --pose-b 120,20,30"},
 }};
 
 /// The meaning of -d for a kind.
 const char* describe_tolerance(QueryType type) {
     switch (type) {
         case QueryType::intersection_test:
+        case QueryType::containment:
             return "Tolerance, world units, > 0: curves of SVG become edges that are off by at "
                    "most a sixteenth of it. Of no other use: the test is exact; default none";
         case QueryType::time_of_impact:
@@ -189,6 +192,7 @@ void add_answer_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
         case QueryType::closest_point:
         case QueryType::separation:
         case QueryType::intersection_test:
+        case QueryType::containment:
             break;
     }
 }

@@ -30,6 +30,9 @@ void add_result(FrameWork& work, const ContactResult& result) {
 void add_result(FrameWork& work, const IntersectionTestResult& result) {
     work.found += result.intersects ? 1 : 0;
 }
+void add_result(FrameWork& work, const ContainmentResult& result) {
+    work.found += result.inside ? 1 : 0;
+}
 /// Closest points, separations, fields, times of impact and separation vectors.
 void add_result(FrameWork& work, const ResultSummary& /*result*/) {
     ++work.found;

@@ -221,8 +221,7 @@ void SceneRunner::add_to(Batch& batch, const Entry& entry) const {
     const SceneInstance& a = scene_.instances[entry.a];
     const SceneInstance& b = scene_.instances[entry.b];
     const bool is_moving = request.type == QueryType::time_of_impact;
-    const bool lacks_tolerance =
-        request.tolerance == 0.0 && request.type != QueryType::intersection_test;
+    const bool lacks_tolerance = request.tolerance == 0.0 && has_tolerance(request.type);
     if (!is_moving && !lacks_tolerance) {
         add_query(batch, request, instances_[entry.a], instances_[entry.b]);
         return;

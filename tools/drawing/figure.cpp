@@ -43,6 +43,7 @@ const Rectangle& detail_panel(const Answer& answer) {
         case QueryType::intersection_test:
         case QueryType::time_of_impact:
         case QueryType::separation_vector:
+        case QueryType::containment:
             break;
     }
     return panel_alone;
@@ -79,6 +80,8 @@ std::string title_of(const Figure& figure, Canvas& canvas) {
             return "First contact of " + name(figure.a) + " and " + name(figure.b);
         case QueryType::separation_vector:
             return "Separation of " + name(figure.a) + " from " + name(figure.b);
+        case QueryType::containment:
+            return "Containment of " + name(figure.a) + " in " + name(figure.b);
         case QueryType::distance_field:
             break;
     }
@@ -148,6 +151,12 @@ std::string facts_of(const SeparationVectorResult& result) {
                ? "length " + short_number(result.length) + " \u00B7 none is shorter than " +
                      short_number(result.lower_bound)
                : "the shapes are apart";
+}
+
+std::string facts_of(const ContainmentResult& result) {
+    return !result.inside           ? "A is not inside B"
+           : result.clearance > 0.0 ? "inside, clearance " + short_number(result.clearance)
+                                    : "inside, touching";
 }
 
 void draw_header(Canvas& canvas, const Figure& figure) {
@@ -272,6 +281,10 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
         draw_closest_pair(canvas, view.to_page(impact->point_a), view.to_page(impact->point_b));
     } else if (const auto* way = std::get_if<SeparationVectorResult>(&figure.answer.result)) {
         draw_separation_vector(canvas, figure, *way, view);
+    } else if (const auto* containment = std::get_if<ContainmentResult>(&figure.answer.result);
+               containment != nullptr && containment->inside) {
+        draw_closest_pair(canvas, view.to_page(containment->point_a),
+                          view.to_page(containment->point_b));
     }
     draw_scale_bar(canvas, view);
     canvas.unclip();
@@ -279,7 +292,7 @@ void draw_detail(Canvas& canvas, const Figure& figure, const View& view,
 }
 
 /// The area of interest for two closest points: both points with a margin of their distance, or the
-/// whole shapes if they intersect.
+/// whole shapes if that is 0.
 Rectangle around(const Rectangle& shapes, Vector2 a, Vector2 b) {
     const double distance = std::hypot(b.x - a.x, b.y - a.y);
     if (distance == 0.0) {
@@ -322,6 +335,8 @@ Rectangle detail_rectangle(const Answer& answer, const FigureShape& a, const Fig
         box = around(shapes, closest->point, closest->nearest);
     } else if (const auto* separation = std::get_if<SeparationResult>(&answer.result)) {
         box = around(shapes, separation->point_a, separation->point_b);
+    } else if (const auto* containment = std::get_if<ContainmentResult>(&answer.result)) {
+        box = around(shapes, containment->point_a, containment->point_b);
     } else if (const auto* impact = std::get_if<TimeOfImpactResult>(&answer.result)) {
         box = around_contact(a, b, *impact);
     } else if (const auto* way = std::get_if<SeparationVectorResult>(&answer.result)) {

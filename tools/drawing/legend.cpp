@@ -97,6 +97,13 @@ void add_entries(std::vector<LegendEntry>& entries, const SeparationVectorResult
     }
 }
 
+void add_entries(std::vector<LegendEntry>& entries, const ContainmentResult& result) {
+    if (result.inside) {
+        entries.push_back(
+            {pair_mark(draw_closest_pair, false), "closest points of the boundaries"});
+    }
+}
+
 /// Three features of one kind, side by side.
 auto feature_colors(Feature::Kind kind) {
     return [kind](Canvas& canvas, const Rectangle& area) {
@@ -148,6 +155,7 @@ const char* meaning_of_regions(QueryType type) {
         case QueryType::intersection_test:
         case QueryType::time_of_impact:
         case QueryType::separation_vector:
+        case QueryType::containment:
             break;
     }
     return "region of potential intersection";

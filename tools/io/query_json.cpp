@@ -153,7 +153,7 @@ void write_result(JsonWriter& json, const ContactResult& result) {
     json.end_array();
 }
 
-/// Writes null if the shapes intersect, because then there is no direction.
+/// Writes null at distance 0, because then there is no direction.
 void write_direction(JsonWriter& json, double distance, Vector2 direction) {
     json.key("direction");
     if (distance > 0.0) {
@@ -163,12 +163,13 @@ void write_direction(JsonWriter& json, double distance, Vector2 direction) {
     }
 }
 
+/// Writes null at distance 0.
 template <class Result>
-void write_feature_pair(JsonWriter& json, const Result& result) {
+void write_feature_pair(JsonWriter& json, const Result& result, double distance) {
     for (const auto& [key, feature] :
          {std::pair{"feature_a", result.feature_a}, std::pair{"feature_b", result.feature_b}}) {
         json.key(key);
-        if (result.distance > 0.0) {
+        if (distance > 0.0) {
             write_feature(json, feature);
         } else {
             json.null();
@@ -178,7 +179,7 @@ void write_feature_pair(JsonWriter& json, const Result& result) {
 
 template <class Result>
 void write_features(JsonWriter& json, const Result& result) {
-    write_feature_pair(json, result);
+    write_feature_pair(json, result, result.distance);
     json.key("unique").value(result.unique);
     json.key("sampled_distance").value(result.sampled_distance);
 }
@@ -217,7 +218,7 @@ void write_result(JsonWriter& json, const TimeOfImpactResult& result) {
     json.key("least_distance").value(result.min_distance);
     json.key("point_a").value(result.point_a).key("point_b").value(result.point_b);
     write_direction(json, result.distance, result.direction);
-    write_feature_pair(json, result);
+    write_feature_pair(json, result, result.distance);
     json.key("steps").value(std::uint64_t{result.steps});
 }
 
@@ -226,6 +227,23 @@ void write_result(JsonWriter& json, const SeparationVectorResult& result) {
     json.key("length").value(result.length);
     json.key("lower_bound").value(result.lower_bound);
     json.key("work").value(result.work);
+}
+
+void write_result(JsonWriter& json, const ContainmentResult& result) {
+    json.key("inside").value(result.inside);
+    json.key("clearance").value(result.clearance);
+    for (const auto& [key, point] :
+         {std::pair{"point_a", result.point_a}, std::pair{"point_b", result.point_b}}) {
+        json.key(key);
+        if (result.inside) {
+            json.value(point);
+        } else {
+            json.null();
+        }
+    }
+    write_direction(json, result.clearance, result.direction);
+    write_feature_pair(json, result, result.clearance);
+    json.key("unique").value(result.unique);
 }
 
 }  // namespace
@@ -264,7 +282,7 @@ void write_localization(JsonWriter& json, const LocalizationStatistics& statisti
 void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
     const ResultSummary& summary = summary_of(result);
     json.key("query").value(name_of(request.type));
-    if (request.type != QueryType::intersection_test) {
+    if (has_tolerance(request.type)) {
         json.key("tolerance").value(summary.tolerance);
     }
     json.key("error_bound").value(summary.error_bound);

@@ -12,7 +12,7 @@ namespace {
 template <class Value>
 using Named = std::pair<std::string_view, Value>;
 
-constexpr std::array<Named<QueryType>, 9> query_types{{
+constexpr std::array<Named<QueryType>, 10> query_types{{
     {"penetration", QueryType::penetration},
     {"intersection", QueryType::intersection},
     {"distance-field", QueryType::distance_field},
@@ -22,6 +22,7 @@ constexpr std::array<Named<QueryType>, 9> query_types{{
     {"intersection-test", QueryType::intersection_test},
     {"time-of-impact", QueryType::time_of_impact},
     {"separation-vector", QueryType::separation_vector},
+    {"containment", QueryType::containment},
 }};
 constexpr std::array<Named<Technique>, 4> techniques{{
     {"automatic", Technique::automatic},
@@ -197,6 +198,9 @@ void add_query(Batch& batch, const QueryRequest& request, const Instance& a, con
             break;
         case QueryType::intersection_test:
             batch.add(IntersectionTestQuery{a, b, request.technique});
+            break;
+        case QueryType::containment:
+            batch.add(ContainmentQuery{a, b, request.technique});
             break;
         case QueryType::separation_vector:
             batch.add(SeparationVectorQuery{a, b, request.tolerance, request.max_work,

@@ -21,7 +21,8 @@ enum class QueryType {
     separation,
     intersection_test,
     time_of_impact,
-    separation_vector
+    separation_vector,
+    containment
 };
 
 /// The contents of a distance field's picture.
@@ -59,12 +60,17 @@ struct QueryRequest {
 /// True for a query that the device may answer by sampling on a grid.
 [[nodiscard]] constexpr bool is_sampled(QueryType type) {
     return type != QueryType::intersection_test && type != QueryType::time_of_impact &&
-           type != QueryType::separation_vector;
+           type != QueryType::separation_vector && type != QueryType::containment;
+}
+
+/// True for a query that has a tolerance. Without, one given serves for curves alone.
+[[nodiscard]] constexpr bool has_tolerance(QueryType type) {
+    return type != QueryType::intersection_test && type != QueryType::containment;
 }
 
 /// True of a query whose answer does not depend on the tolerance, which need not be given.
 [[nodiscard]] constexpr bool is_exact(QueryType type) {
-    return type == QueryType::intersection_test || type == QueryType::separation ||
+    return !has_tolerance(type) || type == QueryType::separation ||
            type == QueryType::closest_point;
 }
 

@@ -247,6 +247,7 @@ std::vector<std::string_view> members_of(QueryType type) {
         case QueryType::closest_point:
         case QueryType::separation:
         case QueryType::intersection_test:
+        case QueryType::containment:
             break;
         case QueryType::separation_vector:
             add({"most_work"});

@@ -98,14 +98,19 @@ void write_result(std::ostream& stream, const ContactResult& result) {
     }
 }
 
+void write_pair(std::ostream& stream, Vector2 on_a, Vector2 on_b, Feature feature_a,
+                Feature feature_b, bool unique) {
+    write_item(stream, "point of A", point_text(on_a) + " on " + feature_text(feature_a));
+    write_item(stream, "point of B",
+               point_text(on_b) + " on " + feature_text(feature_b) +
+                   (unique ? "" : ", one of several pairs"));
+}
+
 void write_closest(std::ostream& stream, double distance, Vector2 on_a, Vector2 on_b,
                    Feature feature_a, Feature feature_b, bool unique) {
     write_item(stream, "distance", short_number(distance));
     if (distance > 0.0) {
-        write_item(stream, "point of A", point_text(on_a) + " on " + feature_text(feature_a));
-        write_item(stream, "point of B",
-                   point_text(on_b) + " on " + feature_text(feature_b) +
-                       (unique ? "" : ", one of several pairs"));
+        write_pair(stream, on_a, on_b, feature_a, feature_b, unique);
     } else {
         write_item(stream, "common point", point_text(on_a));
     }
@@ -166,6 +171,20 @@ void write_result(std::ostream& stream, const SeparationVectorResult& result) {
         short_number(result.length) + "; none is shorter than " + short_number(result.lower_bound));
 }
 
+void write_result(std::ostream& stream, const ContainmentResult& result) {
+    write_item(stream, "A inside B", result.inside ? "yes" : "no");
+    if (!result.inside) {
+        return;
+    }
+    write_item(stream, "clearance", short_number(result.clearance));
+    if (result.clearance > 0.0) {
+        write_pair(stream, result.point_a, result.point_b, result.feature_a, result.feature_b,
+                   result.unique);
+    } else {
+        write_item(stream, "touching at", point_text(result.point_a));
+    }
+}
+
 void write_regions(std::ostream& stream, const ResultSummary& summary) {
     write_item(stream, "regions", std::to_string(summary.regions.size()));
     constexpr std::size_t max_shown = 8;
@@ -218,7 +237,7 @@ void write_summary(std::ostream& stream, const Answer& answer) {
     write_item(stream, "device", device_text(answer.device));
     write_item(stream, "technique", to_string(summary.technique));
     const std::string bound = short_number(summary.error_bound);
-    if (answer.request.type == QueryType::intersection_test) {
+    if (!has_tolerance(answer.request.type)) {
         write_item(stream, "error bound", bound);
     } else {
         write_item(stream, "tolerance", short_number(summary.tolerance) + ", error bound " + bound);

@@ -21,7 +21,7 @@ import sys
 import tempfile
 
 DATA = pathlib.Path(__file__).resolve().parents[2] / "tests" / "data"
-# Kinds of queries with what they need beside a tolerance; the last three are the CPU's alone.
+# Kinds of queries with what they need beside a tolerance; CPU_KINDS are the CPU's alone.
 KINDS = [
     ("penetration", {}),
     ("penetration", {"points": "vertices"}),
@@ -33,7 +33,14 @@ KINDS = [
     ("separation", {}),
     ("distance-field", {}),
 ]
-CPU_KINDS = [("intersection-test", {}), ("time-of-impact", {}), ("separation-vector", {})]
+CPU_KINDS = [
+    ("intersection-test", {}),
+    ("time-of-impact", {}),
+    ("separation-vector", {}),
+    ("containment", {}),
+]
+# Kinds without a tolerance.
+EXACT_KINDS = ("intersection-test", "containment")
 STATISTICS = {"timings_ms", "localization", "steps", "work", "device"}
 
 
@@ -124,7 +131,7 @@ def jobs(options, folder, field):
         for a, b in itertools.permutations(files, 2):
             for kind, extra in kinds:
                 command = ["query", kind, str(a), str(b), "--technique", technique]
-                command += [] if kind == "intersection-test" else ["-d", "5"]
+                command += [] if kind in EXACT_KINDS else ["-d", "5"]
                 for name, value in extra.items():
                     command += [f"--{name}", value]
                 if kind == "distance-field":

@@ -158,6 +158,7 @@ void Questions::add_cpu() {
     const Instance a = pair_->instance_a();
     const Instance b = pair_->instance_b();
     add(IntersectionTestQuery{a, b});
+    add(ContainmentQuery{a, b});
     add(TimeOfImpactQuery{a, b, b.pose, b.pose, pair_->tolerance()});
     SeparationVectorQuery vector{a, b, pair_->tolerance()};
     vector.max_work = 100'000;

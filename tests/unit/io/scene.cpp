@@ -261,7 +261,8 @@ TEST(ToolsValues, TolerancesAndRectanglesAreChecked) {
 TEST(ToolsRequest, WhatThisVersionLacksIsRefusedByName) {
     EXPECT_EQ(input_error([] { return parse_query_type("depth", "query"); }),
               "query: \"depth\" is none of penetration, intersection, distance-field, contacts, "
-              "closest-point, separation, intersection-test, time-of-impact, separation-vector");
+              "closest-point, separation, intersection-test, time-of-impact, separation-vector, "
+              "containment");
     EXPECT_EQ(input_error([] { return parse_technique("gpu", "--technique"); }),
               "--technique: \"gpu\" is none of automatic, raster, compute, cpu");
     EXPECT_EQ(input_error([] { return parse_strategy("blending", "--strategy"); }),

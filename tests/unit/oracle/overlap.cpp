@@ -40,6 +40,27 @@ TEST(OracleOverlap, FillsByTheOddEvenRule) {
     EXPECT_NEAR(area(ShapeOracle(test::pentagram())), 5 * tip, 1e-12);
 }
 
+TEST(OracleOverlap, ProtrusionOfSimpleShapes) {
+    const auto box = [](double x0, double y0, double x1, double y1) {
+        return test::rectangle({x0, y0}, {x1, y1});
+    };
+    Rings frame = box(0, 0, 10, 10);
+    frame.push_back(box(4, 4, 6, 6)[0]);
+    const ShapeOracle framed(frame);
+    const auto protrusion_of = [&](const Rings& rings) {
+        return protrusion(ShapeOracle(rings), framed);
+    };
+    EXPECT_EQ(protrusion_of(frame), 0.0);
+    EXPECT_EQ(protrusion_of(box(1, 1, 3, 9)), 0.0);
+    EXPECT_EQ(protrusion_of(box(0, 0, 4, 10)), 0.0);  // touches from inside
+    EXPECT_NEAR(protrusion_of(box(1, 1, 3, 13)), 3.0, 1e-12);
+    EXPECT_NEAR(protrusion_of(box(20, 0, 21, 1)), 11.0, 1e-12);
+    EXPECT_NEAR(protrusion_of(box(4, 4, 6, 6)), 1.0, 1e-12);      // fills the hole
+    EXPECT_NEAR(protrusion_of(box(1, 4.5, 9, 5.5)), 1.0, 1e-12);  // across the hole
+    // A line without area that reaches out.
+    EXPECT_NEAR(protrusion_of({{{1, 1}, {2, 1}, {2, 2}, {-5, 2}, {2, 2}, {2, 3}}}), 5.0, 1e-12);
+}
+
 TEST(OracleOverlap, AreaAgreesWithThrownPoints) {
     Random random(seed);
     const auto shapes = test::every_family(seed);
