@@ -1,5 +1,6 @@
 #include <engine/simd/ordered_search.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -73,7 +74,10 @@ private:
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
             const Lanes own = aim_.Keys(boxes_at(tree_.level(level), first + i));
             hn::StoreU(own, tag, keys + i);
-            left |= bits_of(hn::Le(own, hn::Set(tag, aim_.bound()))) << i;
+            // Boxes that hold nothing have an infinite key, and a bound may be infinite.
+            const Lanes most =
+                hn::Set(tag, std::min(aim_.bound(), std::numeric_limits<double>::max()));
+            left |= bits_of(hn::Le(own, most)) << i;
         }
         while (left != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
