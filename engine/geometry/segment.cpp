@@ -62,10 +62,11 @@ std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vect
     // Either an end of cd touches ab, or the other end of ab touches cd, or they cross.
     std::optional<double> first;
     const auto take = [&](double parameter) { first = std::min(first.value_or(1.0), parameter); };
-    for (const Vector& end : {c, d}) {
-        const NearestOnSegment nearest = nearest_on_segment(end, a, b);
-        if (nearest.squared_distance <= reach) {
-            take(nearest.parameter);
+    const NearestOnSegment at_c = nearest_on_segment(c, a, b);
+    const NearestOnSegment at_d = nearest_on_segment(d, a, b);
+    for (const NearestOnSegment& end : {at_c, at_d}) {
+        if (end.squared_distance <= reach) {
+            take(end.parameter);
         }
     }
     if (nearest_on_segment(b, c, d).squared_distance <= reach) {
@@ -75,7 +76,10 @@ std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vect
         const double a_side = std::abs(cross(d - c, a - c));
         const double b_side = std::abs(cross(d - c, b - c));
         if (a_side + b_side > 0.0) {
-            take(a_side / (a_side + b_side));
+            // Of segments that are almost parallel the sides are little more than rounding, but the
+            // crossing is beside cd all the same.
+            const auto [low, high] = std::minmax(at_c.parameter, at_d.parameter);
+            take(std::clamp(a_side / (a_side + b_side), low, high));
         }
     }
     return first;

@@ -9,6 +9,16 @@ namespace nearfield::world {
 
 using geometry::Vector;
 
+namespace {
+
+/// True if an edge joins two vertices at the same place. It has no normal, and the edges beside it
+/// are hit wherever it would be.
+bool is_repeated_vertex(const geometry::Polygon& polygon, std::uint32_t edge) {
+    return polygon.vertices()[edge] == polygon.vertices()[polygon.next(edge)];
+}
+
+}  // namespace
+
 void RayQueries::begin(const Instances& instances, const WorldFilter& filter) {
     instances_ = &instances;
     filter_ = filter;
@@ -38,7 +48,7 @@ void RayQueries::search_edges_of(std::uint32_t index) {
         const std::optional<double> parameter =
             geometry::first_meeting(of.all.from_, of.all.to_, of.edges.start(edge),
                                     of.edges.end(edge), of.edges.rounding + of.all.rounding_);
-        if (parameter) {
+        if (parameter && !is_repeated_vertex(of.all.instances_->polygon(of.index), edge)) {
             of.all.take({*parameter, of.all.instances_->number(of.index), of.index, edge});
         }
         return of.bound();
@@ -70,13 +80,16 @@ RayHit RayQueries::hit_of(const Found& found) const {
     const simd::TransformedEdges& edges = instances_->edges(found.instance);
     const Vector way = to_ - from_;
     const Vector along = edges.end(found.edge) - edges.start(found.edge);
-    Vector normal = Vector(-along.y(), along.x()).stableNormalized();
+    // Far from the origin an edge may be shorter than what rounding leaves of it.
+    const bool has_length = along != Vector::Zero();
+    Vector normal = (has_length ? Vector(-along.y(), along.x()) : Vector(-way)).stableNormalized();
     if (normal.dot(way) > 0.0) {
         normal = -normal;
     }
+    // What is as close as rounding allows is hit; the edge and the point are rounded once more.
     return {instances_->handle(found.instance),
             found.parameter,
-            edges.rounding + rounding_ + instances_->deviation(found.instance),
+            2.0 * (edges.rounding + rounding_) + instances_->deviation(found.instance),
             geometry::to_public(from_ + found.parameter * way),
             geometry::to_public(normal),
             found.edge};
