@@ -129,7 +129,7 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     double known = std::min(best_.distance, max_clearance);
     if (index == guess_) {
         // What was nearest at the pose before is still near.
-        const geometry::Vector vertex = edges().start(guess_vertex_);
+        const geometry::Vector vertex = complete_edges().start(guess_vertex_);
         known =
             std::min(known, std::sqrt(geometry::nearest_on_segment(vertex, other.start(guess_edge_),
                                                                    other.end(guess_edge_))
