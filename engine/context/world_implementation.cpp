@@ -247,10 +247,13 @@ std::uint64_t World::Implementation::bytes() const {
 
 void World::Implementation::trim() {
     instances_.trim();
-    scratch_ = std::vector<Job>(jobs_.count());
+    for (Job& job : scratch_) {
+        job = Job();
+    }
     batch_ = {};
     results_ = {};
     candidates_ = {};
+    hilbert_order_ = {};
 }
 
 }  // namespace nearfield

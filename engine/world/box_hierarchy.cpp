@@ -41,8 +41,8 @@ Extent BoxHierarchy::Node::at(std::uint32_t box) const {
 
 void BoxHierarchy::set(std::uint32_t name, const Box& box) {
     if (name >= leaves_.size()) {
-        leaves_.resize(name + 1, nowhere);
         boxes_.resize(name + 1, nothing);
+        leaves_.resize(name + 1, nowhere);
     }
     boxes_[name] = box.isEmpty() ? nothing : geometry::extent_of(box);
     if (levels_.empty()) {
@@ -62,7 +62,7 @@ void BoxHierarchy::set(std::uint32_t name, const Box& box) {
 }
 
 void BoxHierarchy::remove(std::uint32_t name) {
-    if (name >= boxes_.size()) {
+    if (name >= leaves_.size()) {
         return;
     }
     boxes_[name] = nothing;
@@ -79,12 +79,20 @@ void BoxHierarchy::remove(std::uint32_t name) {
 void BoxHierarchy::prepare() {
     constexpr double too_large = 2.0;
     if (levels_.empty() || size_ > too_large * size_when_built_) {
-        build();
+        try {
+            build();
+        } catch (...) {
+            levels_.clear();  // to be built again
+            throw;
+        }
     }
 }
 
-void BoxHierarchy::clear() {
-    *this = {};
+void BoxHierarchy::trim() {
+    levels_ = {};
+    names_ = {};
+    free_ = {};
+    on_curve_ = {};
 }
 
 void BoxHierarchy::set_box(std::size_t level, std::uint32_t box, const Extent& extent) {
@@ -125,9 +133,9 @@ void BoxHierarchy::build() {
         }
     }
     const HilbertCurve curve(all);
+    leaves_.assign(boxes_.size(), nowhere);
     on_curve_.clear();
     for (std::uint32_t name = 0; name < boxes_.size(); ++name) {
-        leaves_[name] = nowhere;
         const Extent& box = boxes_[name];
         if (!is_empty(box)) {
             on_curve_.emplace_back(
@@ -139,6 +147,7 @@ void BoxHierarchy::build() {
     const auto leaves = static_cast<std::uint32_t>(simd::padded(count + count / 4 + fan_out));
     names_.assign(leaves, nowhere);
     free_.clear();
+    free_.reserve(leaves);  // so that removing never fails
     for (std::uint32_t leaf = leaves; leaf-- > count;) {
         free_.push_back(leaf);
     }

@@ -23,7 +23,8 @@ public:
     /// Orders the boxes, if that pays. Searches do not change the tree, so several threads may
     /// search it at the same time.
     void prepare();
-    void clear();
+    /// Gives back all but the boxes; the tree is built again when it is needed.
+    void trim();
 
     /// Calls `use(name)` for every box that intersects a closed box.
     template <class Use>

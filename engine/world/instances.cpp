@@ -26,6 +26,9 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     if (free_.empty()) {
         // Allocate first: if this fails, nothing has changed.
         free_.reserve(1);
+        if (changes_.capacity() <= entries_.size()) {
+            changes_.reserve(2 * entries_.size() + 8);  // for all, so that changes never fail
+        }
         entries_.emplace_back();
         free_.push_back(static_cast<std::uint32_t>(entries_.size() - 1));
     }
@@ -71,8 +74,7 @@ void Instances::remove(std::uint32_t index) {
 }
 
 void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revision) {
-    const bool shapes_changed = std::exchange(shapes_revision_, shapes_revision) != shapes_revision;
-    if (shapes_changed) {
+    if (shapes_revision_ != shapes_revision) {
         for (std::uint32_t i = 0; i < entries_.size(); ++i) {
             const Entry& entry = entries_[i];
             const geometry::Polygon* const polygon =
@@ -82,18 +84,21 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
                 note_change(i);
             }
         }
+        shapes_revision_ = shapes_revision;
     }
     if (!changes_.empty()) {
         ++last_change_;
     }
     for (const std::uint32_t i : changes_) {
         Entry& entry = entries_[i];
-        entry.is_changed = false;
         if (entry.present) {
             entry.polygon = find_shape(entry.instance.shape);
             entry.changed = last_change_;
             place(i);
         }
+    }
+    for (const std::uint32_t i : changes_) {
+        entries_[i].is_changed = false;
     }
     changes_.clear();
     boxes_.prepare();
@@ -137,17 +142,11 @@ std::size_t Instances::bytes() const {
 }
 
 void Instances::trim() {
-    boxes_.clear();
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-        Entry& entry = entries_[i];
+    boxes_.trim();
+    for (Entry& entry : entries_) {
         entry.edges = {};
         entry.has_edges = false;
-        if (entry.present && entry.polygon != nullptr && !entry.is_changed) {
-            boxes_.set(i, entry.box);
-        }
     }
-    free_.shrink_to_fit();
-    changes_.shrink_to_fit();
 }
 
 }  // namespace nearfield::world
