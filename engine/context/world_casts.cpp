@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace nearfield {
 namespace {
@@ -80,9 +81,14 @@ void World::Implementation::answer_candidates(std::span<ShapeCastHit> hits) {
         if (result.state == ImpactState::separated) {
             continue;
         }
-        const bool is_first = hit.state == ImpactState::separated || result.time < hit.time ||
-                              (result.time == hit.time &&
-                               instances_.number(index) < instances_.number(hit.instance.index));
+        // A hit can have time 0 too, but what is touched at the start is touched before.
+        const auto order = [&](ImpactState state, double time, std::uint32_t instance) {
+            return std::tuple(time, state != ImpactState::intersecting_at_start,
+                              instances_.number(instance));
+        };
+        const bool is_first = hit.state == ImpactState::separated ||
+                              order(result.state, result.time, index) <
+                                  order(hit.state, hit.time, hit.instance.index);
         if (is_first) {
             hit = hit_of(result, instances_.handle(index));
         }
