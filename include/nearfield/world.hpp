@@ -162,13 +162,15 @@ struct ShapeCastQuery {
 /// When a moving shape first touches a world.
 struct ShapeCastHit {
     ImpactState state = ImpactState::separated;  ///< the outcome
-    InstanceHandle instance = {};                ///< the one touched first; none if separated
-    double time = 1.0;                           ///< as TimeOfImpactResult::time: never late
-    double time_error_bound = 0.0;               ///< as TimeOfImpactResult::time_error_bound
-    double error_bound = 0.0;  ///< as ResultSummary::error_bound of a TimeOfImpactResult
-    Vector2 point = {};        ///< of the moving shape at `time`, nearest to `instance`
-    Vector2 nearest = {};      ///< of `instance`, nearest to `point`
-    Vector2 direction = {};    ///< unit vector from `point` to `nearest`; (0, 0) where they meet
+    /// The one touched first; none if separated. Of several, one touched at the start, then the one
+    /// added first.
+    InstanceHandle instance = {};
+    double time = 1.0;              ///< as TimeOfImpactResult::time: never late
+    double time_error_bound = 0.0;  ///< as TimeOfImpactResult::time_error_bound
+    double error_bound = 0.0;       ///< as ResultSummary::error_bound of a TimeOfImpactResult
+    Vector2 point = {};             ///< of the moving shape at `time`, nearest to `instance`
+    Vector2 nearest = {};           ///< of `instance`, nearest to `point`
+    Vector2 direction = {};  ///< unit vector from `point` to `nearest`; (0, 0) where they meet
 };
 
 template <class Query>
@@ -244,7 +246,8 @@ public:
     Status cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                      const WorldFilter& filter = {});
     /// For each segment, all hits. A vertex where the segment passes from one edge to the next is
-    /// one hit of each. An edge along the segment is hit where they first meet.
+    /// one hit of each. An edge along the segment is hit where they first meet. Edges without
+    /// length, between repeated vertices, are never hit.
     Status cast_rays(std::span<const Segment> segments, RayHits& hits,
                      const WorldFilter& filter = {});
 

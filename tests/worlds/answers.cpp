@@ -1,0 +1,213 @@
+#include "answers.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace nearfield::test {
+
+Questions any_questions(Random& random, const Rectangle& box, int count) {
+    Questions questions;
+    const double width = box.max.x - box.min.x;
+    const double height = box.max.y - box.min.y;
+    const auto point = [&]() -> Vector2 {
+        const Vector2 at{box.min.x + random.between(-0.1, 1.1) * width,
+                         box.min.y + random.between(-0.1, 1.1) * height};
+        // Whole numbers are where squares of whole numbers tie.
+        return random.whole(0, 3) == 0 ? Vector2{std::round(at.x), std::round(at.y)} : at;
+    };
+    for (int i = 0; i < count; ++i) {
+        questions.poses.push_back({point(), random.whole(0, 3) * random.between(-1.0, 1.0)});
+        questions.points.push_back(point());
+        questions.segments.push_back({point(), point()});
+        const Vector2 low = point();
+        questions.rectangles.push_back(
+            {low, {low.x + random.scale(1e-3, 2.0), low.y + random.scale(1e-3, 2.0)}});
+        if (i % 8 == 0) {
+            const Pose start{point(), random.between(0.0, 3.0)};
+            questions.sweeps.push_back({start, {point(), start.angle + random.whole(0, 1)}});
+        }
+    }
+    if (random.whole(0, 3) == 0) {
+        questions.filter.mask = static_cast<std::uint32_t>(random.whole(1, 15));
+    }
+    questions.limits.min_clearance = random.whole(0, 1) == 0 ? 0.0 : -random.scale(1e-3, 1.0);
+    questions.limits.max_clearance = random.scale(1e-3, 3.0);
+    questions.nearest.count = static_cast<std::uint32_t>(random.whole(1, 6));
+    questions.edges.count = static_cast<std::uint32_t>(random.whole(1, 9));
+    questions.edges.kind = NearestKind::edges;
+    if (random.whole(0, 1) == 0) {
+        questions.nearest.max_distance = random.scale(1e-2, 5.0);
+        questions.edges.max_distance = random.scale(1e-2, 5.0);
+    }
+    questions.contact_distance = random.whole(0, 1) == 0 ? 0.0 : random.scale(1e-3, 0.5);
+    return questions;
+}
+
+bool Answers::note(Status status, const char* call) {
+    begin(call);
+    if (!status.ok() && status_.ok()) {
+        status_ = std::move(status);
+    }
+    return status_.ok();
+}
+
+void Answers::add(const RayHit& hit) {
+    add(hit.instance);
+    add(hit.parameter);
+    add(hit.error_bound);
+    add(hit.point);
+    add(hit.normal);
+    add(static_cast<double>(hit.edge));
+}
+
+void Answers::add(const InstanceLists& lists) {
+    for (const std::uint32_t offset : lists.offsets) {
+        add(static_cast<double>(offset));
+    }
+    for (const InstanceHandle handle : lists.instances) {
+        add(handle);
+    }
+}
+
+void Answers::ask_clearances(World& world, const ClearanceQuery& query,
+                             std::span<const Pose> poses) {
+    std::vector<Clearance> clearances(poses.size());
+    if (!note(world.find_clearances(query, poses, clearances), "find_clearances")) {
+        return;
+    }
+    for (const Clearance& clearance : clearances) {
+        add(clearance.distance);
+        add(clearance.error_bound);
+        add(clearance.instance);
+        add(clearance.point);
+        add(clearance.nearest);
+        add(clearance.direction);
+    }
+}
+
+void Answers::ask_poses(World& world, ShapeHandle shape, const Questions& questions) {
+    std::vector<std::uint8_t> intersects(questions.poses.size());
+    if (!note(world.test_poses({shape, questions.filter}, questions.poses, intersects),
+              "test_poses")) {
+        return;
+    }
+    for (const std::uint8_t each : intersects) {
+        add(static_cast<double>(each));
+    }
+    ask_clearances(world, {shape, questions.filter}, questions.poses);
+    ClearanceQuery limited = questions.limits;
+    limited.shape = shape;
+    limited.filter = questions.filter;
+    ask_clearances(world, limited, questions.poses);
+}
+
+void Answers::ask_nearest(World& world, const NearestQuery& query,
+                          std::span<const Vector2> points) {
+    std::vector<NearestHit> hits(points.size() * query.count);
+    if (!note(world.find_nearest(query, points, hits), "find_nearest")) {
+        return;
+    }
+    for (const NearestHit& hit : hits) {
+        add(hit.instance);
+        add(hit.distance);
+        add(hit.error_bound);
+        add(hit.nearest);
+        add(static_cast<double>(hit.feature.kind));
+        add(static_cast<double>(hit.feature.index));
+    }
+}
+
+void Answers::ask_rays(World& world, const Questions& questions) {
+    std::vector<RayHit> first(questions.segments.size());
+    RayHits all;
+    if (!note(world.cast_rays(questions.segments, first, questions.filter), "cast_rays, first") ||
+        !note(world.cast_rays(questions.segments, all, questions.filter), "cast_rays, all")) {
+        return;
+    }
+    for (const RayHit& hit : first) {
+        add(hit);
+    }
+    for (const std::uint32_t offset : all.offsets) {
+        add(static_cast<double>(offset));
+    }
+    for (const RayHit& hit : all.hits) {
+        add(hit);
+    }
+}
+
+void Answers::ask_casts(World& world, ShapeHandle shape, const Questions& questions) {
+    std::vector<ShapeCastHit> hits(questions.sweeps.size());
+    const ShapeCastQuery query{shape, questions.filter, questions.tolerance,
+                               questions.contact_distance};
+    if (!note(world.cast_shape(query, questions.sweeps, hits), "cast_shape")) {
+        return;
+    }
+    for (const ShapeCastHit& hit : hits) {
+        add(static_cast<double>(hit.state));
+        add(hit.instance);
+        add(hit.time);
+        add(hit.time_error_bound);
+        add(hit.error_bound);
+        add(hit.point);
+        add(hit.nearest);
+        add(hit.direction);
+    }
+}
+
+void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {
+    InstanceLists lists;
+    if (note(world.find_overlaps(questions.rectangles, lists, questions.filter),
+             "find_overlaps of rectangles")) {
+        add(lists);
+    }
+    if (note(world.find_overlaps(questions.points, lists, questions.filter),
+             "find_overlaps of points")) {
+        add(lists);
+    }
+    if (note(world.find_overlaps({shape, questions.filter}, questions.poses, lists),
+             "find_overlaps of a shape")) {
+        add(lists);
+    }
+}
+
+void Answers::ask(World& world, ShapeHandle shape, const Questions& questions) {
+    ask_poses(world, shape, questions);
+    for (NearestQuery query : {questions.nearest, questions.edges}) {
+        query.filter = questions.filter;
+        ask_nearest(world, query, questions.points);
+    }
+    ask_rays(world, questions);
+    ask_casts(world, shape, questions);
+    ask_overlaps(world, shape, questions);
+}
+
+std::string Answers::difference_from(const Answers& other) const {
+    const std::size_t size = std::min(numbers_.size(), other.numbers_.size());
+    for (std::size_t i = 0; i <= size; ++i) {
+        const bool is_end = i == size;
+        if (is_end && numbers_.size() == other.numbers_.size()) {
+            return {};
+        }
+        if (!is_end && std::bit_cast<std::uint64_t>(numbers_[i]) ==
+                           std::bit_cast<std::uint64_t>(other.numbers_[i])) {
+            continue;
+        }
+        const auto part = std::find_if(parts_.rbegin(), parts_.rend(),
+                                       [&](const Part& each) { return each.begin <= i; });
+        std::ostringstream text;
+        text.precision(17);
+        text << part->name << ", number " << i - part->begin << ": ";
+        if (is_end) {
+            text << numbers_.size() << " numbers and " << other.numbers_.size();
+        } else {
+            text << numbers_[i] << " and " << other.numbers_[i];
+        }
+        return text.str();
+    }
+    return {};
+}
+
+}  // namespace nearfield::test

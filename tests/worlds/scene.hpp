@@ -1,0 +1,92 @@
+#pragma once
+
+#include "placed_rings.hpp"
+
+#include <nearfield/nearfield.hpp>
+
+#include <tests/support/polygons.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// \file Worlds of which the test knows what is in them.
+
+namespace nearfield::test {
+
+/// The number of random cases: `usual`, or the environment variable NEARFIELD_TEST_CASES.
+[[nodiscard]] int world_cases(int usual);
+/// The first random case: 0, or the environment variable NEARFIELD_TEST_FIRST.
+[[nodiscard]] int first_world_case();
+
+/// What is to be in a world, in the order of adding.
+struct Placement {
+    std::string name;
+    Rings rings;
+    Pose pose;
+    std::uint32_t category = 1;
+    std::uint32_t mask = UINT32_MAX;
+};
+
+/// Kinds of scenes, each hard in its own way.
+enum class SceneKind {
+    ordinary,      ///< any shapes, scattered
+    every_family,  ///< each family once, ordinary and degenerate, overlapping a little
+    far_away,      ///< ordinary, at 10^6
+    far_origin,    ///< the rings far from the origin of their own coordinates, the poses back
+    tiny_and_big,  ///< sizes from 10^-6 to 10^3
+    grid,          ///< squares of whole numbers that share edges and corners, some twice
+    holes,         ///< many holes and islands, and shapes inside them
+    extreme,       ///< as large and as small as shapes can be
+};
+inline constexpr int scene_kinds = 8;
+
+[[nodiscard]] const char* to_string(SceneKind kind);
+[[nodiscard]] std::vector<Placement> make_scene(SceneKind kind, std::uint64_t seed);
+/// The box around all of them.
+[[nodiscard]] Rectangle box_of(const std::vector<Placement>& placements);
+/// The same everywhere, moved by a pose.
+[[nodiscard]] Pose moved_by(const Pose& motion, const Pose& pose);
+[[nodiscard]] Vector2 moved_by(const Pose& motion, const Vector2& point);
+
+/// Another context and world, and all placements in it.
+class Scene {
+public:
+    explicit Scene(std::vector<Placement> placements, const Settings& settings = {});
+
+    Context& context() { return *context_; }
+    World& world() { return *world_; }
+    [[nodiscard]] const std::vector<Placement>& placements() const { return placements_; }
+    [[nodiscard]] std::size_t size() const { return placements_.size(); }
+    [[nodiscard]] InstanceHandle handle(std::size_t i) const { return handles_[i]; }
+    [[nodiscard]] ShapeHandle shape(std::size_t i) const { return shapes_[i]; }
+    [[nodiscard]] Instance instance(std::size_t i) const { return {shapes_[i], poses_[i]}; }
+    [[nodiscard]] const PlacedRings& truth(std::size_t i) const { return truths_[i]; }
+    /// The position of an instance in the order of adding; nothing if there is none of this handle.
+    [[nodiscard]] std::optional<std::size_t> position(InstanceHandle handle) const;
+    /// True if a filter lets instance i pass, as the interface states it.
+    [[nodiscard]] bool passes(std::size_t i, const WorldFilter& filter) const;
+    /// A shape that is in the context and not in the world.
+    ShapeHandle add_shape(const Rings& rings);
+
+private:
+    std::vector<Placement> placements_;
+    std::vector<Pose> poses_;
+    std::optional<Context> context_;
+    std::optional<World> world_;
+    std::vector<ShapeHandle> shapes_;
+    std::vector<InstanceHandle> handles_;
+    std::vector<PlacedRings> truths_;
+};
+
+/// A random filter: mostly one that lets everything pass.
+[[nodiscard]] WorldFilter any_filter(Random& random, const Scene& scene);
+/// A point in the neighbourhood of a scene: anywhere, on a vertex, on an edge, far away.
+[[nodiscard]] Vector2 any_point(Random& random, const Scene& scene, const Rectangle& box);
+/// A segment in the neighbourhood of a scene, of any kind: through vertices, along edges, without
+/// length, from inside, and from very far away.
+[[nodiscard]] Segment any_segment(Random& random, const Scene& scene, const Rectangle& box);
+
+}  // namespace nearfield::test
