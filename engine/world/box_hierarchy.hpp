@@ -17,6 +17,9 @@ namespace nearfield::world {
 /// have made the nodes much larger, everything is ordered anew along a Hilbert curve.
 class BoxHierarchy {
 public:
+    /// The name of no box.
+    static constexpr std::uint32_t nowhere = UINT32_MAX;
+
     /// Adds a box, or replaces the one of that name. An empty box is never found.
     void set(std::uint32_t name, const geometry::Box& box);
     void remove(std::uint32_t name);
@@ -62,7 +65,6 @@ public:
 
 private:
     static constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
-    static constexpr std::uint32_t nowhere = UINT32_MAX;
 
     /// Eight boxes as a structure of arrays, in one piece of memory.
     struct alignas(64) Node {

@@ -8,7 +8,6 @@
 namespace nearfield::world {
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -17,7 +16,7 @@ void NearestQueries::begin(const Instances& instances, const NearestQuery& query
     instances_ = &instances;
     query_ = query;
     nearest_.reserve(query.count);
-    guess_ = none;
+    guess_ = BoxHierarchy::nowhere;
 }
 
 double NearestQueries::reach() const {
@@ -96,7 +95,7 @@ void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
     point_ = geometry::to_vector(point);
     nearest_.clear();
     const std::uint32_t guess = guess_;
-    if (guess != none) {
+    if (guess != BoxHierarchy::nowhere) {
         find_in(guess);
     }
     instances_->boxes().for_near(
@@ -106,7 +105,7 @@ void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
                 find_in(index);
             }
         });
-    guess_ = nearest_.empty() ? none : nearest_.front().instance;
+    guess_ = nearest_.empty() ? BoxHierarchy::nowhere : nearest_.front().instance;
     std::fill(hits.begin(), hits.end(), NearestHit{});
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
         const Found& found = nearest_[i];

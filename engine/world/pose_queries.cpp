@@ -13,8 +13,6 @@ using geometry::to_public;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-constexpr std::uint32_t none = UINT32_MAX;
-
 /// Slightly more than a length: so that what is exactly as far away is not left out.
 double with_slack(double length, double rounding) {
     return length + rounding + 4.0 * std::numeric_limits<double>::epsilon() * length;
@@ -27,7 +25,7 @@ void PoseQueries::begin(const Instances& instances, const geometry::Polygon& sha
     instances_ = &instances;
     shape_ = &shape;
     filter_ = filter;
-    guess_ = none;
+    guess_ = BoxHierarchy::nowhere;
 }
 
 void PoseQueries::place(const Pose& pose) {
@@ -57,7 +55,7 @@ bool PoseQueries::intersects(std::uint32_t index) {
 bool PoseQueries::intersects(const Pose& pose) {
     place(pose);
     // What was hit before is likely to be hit again.
-    if (guess_ != none && intersects(guess_)) {
+    if (guess_ != BoxHierarchy::nowhere && intersects(guess_)) {
         return true;
     }
     candidates_.clear();
@@ -68,8 +66,8 @@ bool PoseQueries::intersects(const Pose& pose) {
     });
     const auto hit = std::find_if(candidates_.begin(), candidates_.end(),
                                   [this](std::uint32_t index) { return intersects(index); });
-    guess_ = hit == candidates_.end() ? none : *hit;
-    return guess_ != none;
+    guess_ = hit == candidates_.end() ? BoxHierarchy::nowhere : *hit;
+    return guess_ != BoxHierarchy::nowhere;
 }
 
 void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
@@ -86,8 +84,9 @@ void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>
 }
 
 bool PoseQueries::replaces(double distance, std::uint32_t index) const {
-    return distance < best_.distance || (distance == best_.distance && nearest_ != none &&
-                                         instances_->number(index) < instances_->number(nearest_));
+    return distance < best_.distance ||
+           (distance == best_.distance && nearest_ != BoxHierarchy::nowhere &&
+            instances_->number(index) < instances_->number(nearest_));
 }
 
 void PoseQueries::write_depth(std::uint32_t index) {
@@ -96,8 +95,10 @@ void PoseQueries::write_depth(std::uint32_t index) {
     const EdgesInTree own{edges(), own_tree};
     const EdgesInTree others{other, instances_->tree(index)};
     const bool is_guess = index == guess_;
-    const auto of_shape = deepest_vertex_.find(own, others, is_guess ? guess_vertex_ : none);
-    const auto of_other = deepest_vertex_.find(others, own, is_guess ? guess_edge_ : none);
+    const auto of_shape =
+        deepest_vertex_.find(own, others, is_guess ? guess_vertex_ : BoxHierarchy::nowhere);
+    const auto of_other =
+        deepest_vertex_.find(others, own, is_guess ? guess_edge_ : BoxHierarchy::nowhere);
     const double depth_of_shape = of_shape ? of_shape->depth : 0.0;
     const double depth_of_other = of_other ? of_other->depth : 0.0;
     const double depth = std::max(depth_of_shape, depth_of_other);
@@ -170,9 +171,9 @@ void PoseQueries::measure(std::uint32_t index, const ClearanceQuery& query) {
 Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) {
     place(pose);
     best_ = {};
-    nearest_ = none;
+    nearest_ = BoxHierarchy::nowhere;
     const std::uint32_t guess = guess_;
-    if (guess != none) {
+    if (guess != BoxHierarchy::nowhere) {
         measure(guess, query);
     }
     const double rounding = edges().rounding + instances_->max_rounding();
@@ -189,9 +190,10 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     guess_ = nearest_;
     guess_vertex_ = nearest_vertex_;
     guess_edge_ = nearest_edge_;
-    if (nearest_ == none || best_.distance <= query.min_clearance) {
+    if (nearest_ == BoxHierarchy::nowhere || best_.distance <= query.min_clearance) {
         best_ = {};
-        best_.distance = nearest_ == none ? query.max_clearance : query.min_clearance;
+        best_.distance =
+            nearest_ == BoxHierarchy::nowhere ? query.max_clearance : query.min_clearance;
         return best_;
     }
     best_.instance = instances_->handle(nearest_);

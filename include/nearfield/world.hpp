@@ -49,7 +49,7 @@ struct WorldInstance {
 struct WorldFilter {
     std::uint32_t category = UINT32_MAX;  ///< what the query stands for: a set of bits
     std::uint32_t mask = UINT32_MAX;      ///< the categories considered: a set of bits
-    InstanceHandle ignored = {};  ///< one instance to leave out, for example the one dragged
+    InstanceHandle ignored = {};  ///< an instance to leave out, if it exists: the one dragged
 };
 
 /// One shape at many poses: World::test_poses().
@@ -181,7 +181,7 @@ class PairTable;
 /// A shape may be deformed (Context::update_shape) between any two calls; all its instances follow.
 /// Boxes over the edges of a shape and over all instances are made when a query first needs them
 /// and refitted when something changes. A shape that is removed from the context takes its
-/// instances out of all answers; they can only be removed.
+/// instances out of all answers, for good.
 ///
 /// Threads: as for the context, which is used by all members; the two count as one object. Many
 /// poses, points, segments and pairs are divided among Settings::jobs. Results do not depend on
@@ -252,7 +252,8 @@ public:
                      const WorldFilter& filter = {});
 
     /// For each motion of a shape, when it first touches the world. Fails (invalid_query) if the
-    /// spans differ in length.
+    /// spans differ in length, or if the tolerance is too small for the coordinates of what a
+    /// motion comes near; and as Context::run(), with ring_full if all batches are in flight.
     Status cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
                       std::span<ShapeCastHit> hits);
 
@@ -283,7 +284,8 @@ public:
     /// Likewise.
     Status update(PairTable<SeparationVectorQuery>& table);
 
-    /// Host memory of the instances and of all that is kept with them, in bytes.
+    /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
+    /// the queries is not counted.
     [[nodiscard]] std::uint64_t memory_use() const noexcept;
     /// Gives back what is kept to make queries faster; the next queries make it again.
     void trim() noexcept;
