@@ -7,35 +7,62 @@ namespace nearfield::mtv {
 
 using geometry::Vector;
 
-void ConvexPiece::begin(const Vector& centre, double half) {
-    corners_.assign({centre + Vector(-half, -half), centre + Vector(half, -half),
-                     centre + Vector(half, half), centre + Vector(-half, half)});
+void ConvexPiece::begin(const Vector& centre, const Vector& half, double margin) {
+    const auto set = [&centre](Corners& corners, double x, double y) {
+        corners.assign({centre + Vector(-x, -y), centre + Vector(x, -y), centre + Vector(x, y),
+                        centre + Vector(-x, y)});
+    };
+    margin_ = margin;
+    set(corners_, half.x(), half.y());
+    core_.clear();
+    if (half.minCoeff() > margin) {
+        set(core_, half.x() - margin, half.y() - margin);
+    }
+}
+
+void ConvexPiece::clip(const Corners& corners, const Vector& direction, double least,
+                       Corners& kept) {
+    kept.clear();
+    if (corners.empty()) {
+        return;
+    }
+    const Vector* from = &corners.back();
+    double beyond = direction.dot(*from) - least;
+    for (const Vector& to : corners) {
+        const double beyond_to = direction.dot(to) - least;
+        if ((beyond > 0.0) != (beyond_to > 0.0)) {
+            kept.push_back(*from + beyond / (beyond - beyond_to) * (to - *from));
+        }
+        if (beyond_to > 0.0) {
+            kept.push_back(to);
+        }
+        from = &to;
+        beyond = beyond_to;
+    }
 }
 
 void ConvexPiece::keep(const Vector& direction, double least) {
-    kept_.clear();
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        const Vector& from = corners_[i];
-        const Vector& to = corners_[i + 1 < corners_.size() ? i + 1 : 0];
-        const double beyond = direction.dot(from) - least;
-        const double beyond_to = direction.dot(to) - least;
-        if (beyond > 0.0) {
-            kept_.push_back(from);
-        }
-        if ((beyond > 0.0) != (beyond_to > 0.0)) {
-            kept_.push_back(from + beyond / (beyond - beyond_to) * (to - from));
-        }
-    }
+    clip(corners_, direction, least, kept_);
     corners_.swap(kept_);
+    clip(core_, direction, least + margin_, kept_);
+    core_.swap(kept_);
 }
 
-Vector ConvexPiece::nearest() const {
+void ConvexPiece::keep_of(const ConvexPiece& whole, const Vector& direction, double least) {
+    margin_ = whole.margin_;
+    clip(whole.core_, direction, least + margin_, core_);
+    if (!core_.empty()) {
+        clip(whole.corners_, direction, least, corners_);
+    }
+}
+
+Vector ConvexPiece::nearest_of(const Corners& corners) {
     Vector nearest = Vector::Zero();
     double squared = std::numeric_limits<double>::infinity();
     bool holds_zero = true;
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-        const Vector& from = corners_[i];
-        const Vector& to = corners_[i + 1 < corners_.size() ? i + 1 : 0];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vector& from = corners[i];
+        const Vector& to = corners[i + 1 < corners.size() ? i + 1 : 0];
         holds_zero = holds_zero && geometry::cross(from, to) >= 0.0;
         const Vector point = geometry::nearest_on_segment(Vector::Zero(), from, to).point;
         if (point.squaredNorm() < squared) {
@@ -48,10 +75,18 @@ Vector ConvexPiece::nearest() const {
 
 Vector ConvexPiece::middle() const {
     Vector sum = Vector::Zero();
-    for (const Vector& corner : corners_) {
+    for (const Vector& corner : core_) {
         sum += corner;
     }
-    return sum / static_cast<double>(corners_.size());
+    return sum / static_cast<double>(core_.size());
+}
+
+geometry::Box ConvexPiece::box() const {
+    geometry::Box box;
+    for (const Vector& corner : corners_) {
+        box.extend(corner);
+    }
+    return box;
 }
 
 }  // namespace nearfield::mtv

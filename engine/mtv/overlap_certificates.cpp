@@ -3,17 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nearfield::mtv {
 namespace {
 
 using geometry::Vector;
 
-// Maximum number of discs: one per edge, or one per several edges if there are more.
-constexpr std::uint32_t max_discs = 64;
+// One disc for so many edges; if there are many edges, this many discs.
+constexpr std::uint32_t edges_per_disc = 4;
+constexpr std::uint32_t many_edges = 128;
+constexpr std::uint32_t max_discs = 128;
 
 // Number of vertices, or of smaller groups, per group.
 constexpr std::uint32_t group = 8;
+
+// More than this many are grouped.
+constexpr std::uint32_t most_in_top = 32;
 
 // A disc shrinks until it contains no boundary point; three times usually suffice.
 constexpr int max_shrinks = 12;
@@ -55,12 +61,14 @@ void add_largest_disc(const simd::TransformedEdges& edges, std::uint32_t edge, W
         radius = std::min(radius, point.squaredNorm() / (2.0 * ahead));
     }
     const Vector centre = middle + radius * inward;
-    const double depth = depth_in(edges, centre);
+    const double depth = std::sqrt(find_nearest(edges, centre).squared);
     work.add(2 * work_of_search(edges.count));
-    if (depth > 0.0) {
+    if (depth > 0.0 && contains(edges, centre)) {
         OverlapCertificate disc;
         disc.centre = centre;
-        disc.radius = depth;
+        disc.least = depth;
+        disc.most = depth;
+        disc.is_disc = true;
         certificates.push_back(disc);
     }
 }
@@ -73,47 +81,57 @@ OverlapCertificate group_of(const std::vector<OverlapCertificate>& certificates,
     }
     OverlapCertificate whole;
     whole.centre = box.center();
+    whole.least = -std::numeric_limits<double>::infinity();
     whole.first = first;
     whole.parts = parts;
+    whole.is_disc = certificates[first].is_disc;
     for (std::uint32_t i = first; i < first + parts; ++i) {
-        whole.spread = std::max(
-            whole.spread, (certificates[i].centre - whole.centre).norm() + certificates[i].spread);
+        const OverlapCertificate& part = certificates[i];
+        const double way = (part.centre - whole.centre).norm();
+        whole.least = std::max(whole.least, part.least - way);
+        whole.most = std::max(whole.most, part.most + way);
+        whole.spread = std::max(whole.spread, part.spread + way);
     }
     return whole;
 }
 
-}  // namespace
-
-double depth_in(const simd::TransformedEdges& edges, const Vector& point) {
-    const double distance = std::sqrt(find_nearest(edges, point).squared);
-    return contains(edges, point) ? distance : -distance;
+/// Orders certificates such that consecutive ones are near each other: halves them along the longer
+/// side of their box until as few are left as are in a group.
+void order_by_place(std::vector<OverlapCertificate>& certificates, std::size_t first,
+                    std::size_t end) {
+    if (end - first <= group) {
+        return;
+    }
+    geometry::Box box;
+    for (std::size_t i = first; i < end; ++i) {
+        box.extend(certificates[i].centre);
+    }
+    const int axis = box.sizes().x() >= box.sizes().y() ? 0 : 1;
+    // Whole groups on both sides.
+    std::size_t whole = group;
+    while (2 * whole < end - first) {
+        whole *= 2;
+    }
+    const std::size_t middle = first + whole;
+    const auto at = [&certificates](std::size_t i) {
+        return certificates.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::nth_element(at(first), at(middle), at(end),
+                     [axis](const OverlapCertificate& i, const OverlapCertificate& j) {
+                         return i.centre[axis] < j.centre[axis];
+                     });
+    order_by_place(certificates, first, middle);
+    order_by_place(certificates, middle, end);
 }
 
-void add_certificates(const simd::TransformedEdges& edges, WorkBudget& work,
-                      std::vector<OverlapCertificate>& certificates,
-                      std::vector<std::uint32_t>& top) {
-    auto first = static_cast<std::uint32_t>(certificates.size());
-    const std::uint32_t stride = (edges.count + max_discs - 1) / max_discs;
-    for (std::uint32_t i = 0; i < edges.count; i += stride) {
-        add_largest_disc(edges, i, work, certificates);
-    }
-    // The largest discs are the most informative.
-    std::sort(certificates.begin() + first, certificates.end(),
-              [](const OverlapCertificate& i, const OverlapCertificate& j) {
-                  return i.radius > j.radius;
-              });
+/// Adds the groups over the certificates from `first` on.
+void add_groups(std::uint32_t first, std::vector<OverlapCertificate>& certificates,
+                std::vector<std::uint32_t>& top) {
     auto end = static_cast<std::uint32_t>(certificates.size());
-    for (; first < end; ++first) {
-        top.push_back(first);
+    if (end - first > most_in_top) {
+        order_by_place(certificates, first, end);
     }
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        OverlapCertificate vertex;
-        vertex.centre = edges.start(i);
-        vertex.is_vertex = true;
-        certificates.push_back(vertex);
-    }
-    end = static_cast<std::uint32_t>(certificates.size());
-    while (end - first > group) {
+    while (end - first > most_in_top) {
         for (std::uint32_t i = first; i < end; i += group) {
             certificates.push_back(group_of(certificates, i, std::min(group, end - i)));
         }
@@ -123,6 +141,27 @@ void add_certificates(const simd::TransformedEdges& edges, WorkBudget& work,
     for (; first < end; ++first) {
         top.push_back(first);
     }
+}
+
+}  // namespace
+
+void add_certificates(const simd::TransformedEdges& edges, WorkBudget& work,
+                      std::vector<OverlapCertificate>& certificates,
+                      std::vector<std::uint32_t>& top) {
+    auto first = static_cast<std::uint32_t>(certificates.size());
+    const std::uint32_t stride =
+        edges.count <= many_edges ? edges_per_disc : (edges.count + max_discs - 1) / max_discs;
+    for (std::uint32_t i = 0; i < edges.count; i += stride) {
+        add_largest_disc(edges, i, work, certificates);
+    }
+    add_groups(first, certificates, top);
+    first = static_cast<std::uint32_t>(certificates.size());
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        OverlapCertificate vertex;
+        vertex.centre = edges.start(i);
+        certificates.push_back(vertex);
+    }
+    add_groups(first, certificates, top);
 }
 
 }  // namespace nearfield::mtv

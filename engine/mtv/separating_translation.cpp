@@ -14,7 +14,9 @@ namespace {
 // Evenly spaced directions tried for any shapes, as long as they take at most a quarter of the
 // work.
 constexpr int even_directions = 8;
-constexpr std::uint64_t part_of_directions = 4;
+constexpr std::uint64_t part_of_directions = 16;
+constexpr std::uint64_t work_before_looking = 8;
+constexpr std::uint64_t part_of_tests = 8;
 
 // Maximum number of slides of the best translation along a wall, from corner to corner.
 constexpr int max_slides = 16;
@@ -89,7 +91,9 @@ bool SeparatingTranslationFinder::try_gap(const TranslationGap& gap, const Vecto
 
 bool SeparatingTranslationFinder::try_direction(const Vector& direction, simd::EdgePair& wall) {
     const double longest = (1.0 - min_gain) * length_;
-    const std::vector<TranslationGap>& gaps = shifts_.find(*a_, *b_, direction, longest, work_);
+    WorkBudget work = work_for_directions();
+    const std::vector<TranslationGap>& gaps = shifts_.find(*a_, *b_, direction, longest, work);
+    add_for_directions(work.used());
     const auto shorter =
         std::find_if(gaps.begin(), gaps.end(), [&](const TranslationGap& candidate) {
             return !work_.is_used_up() && try_gap(candidate, direction, longest);
@@ -123,7 +127,7 @@ void SeparatingTranslationFinder::descend(const Vector& direction) {
     if (!shorter) {
         return;
     }
-    while (shorter && !work_.is_used_up()) {
+    while (shorter && !work_for_directions().is_used_up()) {
         const Vector edges[] = {along(*a_, wall.first), along(*b_, wall.second)};
         shorter = false;
         for (const Vector& edge : edges) {
@@ -146,7 +150,9 @@ bool SeparatingTranslationFinder::slide(const Vector& along, simd::EdgePair& wal
     if (most <= min_gain * length_) {
         return false;
     }
-    const TranslationGap gap = shifts_.find_first(move_a(best_), *b_, direction, most, work_);
+    WorkBudget work = work_for_directions();
+    const TranslationGap gap = shifts_.find_first(move_a(best_), *b_, direction, most, work);
+    add_for_directions(work.used());
     if (gap.from > 0.0) {
         return false;
     }
@@ -167,7 +173,7 @@ bool SeparatingTranslationFinder::slide(const Vector& along, simd::EdgePair& wal
 }
 
 void SeparatingTranslationFinder::slide_into_corner(simd::EdgePair wall) {
-    for (int i = 0; i < max_slides && !work_.is_used_up(); ++i) {
+    for (int i = 0; i < max_slides && !work_for_directions().is_used_up(); ++i) {
         const simd::EdgePair from = wall;
         if (!slide(along(*a_, from.first), wall) && !slide(along(*b_, from.second), wall)) {
             return;
@@ -176,15 +182,28 @@ void SeparatingTranslationFinder::slide_into_corner(simd::EdgePair wall) {
 }
 
 void SeparatingTranslationFinder::look_around() {
-    const std::uint64_t enough = work_.left() - work_.left() / part_of_directions;
-    for (int i = 0; i < even_directions && work_.left() > enough; ++i) {
+    for (int i = 0; i < even_directions && !work_for_directions().is_used_up(); ++i) {
         const double angle = 2.0 * std::numbers::pi * i / even_directions;
         descend({std::cos(angle), std::sin(angle)});
     }
 }
 
+WorkBudget SeparatingTranslationFinder::work_for_directions() const {
+    const std::uint64_t most = max_work_ / part_of_directions;
+    return WorkBudget(std::min(work_.left(), most - std::min(most, used_for_directions_)));
+}
+
+void SeparatingTranslationFinder::add_for_directions(std::uint64_t work) {
+    work_.add(work);
+    used_for_directions_ += work;
+}
+
 void SeparatingTranslationFinder::go_to_nearest(const ConvexPiece& piece) {
-    const Vector nearest = piece.nearest();
+    const Vector nearest = piece.nearest_of_core();
+    if (accept(nearest)) {
+        return;
+    }
+    // Rounding of the lines: a little farther into the core.
     const Vector inwards = piece.middle() - nearest;
     double part = clearance_ / inwards.norm();
     for (int trial = 0; trial < trials_of_clearance && part < 1.0; ++trial) {
@@ -217,12 +236,18 @@ double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
     if (work_.is_used_up()) {
         return 0.0;
     }
-    cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, work_);
+    cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, clearance_, work_);
     double open = length_;  // length of the shortest that may separate the shapes, so far
+    bool has_looked_around = false;
+    std::uint64_t used_for_tests = 0;
     while (!cover_.is_empty()) {
         const TranslationCell square = cover_.take_nearest();
         if (square.nearest >= std::min(open, length_ - tolerance) || work_.is_used_up()) {
             return std::min({square.nearest, open, length_});
+        }
+        if (!has_looked_around && work_.used() > max_work_ / work_before_looking) {
+            look_around();
+            has_looked_around = true;
         }
         const CellState word = cover_.ask(square);
         if (word == CellState::overlapping) {
@@ -232,8 +257,13 @@ double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
             open = std::min(open, nearest_open());
             continue;
         }
-        if (word == CellState::unknown && accept(cover_.rest().middle())) {
-            descend(best_.normalized());
+        if (word == CellState::unknown && used_for_tests < work_.used() / part_of_tests) {
+            const std::uint64_t before = work_.used();
+            const bool is_shorter = accept(cover_.rest().middle());
+            used_for_tests += work_.used() - before;
+            if (is_shorter) {
+                descend(best_.normalized());
+            }
         }
         cover_.cut(square);
     }
@@ -249,6 +279,8 @@ SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedE
     pose_a_ = pose_a;
     clearance_ = 4.0 * (a.rounding + b.rounding);
     best_ = Vector::Zero();
+    max_work_ = limits.max_work;
+    used_for_directions_ = 0;
     work_ = WorkBudget(limits.max_work);
     SeparatingTranslation way;
     way.intersect = overlap_test_.intersect(a, b);
@@ -256,7 +288,7 @@ SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedE
         return way;
     }
     go_past_box();
-    look_around();
+    descend(best_.normalized());
     way.lower_bound = find_lower_bound(limits.tolerance);
     way.vector = best_;
     way.work = work_.used();

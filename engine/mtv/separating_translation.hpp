@@ -55,6 +55,9 @@ private:
     /// The first candidate: along an axis until the boxes are separate.
     void go_past_box();
     void look_around();
+    /// What is left of the part of the work that directions may take.
+    [[nodiscard]] WorkBudget work_for_directions() const;
+    void add_for_directions(std::uint64_t work);
     /// Tries the shortest translation that ends in a gap; true if it separates the shapes and is
     /// shorter than `longest`.
     bool try_gap(const TranslationGap& gap, const geometry::Vector& direction, double longest);
@@ -81,6 +84,8 @@ private:
     geometry::Vector best_ = geometry::Vector::Zero();
     double length_ = 0.0;  // of the best
     WorkBudget work_;
+    std::uint64_t max_work_ = 0;
+    std::uint64_t used_for_directions_ = 0;
     simd::TransformedInstances moved_;
     narrowphase::OverlapTest overlap_test_;
     TranslationFinder shifts_;

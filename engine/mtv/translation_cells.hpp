@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/mtv/convex_piece.hpp>
+#include <engine/mtv/crossing_certificates.hpp>
 #include <engine/mtv/overlap_certificates.hpp>
 #include <engine/mtv/work_budget.hpp>
 #include <engine/simd/transformed_edges.hpp>
@@ -12,10 +13,10 @@
 
 namespace nearfield::mtv {
 
-/// A square cell in the space of translations of A.
+/// A rectangular cell in the space of translations of A.
 struct TranslationCell {
     geometry::Vector centre;
-    double half = 0.0;       ///< half its side
+    geometry::Vector half;   ///< half its sides
     double nearest = 0.0;    ///< lower bound on the length of its separating translations
     std::uint32_t list = 0;  ///< of certificates
 };
@@ -33,74 +34,126 @@ enum class CellState : std::uint8_t {
 /// Whether the shapes overlap changes only where a vertex of one crosses an edge of the other. A
 /// certificate deep enough in the other shape decides a cell at once. A vertex with exactly one
 /// edge of the other shape in reach (or two, around a reflex corner) decides the part of the cell
-/// on one side of a line, and that part is cut off. If this holds for all vertices that have
-/// anything in reach, the rest of the cell is uniform. A certificate too far outside to decide any
-/// translation of a cell decides none of its parts either, so each split cell keeps a list of the
-/// certificates that matter to its parts.
+/// on one side of a line, and that part is cut off. What is left is split along the lines of the
+/// other vertices and edges in reach, if they are few, into pieces that are uniform.
+///
+/// A depth changes no faster than the translation, so a certificate's last answer bounds the next:
+/// each cell asks those that may decide it, most promising first, and passes the answers on.
+///
+/// Lines of aligned shapes coincide up to rounding. A piece thinner than the margin between such
+/// lines counts as touching, so cells overlap by more than that: what is thin at the border of one
+/// cell is not in the next.
 class TranslationSearch {
 public:
     /// Starts with all translations up to `longest`. `rounding`: of both shapes; gaps up to this
-    /// count as touching.
+    /// count as touching. `margin`: see ConvexPiece; several times the rounding.
     void begin(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double longest,
-               double rounding, WorkBudget& work);
+               double rounding, double margin, WorkBudget& work);
 
-    [[nodiscard]] bool is_empty() const { return squares_.empty(); }
+    [[nodiscard]] bool is_empty() const { return cells_.empty(); }
     [[nodiscard]] TranslationCell take_nearest();
-    [[nodiscard]] CellState ask(const TranslationCell& square);
+    [[nodiscard]] CellState ask(const TranslationCell& cell);
     /// The rest of the last cell queried. Not empty unless its state was `overlapping`.
     [[nodiscard]] const ConvexPiece& rest() const { return rest_; }
     /// The pieces of the rest, if the state was `uniform`.
     [[nodiscard]] std::span<const ConvexPiece> pieces() const {
         return std::span(pieces_).first(piece_count_);
     }
-    /// Puts back the quarters of the last cell queried.
-    void cut(const TranslationCell& square);
+    /// Puts back the parts of the last cell queried.
+    void cut(const TranslationCell& cell);
 
 private:
-    /// The answer of a certificate.
+    /// The last answer of a certificate.
     struct Asked {
         std::uint32_t certificate = 0;
-        double reach = 0.0;  ///< no translation that differs by less separates the shapes
+        std::uint32_t edge = 0;  ///< of the other shape, near the certificate's centre
+        double depth = 0.0;      ///< of the centre in the other shape, when asked
+        double moved = 0.0;      ///< the most that the centre has moved since
+        double most = 0.0;       ///< of the certificate
+
+        /// At most this is certified.
+        [[nodiscard]] double bound() const { return most + depth + moved; }
     };
-    /// Consecutive entries of asked_.
+    /// Consecutive entries of asked_ and of crossings_asked_, for cells in a cell.
     struct List {
         std::size_t first = 0;
         std::size_t count = 0;
+        std::size_t first_crossing = 0;
+        std::size_t crossings = 0;
+        geometry::Vector centre;  ///< of that cell
+        bool has_walls = false;
+        geometry::Vector normals;
+    };
+    struct Line {
+        geometry::Vector start;
+        geometry::Vector normal;
+    };
+    /// A rectangle of translations.
+    struct Focus {
+        geometry::Vector centre;
+        geometry::Vector half;
     };
 
     [[nodiscard]] bool is_of_a(std::uint32_t certificate) const { return certificate < of_a_; }
+    /// The shape that a certificate is about.
+    [[nodiscard]] const simd::TransformedEdges& other_of(std::uint32_t certificate) const {
+        return is_of_a(certificate) ? *b_ : *a_;
+    }
     /// The certificate's centre after a translation, in the coordinates of the other shape.
     [[nodiscard]] geometry::Vector place_of(std::uint32_t certificate,
                                             const geometry::Vector& shift) const;
-    /// Cuts off the parts of a cell that vertices decide; true if the rest is uniform.
-    [[nodiscard]] bool cut_off_walls(const TranslationCell& square, double radius);
+    void ask_depth(Asked& asked, const geometry::Vector& shift);
+    /// The certificates of an expanded group go to the end of left_.
+    void append_parts(const Asked& asked, std::vector<Asked>& parts) const;
+    /// True if a crossing of edges decides the cell.
+    [[nodiscard]] bool cross_throughout(const TranslationCell& cell, const geometry::Vector& half);
+    /// True if a certificate decides the cell. Fills left_ with those that matter.
+    [[nodiscard]] bool overlap_throughout(const TranslationCell& cell, double radius);
+    /// The box of the rest, a little larger.
+    [[nodiscard]] Focus focus_of_rest() const;
+    /// Cuts off the parts of a cell that vertices decide; lists the other vertices in undecided_.
+    /// False if there are too many.
+    [[nodiscard]] bool cut_off_walls(const TranslationCell& cell);
+    enum class Wall : std::uint8_t { none, all, cut, undecided };
+    [[nodiscard]] Wall cut_off_wall(const Asked& vertex, const TranslationCell& cell,
+                                    const Focus& focus);
+    /// Replaces a group by its parts if an edge is in reach of any of them.
+    [[nodiscard]] Wall expand(std::uint32_t index, const TranslationCell& cell, const Focus& focus);
+    [[nodiscard]] bool is_inside(const Asked& vertex, const TranslationCell& cell,
+                                 const geometry::Vector& shift);
+    void add_normals(const simd::TransformedEdges& edges, std::uint32_t count);
     /// Cuts off the side of a line through `start` where the vertex is inside.
-    void cut_off(const Asked& vertex, const TranslationCell& square,
-                 const geometry::Vector& outwards, const geometry::Vector& start);
-    /// Returns false if the vertex has edges in reach other than a single one, or two around a
-    /// reflex corner.
-    [[nodiscard]] bool cut_off_wall(const Asked& vertex, const TranslationCell& square,
-                                    double radius);
+    void cut_off(const Asked& vertex, const Focus& focus, const geometry::Vector& outwards,
+                 const geometry::Vector& start);
     /// Splits the rest wherever a vertex may cross an edge; false if there are too many such lines.
-    [[nodiscard]] bool split_rest(const TranslationCell& square, double radius);
-    void split(const geometry::Vector& direction, double at);
+    [[nodiscard]] bool split_rest();
+    /// True if the line has something on both sides.
+    [[nodiscard]] bool split(const geometry::Vector& direction, double at);
     void add_piece(const ConvexPiece& piece);
-    /// Appends a certificate to the last list, split into parts if it is a group too wide for the
-    /// parts of such a cell.
-    void list_parts(const Asked& asked, double half);
-    void push(const TranslationCell& square);
+    void push(const TranslationCell& cell);
 
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
     WorkBudget* work_ = nullptr;
     double rounding_ = 0.0;
+    double margin_ = 0.0;
     std::vector<OverlapCertificate> certificates_;  // of A, then of B
     std::uint32_t of_a_ = 0;                        // number of A's certificates
     std::vector<std::uint32_t> top_;                // initial list
-    std::vector<TranslationCell> squares_;          // a heap
+    CrossingCertificates crossing_finder_;
+    std::vector<CrossingCertificate> crossings_;
+    std::vector<TranslationCell> cells_;  // a heap
     std::vector<Asked> asked_;
+    std::vector<std::uint32_t> crossings_asked_;
     std::vector<List> lists_;
-    std::vector<Asked> left_;          // relevant certificates of the last cell queried
+    std::vector<Asked> left_;  // relevant certificates of the last cell queried
+    std::vector<std::uint32_t> crossings_left_;
+    std::vector<std::uint32_t> undecided_;                 // vertices
+    geometry::Vector normals_ = geometry::Vector::Zero();  // of walls in reach, absolute values
+    bool has_walls_ = false;
+    bool has_cut_ = false;
+    std::uint32_t has_normals_ = 0;  // of so many vertices
+    std::vector<Line> lines_;
     ConvexPiece rest_;                 // of the last cell queried
     std::vector<ConvexPiece> pieces_;  // the first piece_count_ are in use
     std::size_t piece_count_ = 0;

@@ -21,11 +21,11 @@ private:
     std::uint64_t used_ = 0;
 };
 
-/// The work of a nearest-edge search: few edges are tested by brute force, several at once; with
-/// more, about this many remain after pruning by boxes.
+/// The work of a search for the edges nearest to a point or in a box: few edges are tested by brute
+/// force, several at once; with more, about this many remain after pruning by boxes.
 [[nodiscard]] constexpr std::uint64_t work_of_search(std::uint32_t edges) {
-    constexpr std::uint32_t most = 64;
-    return 16 + std::min(edges / 4, most);
+    constexpr std::uint32_t most = 24;
+    return 8 + std::min(edges / 8, most);
 }
 
 }  // namespace nearfield::mtv

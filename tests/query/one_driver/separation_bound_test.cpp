@@ -173,6 +173,24 @@ TEST_F(SeparationBound, IsCloseForOrdinaryShapes) {
     }
 }
 
+TEST_F(SeparationBound, IsCloseForCombsSpiralsAndSpikes) {
+    for_each_case(seed + 20, 3, [&](Random& random) {
+        const auto pose = [&random] {
+            return Pose{{random.between(-0.7, 0.7), random.between(-0.7, 0.7)},
+                        random.between(-3.0, 3.0)};
+        };
+        const std::vector<Rings> shapes{comb(5), comb(20), comb(100), spiral(3.0, 0.1, 100),
+                                        star(random, 200, 0.1)};
+        for (const Rings& shape : shapes) {
+            const Pair pair{{"A", shape}, {"B", shape}, pose(), {}, 1e-3};
+            SCOPED_TRACE(describe(pair));
+            const SeparationVectorResult result = ask(pair);
+            ASSERT_TRUE(result.status.ok()) << result.status.text();
+            EXPECT_GE(result.lower_bound, 0.95 * result.length);
+        }
+    });
+}
+
 TEST_F(SeparationBound, TheWorkIsBounded) {
     Random random(seed);
     const std::vector<Pair> pairs{
