@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,11 @@ public:
     void cut(const TranslationCell& cell);
 
 private:
+    /// Depths are off by less than this many roundings.
+    static constexpr double roundings_of_depth = 4.0;
+    /// Marks an entry of a list without meaning.
+    static constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max();
+
     /// The last answer of a certificate.
     struct Asked {
         std::uint32_t certificate = 0;
@@ -80,9 +86,9 @@ private:
         std::size_t count = 0;
         std::size_t first_crossing = 0;
         std::size_t crossings = 0;
-        geometry::Vector centre;  ///< of that cell
-        bool has_walls = false;
-        geometry::Vector normals;
+        geometry::Vector centre;   ///< of that cell
+        bool in_vain = false;      ///< walls were looked for in that cell, and none found
+        geometry::Vector normals;  ///< as normals_, of that cell
     };
     struct Line {
         geometry::Vector start;
@@ -114,13 +120,20 @@ private:
     /// Cuts off the parts of a cell that vertices decide; lists the other vertices in undecided_.
     /// False if there are too many.
     [[nodiscard]] bool cut_off_walls(const TranslationCell& cell);
+    /// What a vertex decides: nothing in reach and outside; nothing in reach and inside; a part was
+    /// cut off; or not known.
     enum class Wall : std::uint8_t { none, all, cut, undecided };
     [[nodiscard]] Wall cut_off_wall(const Asked& vertex, const TranslationCell& cell,
                                     const Focus& focus);
+    /// For the two edges in edges_.
+    [[nodiscard]] Wall cut_off_corner(const Asked& vertex, const Focus& focus, bool inside);
+    /// Cuts off the side of an edge where the vertex is inside. `inside`: it is so at the focus.
+    void cut_off_side(const Asked& vertex, const Focus& focus, bool inside, std::uint32_t edge);
     /// Replaces a group by its parts if an edge is in reach of any of them.
     [[nodiscard]] Wall expand(std::uint32_t index, const TranslationCell& cell, const Focus& focus);
     [[nodiscard]] bool is_inside(const Asked& vertex, const TranslationCell& cell,
                                  const geometry::Vector& shift);
+    /// Adds those of the first edges in edges_.
     void add_normals(const simd::TransformedEdges& edges, std::uint32_t count);
     /// Cuts off the side of a line through `start` where the vertex is inside.
     void cut_off(const Asked& vertex, const Focus& focus, const geometry::Vector& outwards,
@@ -150,8 +163,8 @@ private:
     std::vector<std::uint32_t> crossings_left_;
     std::vector<std::uint32_t> undecided_;                 // vertices
     geometry::Vector normals_ = geometry::Vector::Zero();  // of walls in reach, absolute values
-    bool has_walls_ = false;
-    bool has_cut_ = false;
+    bool in_vain_ = false;           // as of a list, for the last cell queried
+    bool has_cut_ = false;           // walls of it
     std::uint32_t has_normals_ = 0;  // of so many vertices
     std::vector<Line> lines_;
     ConvexPiece rest_;                 // of the last cell queried
