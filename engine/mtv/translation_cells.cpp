@@ -24,7 +24,7 @@ constexpr double small_rest = 0.35;
 constexpr double long_cell = 2.0;
 
 // Crossings that reach less than this part of the first cell are not worth asking for.
-constexpr double least_crossing = 0.005;
+constexpr double least_crossing = 0.03;
 
 // No direction weighs less than this part of both.
 constexpr double least_normal = 0.02;
