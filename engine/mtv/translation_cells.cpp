@@ -152,8 +152,9 @@ bool TranslationSearch::overlap_throughout(const TranslationCell& cell, double r
     }
     std::size_t kept = 0;
     std::size_t tries = 0;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-        Asked asked = left_[i];
+    std::size_t next = 0;
+    while (next < left_.size()) {  // parts of groups are appended
+        Asked asked = left_[next++];
         if (asked.bound() >= radius && tries < max_asked) {
             ++tries;
             ask_depth(asked, cell.centre);
