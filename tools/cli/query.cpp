@@ -115,30 +115,21 @@ double choose_deviation(const QueryArguments& arguments, const QueryRequest& req
     return *arguments.deviation;
 }
 
-/// An output must not overwrite an input or another output. Pipes and terminals may be shared.
-void require_different_files(const QueryArguments& arguments) {
-    std::vector<std::filesystem::path> taken;
-    std::error_code ignored;
+void check_files(const QueryArguments& arguments) {
+    std::vector<std::string> inputs;
     for (const std::string& input : {arguments.file_a, arguments.file_b}) {
         if (input != "-") {
-            taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+            inputs.push_back(input);
         }
     }
+    std::vector<std::string> outputs;
     for (const auto& output : {arguments.json, arguments.image, arguments.field,
                                arguments.gradient_field, arguments.features}) {
-        if (!output) {
-            continue;
+        if (output) {
+            outputs.push_back(*output);
         }
-        const std::filesystem::path path = std::filesystem::weakly_canonical(*output, ignored);
-        if (std::filesystem::exists(path, ignored) &&
-            !std::filesystem::is_regular_file(path, ignored)) {
-            continue;
-        }
-        if (std::find(taken.begin(), taken.end(), path) != taken.end()) {
-            throw InputError(*output + ": would be written over an input or another output");
-        }
-        taken.push_back(path);
     }
+    require_different_files(inputs, outputs);
 }
 
 std::vector<Ring> rings_at(const PlacedOutline& outline, const Pose& pose) {
@@ -301,7 +292,7 @@ void run_query(const QueryArguments& arguments) {
         request.tolerance = usual_tolerance({a.rings, a.deviation, a.pose.translation},
                                             {b.rings, b.deviation, b.pose.translation});
     }
-    require_different_files(arguments);
+    check_files(arguments);
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;
     FieldFiles field_files(arguments);

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <tools/io/json_writer.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -123,6 +124,15 @@ JsonWriter& JsonWriter::value_or_null(std::string_view text) {
 }
 
 void JsonWriter::write_text(std::string_view text) {
+    const bool is_plain = std::all_of(text.begin(), text.end(), [](char character) {
+        return character >= ' ' && character <= '~' && character != '"' && character != '\\';
+    });
+    if (is_plain) {  // so are most, and there may be many
+        stream_.put('"');
+        stream_ << text;
+        stream_.put('"');
+        return;
+    }
     // Device and file names need not be UTF-8; invalid bytes become U+FFFD.
     stream_ << nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

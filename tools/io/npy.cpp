@@ -38,6 +38,11 @@ void write_npy(std::ostream& stream, std::span<const float> values, std::uint32_
     write_array(stream, "<f4", shape_of(width, height), std::as_bytes(values));
 }
 
+void write_npy(std::ostream& stream, std::span<const double> values, std::uint32_t width,
+               std::uint32_t height) {
+    write_array(stream, "<f8", shape_of(width, height), std::as_bytes(values));
+}
+
 void write_npy(std::ostream& stream, std::span<const std::uint32_t> values, std::uint32_t width,
                std::uint32_t height) {
     write_array(stream, "<u4", shape_of(width, height), std::as_bytes(values));

@@ -3,6 +3,7 @@
 #include <tools/io/output_file.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -87,6 +88,26 @@ void OutputFile::commit() {
         throw std::runtime_error(path_ + ": could not be written: " + error.message());
     }
     temporary_.clear();
+}
+
+void require_different_files(const std::vector<std::string>& inputs,
+                             const std::vector<std::string>& outputs) {
+    std::vector<std::filesystem::path> taken;
+    std::error_code ignored;
+    for (const std::string& input : inputs) {
+        taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+    }
+    for (const std::string& output : outputs) {
+        const std::filesystem::path path = std::filesystem::weakly_canonical(output, ignored);
+        if (std::filesystem::exists(path, ignored) &&
+            !std::filesystem::is_regular_file(path, ignored)) {
+            continue;
+        }
+        if (std::find(taken.begin(), taken.end(), path) != taken.end()) {
+            throw InputError(output + ": would be written over an input or another output");
+        }
+        taken.push_back(path);
+    }
 }
 
 }  // namespace nearfield::tools

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace nearfield::tools {
 
@@ -32,5 +33,10 @@ private:
     std::filesystem::path temporary_;  ///< empty if the target is written directly
     std::ofstream stream_;
 };
+
+/// An output must not overwrite an input or another output; throws InputError. Pipes and terminals
+/// may be shared.
+void require_different_files(const std::vector<std::string>& inputs,
+                             const std::vector<std::string>& outputs);
 
 }  // namespace nearfield::tools

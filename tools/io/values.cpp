@@ -11,14 +11,7 @@
 #include <system_error>
 
 namespace nearfield::tools {
-namespace {
 
-[[noreturn]] void fail(const std::string& option, std::string_view text,
-                       const std::string& reason) {
-    throw InputError(option + ": \"" + std::string(text) + "\": " + reason);
-}
-
-/// Returns false if `text` as a whole is not one finite number.
 bool parse_finite(std::string_view text, double& number) {
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') {
         text.remove_prefix(1);
@@ -36,6 +29,13 @@ std::string_view without_spaces(std::string_view text) {
         text.remove_suffix(1);
     }
     return text;
+}
+
+namespace {
+
+[[noreturn]] void fail(const std::string& option, std::string_view text,
+                       const std::string& reason) {
+    throw InputError(option + ": \"" + std::string(text) + "\": " + reason);
 }
 
 /// Finite numbers separated by commas, with or without spaces around them; `form` says what they

@@ -12,6 +12,12 @@ namespace nearfield::tools {
 /// before or after but the spaces around the numbers of a list. `option` is for the messages of
 /// InputError ("--pose-a").
 
+/// Reads a text that as a whole is one finite number; returns false if it is not.
+[[nodiscard]] bool parse_finite(std::string_view text, double& number);
+
+/// A text without the spaces before and after it.
+[[nodiscard]] std::string_view without_spaces(std::string_view text);
+
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
 

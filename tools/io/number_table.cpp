@@ -1,0 +1,118 @@
+#include <tools/io/input_error.hpp>
+#include <tools/io/npy.hpp>
+#include <tools/io/number_table.hpp>
+#include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace nearfield::tools {
+namespace {
+
+/// Reads lines of a CSV text.
+class CsvReader {
+public:
+    CsvReader(const std::string& path, std::string_view text, std::size_t columns,
+              const std::string& form)
+        : path_(path), text_(text), form_(form) {
+        table_.columns = columns;
+    }
+
+    NumberTable read() {
+        bool is_first = true;
+        for (std::size_t start = 0; start < text_.size();) {
+            const std::size_t end = std::min(text_.find('\n', start), text_.size());
+            const std::string_view line = text_.substr(start, end - start);
+            if (!without_spaces(line).empty()) {
+                if (!is_first || !is_header(line)) {
+                    read_line(line, start);
+                }
+                is_first = false;
+            }
+            start = end + 1;
+        }
+        return std::move(table_);
+    }
+
+private:
+    static std::string_view next_field(std::string_view line, std::size_t start) {
+        return line.substr(start, std::min(line.find(',', start), line.size()) - start);
+    }
+
+    /// True of a line with no number at all.
+    static bool is_header(std::string_view line) {
+        double number = 0.0;
+        for (std::size_t start = 0; start <= line.size();) {
+            const std::string_view field = next_field(line, start);
+            if (parse_finite(without_spaces(field), number)) {
+                return false;
+            }
+            start += field.size() + 1;
+        }
+        return true;
+    }
+
+    void read_line(std::string_view line, std::size_t offset) {
+        std::size_t count = 0;
+        for (std::size_t start = 0; start <= line.size(); ++count) {
+            const std::string_view field = next_field(line, start);
+            double number = 0.0;
+            if (count == table_.columns) {
+                fail(offset + start, "there are more numbers than that");
+            }
+            if (!parse_finite(without_spaces(field), number)) {
+                fail(offset + start,
+                     "\"" + std::string(without_spaces(field)) + "\" is not a finite number");
+            }
+            table_.numbers.push_back(number);
+            start += field.size() + 1;
+        }
+        if (count != table_.columns) {
+            fail(offset + line.size(), "the line ends after " + std::to_string(count));
+        }
+    }
+
+    [[noreturn]] void fail(std::size_t offset, const std::string& reason) const {
+        throw InputError(text_position(path_, text_, offset) + ": expected " + form_ + "; " +
+                         reason);
+    }
+
+    const std::string& path_;
+    std::string_view text_;
+    const std::string& form_;
+    NumberTable table_;
+};
+
+NumberTable read_npy_table(const std::string& path, std::size_t columns, const std::string& form) {
+    NpyArray array = read_npy(read_bytes(path), path);
+    if (array.shape.size() != 2 || array.shape[1] != columns) {
+        throw InputError(path + ": expected rows of " + form + "; the shape is " +
+                         npy_shape_text(array.shape));
+    }
+    for (std::size_t i = 0; i < array.values.size(); ++i) {
+        if (!std::isfinite(array.values[i])) {
+            throw InputError(path + ": row " + std::to_string(i / columns) + ", column " +
+                             std::to_string(i % columns) + ": not a finite number");
+        }
+    }
+    return {std::move(array.values), columns};
+}
+
+}  // namespace
+
+bool is_npy(const std::string& path) {
+    return path.ends_with(".npy");
+}
+
+NumberTable read_number_table(const std::string& path, std::size_t columns,
+                              const std::string& form) {
+    if (is_npy(path)) {
+        return read_npy_table(path, columns, form);
+    }
+    const std::string text = read_text(path);
+    return CsvReader(path, text, columns, form).read();
+}
+
+}  // namespace nearfield::tools
