@@ -8,7 +8,7 @@ namespace nearfield::tools {
 AskedTechniques techniques_of(const Scene& scene) {
     AskedTechniques asked;
     for (const SceneQuery& query : scene.queries) {
-        if (query.problem.empty()) {
+        if (query.problem.empty() && !query.world) {
             asked.add(query.request);
         }
     }

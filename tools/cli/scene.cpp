@@ -2,6 +2,7 @@
 
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/scene.hpp>
+#include <tools/cli/world_values_files.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/query_json.hpp>
@@ -36,12 +37,13 @@ int report_problems(const SceneRunner& runner) {
 CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
     CLI::App* command = program.add_subcommand(
         "scene",
-        "Answer the queries of a scene (shapes, instances, queries) in one batch. Bad shapes and "
+        "Answer the queries of a scene (shapes, instances, groups, queries) in one batch: of pairs "
+        "of instances, and of all instances (poses, nearest, rays, cast, overlap). Bad shapes and "
         "queries are listed on the standard error and have their own status; the others are "
         "answered");
     command
         ->add_option("scene", arguments.scene,
-                     "Scene: shapes, instances (shape and pose) and queries")
+                     "Scene: shapes, instances (shape and pose), groups and queries")
         ->required()
         ->type_name("FILE.json");
     command
@@ -76,6 +78,7 @@ int run_scene(const SceneArguments& arguments) {
                              arguments.strict ? EmptyRings::kept : EmptyRings::dropped);
     print_notes(scene);
     set_technique(scene, technique);
+    WorldValuesFiles values(scene, arguments.json);
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, arguments.scene, context, BadEntries::recorded);
@@ -87,6 +90,8 @@ int run_scene(const SceneArguments& arguments) {
     }
     write_scene_summary(report.summary(), answers, runner.timings(), context.device_name(),
                         runner.technique());
+    values.write(answers);
+    values.commit();
     report.commit();
     return report_problems(runner);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace nearfield::tools {
@@ -19,7 +20,7 @@ std::optional<Technique> parse_technique_option(const std::optional<std::string>
 }
 
 void set_technique(Scene& scene, std::optional<Technique> technique) {
-    for (SceneQuery& query : scene.queries) {
+    for (SceneQuery& query : scene.queries) {  // those of all instances are the CPU's
         query.request.technique = technique.value_or(query.request.technique);
     }
 }
@@ -104,6 +105,17 @@ SceneRunner::SceneRunner(const Scene& scene, std::string file, Context& context,
     : scene_(scene), file_(std::move(file)), context_(context), bad_(bad) {
     add_shapes();
     add_instances();
+    bool has_world_queries = false;
+    for (std::size_t query = 0; query < scene_.queries.size(); ++query) {
+        const SceneQuery& asked = scene_.queries[query];
+        if (asked.problem.empty() && asked.between) {
+            between_.emplace(query, select(*asked.between));
+        }
+        has_world_queries |= asked.problem.empty() && asked.world;
+    }
+    if (has_world_queries) {
+        worlds_.emplace(scene_, context_, shapes_, instances_, all_.sound);
+    }
 }
 
 void SceneRunner::add_shapes() {
@@ -138,12 +150,37 @@ void SceneRunner::add_instances() {
                           without_prefix(full_message(pairs.error()), "find_pairs: instance 0: ");
             }
         }
-        if (problem.empty() && shape_problems_[instance.shape].empty()) {
-            sound_.push_back(index);
-            sound_instances_.push_back(instances_.back());
-        }
         instance_problems_.push_back(std::move(problem));
+        if (is_usable(index)) {
+            all_.sound.push_back(index);
+            all_.instances.push_back(instances_.back());
+        }
     }
+    all_.sides.assign(all_.sound.size(), 3U);
+    all_.names_of_bad = names_of_bad(all_instances());
+}
+
+/// The instances of two groups. Those of both may stand on either side of a pair.
+SceneRunner::Selection SceneRunner::select(const GroupPair& groups) const {
+    std::map<std::size_t, unsigned> sides;
+    for (const std::size_t instance : groups.first.instances) {
+        sides[instance] |= 1U;
+    }
+    for (const std::size_t instance : groups.second.instances) {
+        sides[instance] |= 2U;
+    }
+    Selection selection;
+    std::vector<std::size_t> named;
+    for (const auto& [instance, side] : sides) {
+        named.push_back(instance);
+        if (is_usable(instance)) {
+            selection.sound.push_back(instance);
+            selection.instances.push_back(instances_[instance]);
+            selection.sides.push_back(side);
+        }
+    }
+    selection.names_of_bad = names_of_bad(named);
+    return selection;
 }
 
 SceneRunner::~SceneRunner() {
@@ -152,15 +189,20 @@ SceneRunner::~SceneRunner() {
     }
 }
 
-double SceneRunner::run_frame() {
+double SceneRunner::run_frame(FrameInput input) {
     const auto start = std::chrono::steady_clock::now();
+    if (input == FrameInput::all) {
+        update_shapes();
+    }
     add_queries();
     require(context_.run(batch_, results_), file_);
+    answer_world_queries();
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
 void SceneRunner::run_what_fits() {
+    update_shapes();
     add_queries();
     const Status status = context_.run(batch_, results_);
     if (status.code() == StatusCode::too_large) {
@@ -168,9 +210,10 @@ void SceneRunner::run_what_fits() {
     } else {
         require(status, file_);
     }
+    answer_world_queries();
 }
 
-void SceneRunner::add_queries() {
+void SceneRunner::update_shapes() {
     for (std::size_t index = 0; index < shapes_.size(); ++index) {
         const SceneShape& shape = scene_.shapes[index];
         if (shape_problems_[index].empty()) {
@@ -178,13 +221,18 @@ void SceneRunner::add_queries() {
                     place_of(shape));
         }
     }
+}
+
+void SceneRunner::add_queries() {
     batch_.clear();
     entries_.clear();
-    refused_.clear();
+    outside_batch_.clear();
     for (std::size_t query = 0; query < scene_.queries.size(); ++query) {
         const SceneQuery& asked = scene_.queries[query];
         if (!asked.problem.empty()) {
             refuse({query, Entry::all, Entry::all}, asked.problem);
+        } else if (asked.world) {
+            add_world_query(query);
         } else if (asked.all_pairs) {
             add_all_pairs(query);
         } else {
@@ -197,7 +245,7 @@ void SceneRunner::add_queries() {
 void SceneRunner::answer_one_by_one() {
     Results all;
     for (const Entry& entry : entries_) {
-        if (entry.is_refused) {
+        if (entry.is_refused || entry.is_world) {
             continue;
         }
         Batch batch;
@@ -248,9 +296,9 @@ void SceneRunner::add(std::size_t query, std::size_t a, std::size_t b) {
 }
 
 void SceneRunner::refuse(Entry entry, const std::string& reason) {
-    entry.result = refused_.size();
+    entry.result = outside_batch_.size();
     entry.is_refused = true;
-    refused_.push_back(refusal({StatusCode::invalid_query, reason}));
+    outside_batch_.push_back(refusal({StatusCode::invalid_query, reason}));
     entries_.push_back(entry);
 }
 
@@ -273,17 +321,37 @@ void SceneRunner::add_pair(std::size_t query) {
     }
 }
 
-void SceneRunner::add_moving_pairs(std::size_t query) {
+/// Both orders of a pair, or the one whose first instance is of the first group, unless the groups
+/// do not form this pair.
+void SceneRunner::add_selected(std::size_t query, const Selection& among, InstancePair pair) {
+    const unsigned side_a = among.sides[pair.first];
+    const unsigned side_b = among.sides[pair.second];
+    const bool is_forward = (side_a & 1U) != 0 && (side_b & 2U) != 0;
+    const bool is_backward = (side_a & 2U) != 0 && (side_b & 1U) != 0;
+    const std::size_t a = among.sound[pair.first];
+    const std::size_t b = among.sound[pair.second];
+    if (!is_forward && !is_backward) {
+        return;
+    }
+    if (is_symmetric(scene_.queries[query].request.type)) {
+        add(query, is_forward ? a : b, is_forward ? b : a);
+    } else {
+        add(query, a, b);
+        add(query, b, a);
+    }
+}
+
+void SceneRunner::add_moving_pairs(std::size_t query, const Selection& among) {
     const double reach = scene_.queries[query].request.contact_distance.value_or(0.0);
     std::vector<Rectangle> boxes;
-    for (const std::size_t index : sound_) {
+    for (const std::size_t index : among.sound) {
         const SceneInstance& instance = scene_.instances[index];
         boxes.push_back(swept_box(scene_.shapes[instance.shape], instance));
     }
-    for (std::size_t a = 0; a < boxes.size(); ++a) {
-        for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+    for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+        for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
             if (come_within(boxes[a], boxes[b], reach)) {
-                add(query, sound_[a], sound_[b]);
+                add_selected(query, among, {a, b});
             }
         }
     }
@@ -292,13 +360,14 @@ void SceneRunner::add_moving_pairs(std::size_t query) {
 void SceneRunner::add_all_pairs(std::size_t query) {
     const SceneQuery& all = scene_.queries[query];
     const QueryRequest& request = all.request;
+    const Selection& among = all.between ? between_.at(query) : all_;
     if (request.type == QueryType::time_of_impact) {
-        add_moving_pairs(query);
+        add_moving_pairs(query, among);
     } else {
         const double reach = request.type == QueryType::contacts
                                  ? request.contact_distance.value_or(request.tolerance)
                                  : all.reach;
-        const auto pairs = context_.find_pairs(sound_instances_, reach);
+        const auto pairs = context_.find_pairs(among.instances, reach);
         if (!pairs.has_value() && bad_ == BadEntries::recorded) {
             refuse({query, Entry::all, Entry::all},
                    place_of(query) + ": " + full_message(pairs.error()));
@@ -306,30 +375,92 @@ void SceneRunner::add_all_pairs(std::size_t query) {
         }
         require(pairs.error(), file_);
         for (const InstancePair& pair : *pairs) {
-            add(query, sound_[pair.first], sound_[pair.second]);
-            if (!is_symmetric(request.type)) {
-                add(query, sound_[pair.second], sound_[pair.first]);
-            }
+            add_selected(query, among, pair);
         }
     }
-    if (sound_.size() < instances_.size()) {
+    if (!among.names_of_bad.empty()) {
         refuse({.query = query, .a = Entry::all, .b = Entry::all, .is_dependent = true},
-               "without the pairs of instances that cannot be used: " + names_of_bad());
+               "without the pairs of instances that cannot be used: " + among.names_of_bad);
     }
 }
 
-/// "lid (shapes.box), left": with the shape where that is what is wrong.
-std::string SceneRunner::names_of_bad() const {
+/// A query of all instances, which is answered after the batch.
+void SceneRunner::add_world_query(std::size_t query) {
+    const WorldRequest& request = *scene_.queries[query].world;
+    const Entry nobody{.query = query, .a = Entry::all, .b = Entry::all};
+    if (request.shape && !shape_problems_[*request.shape].empty()) {
+        Entry entry = nobody;
+        entry.is_dependent = true;
+        refuse(entry, shape_problems_[*request.shape]);
+        return;
+    }
+    Entry entry = nobody;
+    entry.result = outside_batch_.size();
+    entry.is_world = true;
+    IntersectionTestResult pending;
+    pending.technique = Technique::cpu;
+    outside_batch_.emplace_back(std::move(pending));
+    entries_.push_back(entry);
+    std::vector<std::size_t> considered =
+        request.against ? request.against->instances : all_instances();
+    if (request.except) {
+        std::erase(considered, *request.except);
+    }
+    if (const std::string names = names_of_bad(considered); !names.empty()) {
+        entry = nobody;
+        entry.is_dependent = true;
+        refuse(entry, "without the instances that cannot be used: " + names);
+    }
+}
+
+void SceneRunner::answer_world_queries() {
+    const auto start = std::chrono::steady_clock::now();
+    for (const Entry& entry : entries_) {
+        if (!entry.is_world) {
+            continue;
+        }
+        const Status status = worlds_->answer(entry.query);
+        std::visit([&status](auto& result) { result.status = status; },
+                   outside_batch_[entry.result]);
+    }
+    if (worlds_) {
+        const auto end = std::chrono::steady_clock::now();
+        results_.timings.total += std::chrono::duration<double, std::milli>(end - start).count();
+    }
+}
+
+bool SceneRunner::is_usable(std::size_t instance) const {
+    return instance_problems_[instance].empty() &&
+           shape_problems_[scene_.instances[instance].shape].empty();
+}
+
+std::vector<std::size_t> SceneRunner::all_instances() const {
+    std::vector<std::size_t> instances(scene_.instances.size());
+    std::iota(instances.begin(), instances.end(), std::size_t{0});
+    return instances;
+}
+
+std::string SceneRunner::names_of_bad(const std::vector<std::size_t>& instances) const {
     std::string names;
-    for (std::size_t index = 0; index < instances_.size(); ++index) {
+    for (const std::size_t index : instances) {
+        if (is_usable(index)) {
+            continue;
+        }
         const SceneInstance& instance = scene_.instances[index];
-        const bool is_bad = !instance_problems_[index].empty();
-        if (is_bad || !shape_problems_[instance.shape].empty()) {
-            names += (names.empty() ? "" : ", ") + instance.name;
-            names += is_bad ? "" : " (shapes." + scene_.shapes[instance.shape].name + ")";
+        names += (names.empty() ? "" : ", ") + instance.name;
+        if (instance_problems_[index].empty()) {
+            names += " (shapes." + scene_.shapes[instance.shape].name + ")";
         }
     }
     return names;
+}
+
+std::size_t SceneRunner::world_input_count() const {
+    std::size_t count = 0;
+    for (const Entry& entry : entries_) {
+        count += entry.is_world ? scene_.queries[entry.query].world->size() : 0;
+    }
+    return count;
 }
 
 void SceneRunner::require_results() const {
@@ -340,6 +471,11 @@ void SceneRunner::require_results() const {
 
 std::vector<Status> SceneRunner::problems() const {
     std::vector<Status> problems;
+    for (const SceneGroup& group : scene_.groups) {
+        if (!group.problem.empty()) {
+            problems.emplace_back(StatusCode::invalid_query, group.problem);
+        }
+    }
     for (const std::vector<std::string>* const of : {&shape_problems_, &instance_problems_}) {
         for (const std::string& problem : *of) {
             if (!problem.empty()) {
@@ -364,7 +500,8 @@ std::size_t SceneRunner::dependent_count() const {
 }
 
 const AnyResult& SceneRunner::result_of(const Entry& entry) const {
-    return entry.is_refused ? refused_[entry.result] : results_.results[entry.result];
+    return entry.is_refused || entry.is_world ? outside_batch_[entry.result]
+                                              : results_.results[entry.result];
 }
 
 std::vector<SceneAnswer> SceneRunner::answers() const {
@@ -377,10 +514,15 @@ std::vector<SceneAnswer> SceneRunner::answers() const {
         if (query.all_pairs && separation != nullptr && separation->distance > query.reach) {
             continue;
         }
+        if (query.hits_only && summary_of(result).status.ok() && !is_hit(result)) {
+            continue;
+        }
+        const bool is_answered_world = entry.is_world && summary_of(result).status.ok();
         const bool has_pair = entry.a != Entry::all;
         answers.push_back({query.request, has_pair ? scene_.instances[entry.a].name : query.name_a,
                            has_pair ? scene_.instances[entry.b].name : query.name_b, result,
-                           query.kind});
+                           query.kind,
+                           is_answered_world ? &worlds_->answer_of(entry.query) : nullptr});
     }
     return answers;
 }

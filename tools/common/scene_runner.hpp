@@ -2,11 +2,13 @@
 
 #include <nearfield/context.hpp>
 
+#include <tools/common/world_runner.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/scene.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +22,12 @@ namespace nearfield::tools {
 
 /// Sets the technique of all queries in a scene, if given.
 void set_technique(Scene& scene, std::optional<Technique> technique);
+
+/// What a frame passes to the library.
+enum class FrameInput {
+    all,    ///< the vertices of all shapes, as if they had deformed, and all poses of pairs
+    poses,  ///< the poses alone; shapes stay as they are
+};
 
 /// Runs a scene in a context frame by frame.
 class SceneRunner {
@@ -35,7 +43,7 @@ public:
 
     /// Runs one whole frame: shapes (which may have deformed), poses and queries in, results out.
     /// Returns the time in milliseconds. Throws LibraryError if the batch as a whole fails.
-    double run_frame();
+    double run_frame(FrameInput input = FrameInput::all);
 
     /// As run_frame(), but where the batch as a whole is too large every query is answered by
     /// itself, so that only those that are too large are not answered.
@@ -58,6 +66,10 @@ public:
     [[nodiscard]] std::string_view technique() const;
     /// The number of queries in the last frame, counting every pair of "all pairs".
     [[nodiscard]] std::size_t query_count() const noexcept { return entries_.size(); }
+    /// The number of pairs that the last frame asked about: once for each query of each pair.
+    [[nodiscard]] std::size_t pair_count() const noexcept { return batch_.queries().size(); }
+    /// The number of poses, points, segments, sweeps and rectangles that it asked about.
+    [[nodiscard]] std::size_t world_input_count() const;
     [[nodiscard]] const Timings& timings() const noexcept { return results_.timings; }
 
 private:
@@ -70,10 +82,20 @@ private:
         std::size_t result = 0;   ///< in the batch, or among those refused
         bool is_refused = false;  ///< before the batch
         bool is_dependent = false;
+        bool is_world = false;  ///< a query of all instances
+    };
+    /// The instances between which a query of all pairs forms pairs.
+    struct Selection {
+        std::vector<std::size_t> sound;   ///< indices into Scene::instances, ascending
+        std::vector<Instance> instances;  ///< the same
+        std::vector<unsigned> sides;      ///< of each: 1 in the first group, 2 in the second
+        std::string names_of_bad;         ///< those that cannot be used
     };
 
     void add_shapes();
     void add_instances();
+    [[nodiscard]] Selection select(const GroupPair& groups) const;
+    void update_shapes();
     void add_queries();
     void add_to(Batch& batch, const Entry& entry) const;
     void add(std::size_t query, std::size_t a, std::size_t b);
@@ -81,10 +103,16 @@ private:
     void add_pair(std::size_t query);
     void add_all_pairs(std::size_t query);
     /// For time-of-impact queries.
-    void add_moving_pairs(std::size_t query);
+    void add_moving_pairs(std::size_t query, const Selection& among);
+    void add_selected(std::size_t query, const Selection& among, InstancePair pair);
+    void add_world_query(std::size_t query);
+    void answer_world_queries();
     void answer_one_by_one();
     [[nodiscard]] const AnyResult& result_of(const Entry& entry) const;
-    [[nodiscard]] std::string names_of_bad() const;
+    [[nodiscard]] bool is_usable(std::size_t instance) const;
+    /// "lid (shapes.box), left": with the shape where that is what is wrong.
+    [[nodiscard]] std::string names_of_bad(const std::vector<std::size_t>& instances) const;
+    [[nodiscard]] std::vector<std::size_t> all_instances() const;
     [[nodiscard]] std::string place_of(const SceneShape& shape) const;
     [[nodiscard]] std::string place_of(std::size_t query) const;
 
@@ -96,10 +124,11 @@ private:
     std::vector<Instance> instances_;
     std::vector<std::string> shape_problems_;     ///< empty for those that can be used
     std::vector<std::string> instance_problems_;  ///< likewise
-    std::vector<std::size_t> sound_;              ///< instances that can be used
-    std::vector<Instance> sound_instances_;
+    Selection all_;                               ///< all instances that can be used
+    std::map<std::size_t, Selection> between_;    ///< by query, for pairs between groups
+    std::optional<WorldRunner> worlds_;           ///< if there are queries of all instances
     std::vector<Entry> entries_;
-    std::vector<AnyResult> refused_;
+    std::vector<AnyResult> outside_batch_;  ///< of refused queries and those of all instances
     Batch batch_;
     Results results_;
 };

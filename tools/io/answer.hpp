@@ -7,9 +7,13 @@
 
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace nearfield::tools {
+
+struct WorldAnswer;
 
 /// One query with its answer and everything to report about it. Refers to objects that the caller
 /// keeps.
@@ -28,6 +32,8 @@ struct SceneAnswer {
     std::string_view b;
     const AnyResult& result;  ///< of any kind, with the error as its status, where there is none
     std::string_view kind;    ///< the name of the query, as the scene has it
+    /// Of a query of all instances, if it is answered; `result` then only has its status.
+    const WorldAnswer* world = nullptr;
 };
 
 /// A context's device as text for people. `name`: Context::device_name().
@@ -43,6 +49,24 @@ struct SceneAnswer {
         text += "\n  - " + reason;
     }
     return text;
+}
+
+/// True of a result that says that the shapes meet, as its kind means it: penetrating points,
+/// samples or contacts were found; moving shapes touch, or were not proven not to; otherwise the
+/// shapes share a point.
+[[nodiscard]] inline bool is_hit(const AnyResult& result) {
+    return std::visit(
+        [](const auto& any) {
+            using Result = std::decay_t<decltype(any)>;
+            if constexpr (std::is_same_v<Result, TimeOfImpactResult>) {
+                return any.state != ImpactState::separated;
+            } else if constexpr (requires { any.count; }) {
+                return any.count > 0;
+            } else {
+                return any.intersects;
+            }
+        },
+        result);
 }
 
 /// The part that every kind of result has.

@@ -1,4 +1,5 @@
 #include <tools/io/query_json.hpp>
+#include <tools/io/world_report.hpp>
 
 #include <numbers>
 #include <string_view>
@@ -325,11 +326,15 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
     json.key("results").begin_array(JsonWriter::Layout::lines);
     for (const SceneAnswer& answer : answers) {
         json.begin_object(JsonWriter::Layout::lines);
-        json.key("a").value_or_null(answer.a);
-        json.key("b").value_or_null(answer.b);
+        if (!find_world_query_type(answer.kind)) {
+            json.key("a").value_or_null(answer.a);
+            json.key("b").value_or_null(answer.b);
+        }
         const Status& status = summary_of(answer.result).status;
         json.key("status").value(to_string(status.code()));
-        if (status.ok()) {
+        if (answer.world != nullptr) {
+            write_world_answer(json, *answer.world);
+        } else if (status.ok()) {
             write_answer(json, answer.request, answer.result);
         } else {
             json.key("query").value_or_null(answer.kind);

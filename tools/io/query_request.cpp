@@ -82,13 +82,16 @@ constexpr std::array<Named<ImpactState>, 4> states{{
 
 template <class Value>
 Value parse_name(std::span<const Named<Value>> table, const std::string& name,
-                 const std::string& what) {
+                 const std::string& what, std::span<const std::string_view> others = {}) {
     std::string choices;
     for (const auto& [text, value] : table) {
         if (text == name) {
             return value;
         }
         choices += (choices.empty() ? "" : ", ") + std::string(text);
+    }
+    for (const std::string_view other : others) {
+        choices += ", " + std::string(other);
     }
     throw InputError(what + ": \"" + name + "\" is none of " + choices);
 }
@@ -102,8 +105,9 @@ std::string_view find_name(std::span<const Named<Value>> table, Value value) noe
 
 }  // namespace
 
-QueryType parse_query_type(const std::string& name, const std::string& what) {
-    return parse_name<QueryType>(query_types, name, what);
+QueryType parse_query_type(const std::string& name, const std::string& what,
+                           std::span<const std::string_view> others) {
+    return parse_name<QueryType>(query_types, name, what, others);
 }
 
 PenetrationPoints parse_points(const std::string& name, const std::string& what) {

@@ -6,6 +6,7 @@
 #include <nearfield/shape.hpp>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,7 +77,9 @@ struct QueryRequest {
 
 /// The names of the command line and of scenes. Parsing throws InputError with a text that says
 /// what there is to choose from; `what` says where the name stands ("--kind").
-[[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what);
+/// `others`: further names that the message lists.
+[[nodiscard]] QueryType parse_query_type(const std::string& name, const std::string& what,
+                                         std::span<const std::string_view> others = {});
 [[nodiscard]] PenetrationPoints parse_points(const std::string& name, const std::string& what);
 [[nodiscard]] IntersectionKind parse_kind(const std::string& name, const std::string& what);
 [[nodiscard]] ContactNormals parse_normals(const std::string& name, const std::string& what);

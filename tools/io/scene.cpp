@@ -1,6 +1,7 @@
 #include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
+#include <tools/io/json_members.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/shape_rings.hpp>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <initializer_list>
 #include <limits>
 #include <string_view>
@@ -19,39 +19,6 @@ namespace nearfield::tools {
 namespace {
 
 using nlohmann::json;
-
-/// A member that is not known: of a scene that is not understood.
-class UnknownMember : public InputError {
-public:
-    using InputError::InputError;
-};
-
-void require_known_members(const JsonPlace& place, const std::vector<std::string_view>& known) {
-    for (const auto& [key, value] : place.require_object().value().items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end()) {
-            throw UnknownMember(place.member(key).text() + ": is not known here");
-        }
-    }
-}
-
-std::vector<double> numbers(const JsonPlace& place, std::size_t count, const std::string& form) {
-    if (place.require_array().value().size() != count) {
-        place.fail("expected " + form);
-    }
-    std::vector<double> numbers;
-    for (std::size_t index = 0; index < count; ++index) {
-        numbers.push_back(place.element(index).number());
-    }
-    return numbers;
-}
-
-double read_above_zero(const JsonPlace& place) {
-    const double number = place.number();
-    if (!(number > 0.0)) {
-        place.fail("expected a number greater than 0");
-    }
-    return number;
-}
 
 Outline read_shape(const JsonPlace& place) {
     require_known_members(place, {"file", "rings", "deviation", "fill_rule", "clean_width"});
@@ -63,13 +30,22 @@ Outline read_shape(const JsonPlace& place) {
         append_rings(place.member("rings"), outline.rings);
         outline.file = place.member("rings").text();
     } else {
-        const std::filesystem::path folder = std::filesystem::path(place.file()).parent_path();
-        outline = read_outline((folder / place.member("file").string()).string());
+        outline = read_outline(read_path(place.member("file")));
     }
     if (place.has("deviation") && !outline.curved()) {
         place.member("deviation").fail("the shape has no curves");
     }
     return outline;
+}
+
+/// True of a query whose answer may depend on a shape.
+bool takes_part(const SceneQuery& query, std::size_t shape, bool is_placed, const Scene& scene) {
+    if (query.world) {
+        return is_placed || query.world->shape == shape;
+    }
+    return query.all_pairs
+               ? is_placed
+               : scene.instances[query.a].shape == shape || scene.instances[query.b].shape == shape;
 }
 
 /// The maximum deviation of a shape's rings from its curves: stated by the shape, or derived from
@@ -86,11 +62,9 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
         if (!query.problem.empty()) {
             continue;
         }
-        const bool takes_part = query.all_pairs ? is_placed
-                                                : scene.instances[query.a].shape == shape ||
-                                                      scene.instances[query.b].shape == shape;
-        if (takes_part && query.request.tolerance > 0.0) {
-            smallest = std::min(smallest, query.request.tolerance);
+        const double tolerance = query.world ? query.world->tolerance : query.request.tolerance;
+        if (tolerance > 0.0 && takes_part(query, shape, is_placed, scene)) {
+            smallest = std::min(smallest, tolerance);
         }
     }
     if (!std::isfinite(smallest)) {
@@ -119,25 +93,6 @@ void add_note(std::string& note, const JsonPlace& place, const std::string& text
     }
 }
 
-/// Finds the index of the entry named by the string at a place.
-template <class Entry>
-std::size_t find_entry(const std::vector<Entry>& entries, const JsonPlace& place,
-                       const std::string& kind) {
-    const std::string& name = place.string();
-    const auto found = std::find_if(entries.begin(), entries.end(),
-                                    [&](const Entry& entry) { return entry.name == name; });
-    if (found == entries.end()) {
-        place.fail("there is no " + kind + " \"" + name + "\"");
-    }
-    return static_cast<std::size_t>(found - entries.begin());
-}
-
-void require_angle(const JsonPlace& pose, double degrees) {
-    if (const std::string problem = angle_problem(degrees); !problem.empty()) {
-        pose.fail(problem);
-    }
-}
-
 SceneInstance read_instance(const std::string& name, const JsonPlace& place, const Scene& scene) {
     require_known_members(place, {"shape", "pose", "end_pose"});
     SceneInstance instance;
@@ -156,21 +111,6 @@ SceneInstance read_instance(const std::string& name, const JsonPlace& place, con
         instance.end_pose = to_end_pose({end[0], end[1], end[2]}, pose[2]);
     }
     return instance;
-}
-
-Rectangle read_rectangle(const JsonPlace& place) {
-    const std::vector<double> corners = numbers(place, 4, "[x0, y0, x1, y1] (four numbers)");
-    if (!(corners[0] < corners[2] && corners[1] < corners[3])) {
-        place.fail("expected x0 < x1 and y0 < y1");
-    }
-    return {{corners[0], corners[1]}, {corners[2], corners[3]}};
-}
-
-/// Parses a name with one of the command line's parsers; its errors name the place.
-template <class Parse>
-auto parse_member(const JsonPlace& place, const std::string& key, Parse parse) {
-    const JsonPlace member = place.member(key);
-    return parse(member.string(), member.text());
 }
 
 void read_field_request(const JsonPlace& place, QueryRequest& request) {
@@ -202,14 +142,6 @@ void read_field_request(const JsonPlace& place, QueryRequest& request) {
     }
 }
 
-std::uint32_t read_count(const JsonPlace& place) {
-    const double number = place.number();
-    if (!(number >= 1.0 && number <= 1e9 && number == std::floor(number))) {
-        place.fail("expected a whole number from 1 to 1000000000");
-    }
-    return static_cast<std::uint32_t>(number);
-}
-
 void read_motion_request(const JsonPlace& place, QueryRequest& request) {
     if (place.has("time_bound")) {
         request.time_bound = read_above_zero(place.member("time_bound"));
@@ -221,7 +153,8 @@ void read_motion_request(const JsonPlace& place, QueryRequest& request) {
 
 /// The members that a query of a type may have.
 std::vector<std::string_view> members_of(QueryType type) {
-    std::vector<std::string_view> members{"query", "a", "b", "pairs", "tolerance", "technique"};
+    std::vector<std::string_view> members{"query",     "a",         "b",        "pairs",
+                                          "tolerance", "technique", "hits_only"};
     const auto add = [&members](std::initializer_list<std::string_view> more) {
         members.insert(members.end(), more);
     };
@@ -282,9 +215,13 @@ void read_shared_members(const JsonPlace& place, QueryRequest& request) {
 
 QueryRequest read_request(const JsonPlace& place) {
     QueryRequest request;
-    request.type = parse_member(place, "query", parse_query_type);
+    request.type = parse_query_type(place.member("query").string(), place.member("query").text(),
+                                    world_query_type_names());
     if (place.has("reach") && !(place.has("pairs") && request.type == QueryType::separation)) {
         place.member("reach").fail("belongs to the separation of all pairs");
+    }
+    if (place.has("hits_only") && !place.has("pairs")) {
+        place.member("hits_only").fail("belongs to \"pairs\"");
     }
     require_known_members(place, members_of(request.type));
     read_shared_members(place, request);
@@ -309,10 +246,23 @@ QueryRequest read_request(const JsonPlace& place) {
     return request;
 }
 
-/// Reads "pairs": "all", which replaces two instances.
-void read_pairs(const JsonPlace& place, SceneQuery& query) {
+/// Reads {"between": [GROUP, GROUP]}.
+GroupPair read_between(const JsonPlace& pairs, const Scene& scene) {
+    require_known_members(pairs, {"between"});
+    const JsonPlace between = pairs.member("between");
+    if (between.require_array().value().size() != 2) {
+        between.fail("expected [GROUP, GROUP] (two names)");
+    }
+    return {read_instance_group(between.element(0), scene),
+            read_instance_group(between.element(1), scene)};
+}
+
+/// Reads "pairs": "all" or {"between": ...}, which replaces two instances.
+void read_pairs(const JsonPlace& place, const Scene& scene, SceneQuery& query) {
     const JsonPlace pairs = place.member("pairs");
-    if (pairs.string() != "all") {
+    if (pairs.value().is_object()) {
+        query.between = read_between(pairs, scene);
+    } else if (pairs.string() != "all") {
         pairs.fail("\"" + pairs.string() + "\" is not all");
     }
     for (const char* key : {"a", "b"}) {
@@ -321,16 +271,22 @@ void read_pairs(const JsonPlace& place, SceneQuery& query) {
         }
     }
     query.all_pairs = true;
+    query.hits_only = place.has("hits_only") && place.member("hits_only").boolean();
     if (query.request.type == QueryType::separation) {
         query.reach = read_above_zero(place.member("reach"));
     }
 }
 
-SceneQuery read_query(const JsonPlace& place, const Scene& scene) {
+SceneQuery read_query(const JsonPlace& place, const Scene& scene, std::vector<std::string>& files) {
     SceneQuery query;
-    query.request = read_request(place.require_object());
+    const auto type = find_world_query_type(place.require_object().member("query").string());
+    if (type) {
+        query.world = read_world_request(place, *type, scene, files);
+        return query;
+    }
+    query.request = read_request(place);
     if (place.has("pairs")) {
-        read_pairs(place, query);
+        read_pairs(place, scene, query);
         return query;
     }
     query.a = find_entry(scene.instances, place.member("a"), "instance");
@@ -345,22 +301,45 @@ std::string text_of(const JsonPlace& place, const char* key) {
     return has_text ? value[key].get<std::string>() : std::string();
 }
 
-/// Reads shapes, instances and queries, in this order.
+/// The names of instances, each once and not their own group.
+void read_group(const JsonPlace& place, const Scene& scene, SceneGroup& group) {
+    if (find_name(scene.instances, group.name)) {
+        place.fail("is also the name of an instance");
+    }
+    for (std::size_t i = 0; i < place.require_array().value().size(); ++i) {
+        group.instances.push_back(find_entry(scene.instances, place.element(i), "instance"));
+    }
+    std::sort(group.instances.begin(), group.instances.end());
+    const auto twice = std::adjacent_find(group.instances.begin(), group.instances.end());
+    if (twice != group.instances.end()) {
+        place.fail("names \"" + scene.instances[*twice].name + "\" twice");
+    }
+}
+
+/// Reads shapes, instances, groups and queries, in this order.
 class SceneReader {
 public:
     SceneReader(const JsonPlace& root, BadEntries bad, EmptyRings empty)
         : bad_(bad),
           empty_(empty),
+          root_(root),
           shapes_(root.member("shapes")),
           instances_(root.member("instances")),
           queries_(root.member("queries")) {}
 
     Scene read() {
+        scene_.files.push_back(root_.file());
         for (const auto& [name, value] : shapes_.require_object().value().items()) {
             read_outline_of(name);
         }
         for (const auto& [name, value] : instances_.require_object().value().items()) {
             read_instance_of(name);
+        }
+        if (root_.has("groups")) {
+            const JsonPlace groups = root_.member("groups");
+            for (const auto& [name, value] : groups.require_object().value().items()) {
+                read_group_of(groups.member(name), name);
+            }
         }
         for (std::size_t index = 0; index < queries_.require_array().value().size(); ++index) {
             read_query_of(queries_.element(index));
@@ -392,6 +371,9 @@ private:
         SceneShape shape{.name = name};
         Outline outline;
         attempt(shapes_.member(name), shape.problem, [&](const JsonPlace& place) {
+            if (place.value().is_object() && place.has("file")) {
+                scene_.files.push_back(read_path(place.member("file")));
+            }
             outline = read_shape(place);
             if (!outline.skipped.empty()) {
                 add_note(shape.note, place, skipped_note(outline));
@@ -410,10 +392,18 @@ private:
         scene_.instances.push_back(std::move(instance));
     }
 
+    void read_group_of(const JsonPlace& place, const std::string& name) {
+        SceneGroup group{.name = name};
+        attempt(place, group.problem,
+                [&](const JsonPlace& where) { read_group(where, scene_, group); });
+        scene_.groups.push_back(std::move(group));
+    }
+
     void read_query_of(const JsonPlace& place) {
         SceneQuery query;
         std::string problem;
-        attempt(place, problem, [&](const JsonPlace& where) { query = read_query(where, scene_); });
+        attempt(place, problem,
+                [&](const JsonPlace& where) { query = read_query(where, scene_, scene_.files); });
         query.problem = problem;
         query.kind = text_of(place, "query");
         query.name_a = text_of(place, "a");
@@ -438,6 +428,7 @@ private:
 
     BadEntries bad_;
     EmptyRings empty_;
+    JsonPlace root_;
     JsonPlace shapes_;
     JsonPlace instances_;
     JsonPlace queries_;

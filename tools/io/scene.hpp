@@ -3,6 +3,7 @@
 #include <nearfield/shape.hpp>
 
 #include <tools/io/query_request.hpp>
+#include <tools/io/world_request.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -29,7 +30,21 @@ struct SceneInstance {
     std::string problem = {};                     ///< why it cannot be used; empty where it can
 };
 
-/// A query of a scene between two of its instances, or between all pairs that are near each other.
+/// Instances of a scene that queries name together.
+struct SceneGroup {
+    std::string name;
+    std::vector<std::size_t> instances = {};  ///< indices into Scene::instances, ascending
+    std::string problem = {};                 ///< why it cannot be used; empty where it can
+};
+
+/// The groups between which pairs are formed.
+struct GroupPair {
+    InstanceGroup first;
+    InstanceGroup second;
+};
+
+/// A query of a scene between two of its instances, between all pairs that are near each other, or
+/// of all its instances.
 struct SceneQuery {
     QueryRequest request;
     std::size_t a = 0;  ///< index into Scene::instances
@@ -45,6 +60,11 @@ struct SceneQuery {
     std::string name_a = {};
     std::string name_b = {};
     std::string problem = {};  ///< why it cannot be asked; empty where it can
+    /// Of all pairs: only those with an instance of one group and one of the other.
+    std::optional<GroupPair> between = std::nullopt;
+    bool hits_only = false;  ///< of all pairs: only results for which is_hit() holds
+    /// Instead of pairs: a query of all instances. Nothing else but `problem` counts then.
+    std::optional<WorldRequest> world = std::nullopt;
 };
 
 /// Shapes, poses and queries for one batch.
@@ -52,6 +72,8 @@ struct Scene {
     std::vector<SceneShape> shapes;
     std::vector<SceneInstance> instances;
     std::vector<SceneQuery> queries;
+    std::vector<SceneGroup> groups = {};
+    std::vector<std::string> files = {};  ///< what was read: the scene, outlines, tables
 };
 
 /// What becomes of a shape, an instance or a query that is wrong in itself.

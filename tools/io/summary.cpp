@@ -1,4 +1,5 @@
 #include <tools/io/summary.hpp>
+#include <tools/io/world_report.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -19,12 +20,6 @@ std::string point_text(Vector2 point) {
 std::string feature_text(Feature feature) {
     return (feature.kind == Feature::Kind::edge ? "edge " : "vertex ") +
            std::to_string(feature.index);
-}
-
-void write_item(std::ostream& stream, std::string_view name, const std::string& text) {
-    constexpr std::size_t column = 18;
-    stream << name << std::string(name.size() < column ? column - name.size() : 1, ' ') << text
-           << '\n';
 }
 
 void write_result(std::ostream& stream, const PenetrationResult& result) {
@@ -203,6 +198,12 @@ void write_regions(std::ostream& stream, const ResultSummary& summary) {
 
 }  // namespace
 
+void write_item(std::ostream& stream, std::string_view name, const std::string& text) {
+    constexpr std::size_t column = 18;
+    stream << name << std::string(name.size() < column ? column - name.size() : 1, ' ') << text
+           << '\n';
+}
+
 std::string short_number(double number) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6g", number + 0.0);  // + 0.0: no negative zero
@@ -258,11 +259,17 @@ void write_scene_summary(std::ostream& stream, std::span<const SceneAnswer> answ
     write_item(stream, "queries", std::to_string(answers.size()));
     for (const SceneAnswer& answer : answers) {
         stream << '\n';
+        if (answer.world != nullptr) {
+            write_world_summary(stream, *answer.world);
+            continue;
+        }
         const Status& status = summary_of(answer.result).status;
+        const std::string_view many =
+            find_world_query_type(answer.kind) ? "all instances" : "all pairs";
         write_item(
             stream, "query",
             std::string(answer.kind) + " of " +
-                (answer.a.empty() ? "all pairs"
+                (answer.a.empty() ? std::string(many)
                                   : std::string(answer.a) + " and " + std::string(answer.b)));
         if (!status.ok()) {
             write_item(stream, "status", status.text());

@@ -14,6 +14,9 @@ namespace nearfield::tools {
 /// Formats a number for people: six significant digits.
 [[nodiscard]] std::string short_number(double number);
 
+/// Writes a line with an item: its name, and its text in a column of its own.
+void write_item(std::ostream& stream, std::string_view name, const std::string& text);
+
 /// Writes an answer for people, one item per line.
 void write_summary(std::ostream& stream, const Answer& answer);
 

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <nearfield/world.hpp>
+
+#include <tools/io/world_answer.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::tools {
+
+/// The instances of a scene as worlds, for the queries of all instances or of groups. The worlds
+/// stay from frame to frame; what happens to the shapes in the context is seen by them.
+class WorldRunner {
+public:
+    /// `shapes` and `instances` are those of the scene, and `sound` lists the instances that can be
+    /// used; what is passed must outlive the runner. Throws LibraryError.
+    WorldRunner(const Scene& scene, Context& context, std::span<const ShapeHandle> shapes,
+                std::span<const Instance> instances, std::span<const std::size_t> sound);
+
+    /// Answers the scene's query with this index, which must be one of a world. An error is
+    /// returned, and leaves the answer undefined.
+    [[nodiscard]] Status answer(std::size_t query);
+
+    /// The last answer to a query. Valid until it is answered again.
+    [[nodiscard]] const WorldAnswer& answer_of(std::size_t query) const {
+        return entries_[query].answer;
+    }
+
+private:
+    /// A world, whose filters distinguish a limited number of groups.
+    struct GroupedWorld {
+        World world;
+        std::vector<InstanceHandle> handles;  ///< by index into Scene::instances
+        std::vector<std::size_t> instances;   ///< indices into it, by InstanceHandle::index
+    };
+    /// What a query needs.
+    struct Entry {
+        std::size_t group = 0;  ///< the instances considered
+        WorldFilter filter = {};
+        WorldAnswer answer = {};
+    };
+
+    void add_entries();
+    void add_world(Context& context, std::size_t first_group);
+    /// The number of the group of these instances, which it gets when it is new.
+    [[nodiscard]] std::size_t group_of(std::vector<std::size_t> instances);
+
+    [[nodiscard]] Status answer_poses(World& world, Entry& entry) const;
+    [[nodiscard]] Status answer_nearest(World& world, Entry& entry);
+    [[nodiscard]] Status answer_rays(World& world, Entry& entry) const;
+    [[nodiscard]] Status answer_cast(World& world, Entry& entry) const;
+    [[nodiscard]] Status answer_overlap(World& world, Entry& entry) const;
+    [[nodiscard]] std::uint32_t wanted_hits(const Entry& entry) const;
+    [[nodiscard]] ShapeHandle shape_of(const Entry& entry) const;
+
+    const Scene& scene_;
+    std::span<const ShapeHandle> shapes_;
+    std::span<const Instance> instances_;
+    std::span<const std::size_t> sound_;
+    /// The instances that queries consider, indices into Scene::instances; a world distinguishes as
+    /// many groups as a category has bits.
+    std::vector<std::vector<std::size_t>> groups_;
+    std::vector<GroupedWorld> worlds_;
+    std::vector<Entry> entries_;       ///< by index into Scene::queries
+    std::vector<NearestHit> nearest_;  ///< of some points, with those that were not found
+};
+
+}  // namespace nearfield::tools

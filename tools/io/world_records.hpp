@@ -1,0 +1,117 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <tools/io/world_answer.hpp>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+/// \file
+/// What the records of a world's answers consist of, said once for all formats. A Row has the
+/// functions number, index, truth, instance, point (which may be missing), feature and state, each
+/// of which gets the name of the member first.
+
+namespace nearfield::tools {
+
+/// True of a unit vector; a direction that there is not is (0, 0).
+[[nodiscard]] inline bool is_direction(Vector2 vector) noexcept {
+    return vector.x != 0.0 || vector.y != 0.0;
+}
+
+/// True of a handle that names an instance.
+[[nodiscard]] inline bool is_instance(InstanceHandle handle) noexcept {
+    return !(handle == InstanceHandle{});
+}
+
+template <class Row>
+void describe(Row& row, std::uint8_t intersects) {
+    row.truth("hit", intersects != 0);
+}
+
+template <class Row>
+void describe(Row& row, const Clearance& clearance) {
+    const bool has_direction = is_direction(clearance.direction);
+    row.number("distance", clearance.distance);
+    row.number("error_bound", clearance.error_bound);
+    row.instance("instance", clearance.instance);
+    row.point("point", clearance.point, has_direction);
+    row.point("nearest", clearance.nearest, has_direction);
+    row.point("direction", clearance.direction, has_direction);
+}
+
+template <class Row>
+void describe(Row& row, const RayHit& hit) {
+    const bool is_hit = is_instance(hit.instance);
+    row.instance("instance", hit.instance);
+    row.number("parameter", hit.parameter);
+    row.number("error_bound", hit.error_bound);
+    row.point("point", hit.point, is_hit);
+    row.point("normal", hit.normal, is_hit);
+    row.index("edge", hit.edge, is_hit);
+}
+
+template <class Row>
+void describe(Row& row, const ShapeCastHit& hit) {
+    row.state("state", hit.state);
+    row.instance("instance", hit.instance);
+    row.number("time", hit.time);
+    row.number("time_error_bound", hit.time_error_bound);
+    row.number("error_bound", hit.error_bound);
+    row.point("point", hit.point, is_instance(hit.instance));
+    row.point("nearest", hit.nearest, is_instance(hit.instance));
+    row.point("direction", hit.direction, is_direction(hit.direction));
+}
+
+template <class Row>
+void describe(Row& row, const NearestHit& hit) {
+    row.instance("instance", hit.instance);
+    row.number("distance", hit.distance);
+    row.number("error_bound", hit.error_bound);
+    row.point("nearest", hit.nearest, true);
+    row.feature("feature", hit.feature);
+}
+
+template <class Row>
+void describe(Row& row, InstanceHandle instance) {
+    row.instance("instance", instance);
+}
+
+/// The records of an answer with lists.
+[[nodiscard]] inline const std::vector<NearestHit>& records_of(const NearestLists& lists) {
+    return lists.hits;
+}
+[[nodiscard]] inline const std::vector<RayHit>& records_of(const RayHits& lists) {
+    return lists.hits;
+}
+[[nodiscard]] inline const std::vector<InstanceHandle>& records_of(const InstanceLists& lists) {
+    return lists.instances;
+}
+/// The records of an answer without lists.
+template <class Record>
+[[nodiscard]] const std::vector<Record>& records_of(const std::vector<Record>& records) {
+    return records;
+}
+
+/// True of an answer with a list of records per input.
+template <class Records>
+inline constexpr bool has_lists = requires(const Records& records) {
+    records.offsets;
+};
+
+/// True of a record that says that its input hits something.
+[[nodiscard]] inline bool is_hit(std::uint8_t intersects) noexcept {
+    return intersects != 0;
+}
+[[nodiscard]] inline bool is_hit(const RayHit& hit) noexcept {
+    return is_instance(hit.instance);
+}
+[[nodiscard]] inline bool is_hit(const ShapeCastHit& hit) noexcept {
+    return hit.state != ImpactState::separated;
+}
+
+/// What one input of a query is: the name of the column with its number.
+[[nodiscard]] std::string_view input_name(const WorldRequest& request) noexcept;
+
+}  // namespace nearfield::tools
