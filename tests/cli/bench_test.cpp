@@ -21,6 +21,9 @@ constexpr auto good_scene = R"({
              "rect": [-1, -1, 2, 2]}]
 })";
 
+/// A small row: two bars of 100 vertices.
+constexpr auto small_row = "wavy x1, vertices";
+
 class Bench : public CliTest {
 protected:
     /// The good scene with part of its text replaced.
@@ -58,6 +61,33 @@ TEST_F(Bench, TellsMedianFramesDeviceAndTimesByPass) {
         sum += time.get<double>();
     }
     EXPECT_GT(sum, 0.0);
+}
+
+TEST_F(Bench, TellsHowManyPairsItAskedAbout) {
+    const std::string queries = good_scene;
+    const Arguments good{"bench", "--scene", folder_.write("scene.json", queries), "--frames", "1"};
+    const Json json = answer(good);
+    EXPECT_EQ(json.at("pairs"), 4);
+    EXPECT_EQ(json.at("world_inputs"), 0);
+    EXPECT_EQ(json.at("keep"), false);
+    EXPECT_NE(run_program(good).out.find("\npairs             4\n"), std::string::npos);
+    // A and B meet, far meets neither: both orders of one pair.
+    Json all = Json::parse(queries);
+    all["queries"] = Json::parse(
+        R"([{"query": "penetration", "pairs": "all", "tolerance": 0.05, "hits_only": true},
+            {"query": "nearest", "points": [[0, 0], [1, 1], [2, 2]]},
+            {"query": "overlap", "points": [[0, 0]]}])");
+    const Arguments pairs{"bench", "--scene", folder_.write("all.json", all.dump()), "--frames",
+                          "2"};
+    for (const Json& frames : {answer(pairs), answer(pairs + Arguments{"--keep"})}) {
+        EXPECT_EQ(frames.at("pairs"), 2);
+        EXPECT_EQ(frames.at("world_inputs"), 4);
+    }
+    EXPECT_EQ(answer(pairs + Arguments{"--keep"}).at("keep"), true);
+    const Outcome kept = run_program(pairs + Arguments{"--keep"});
+    EXPECT_NE(kept.out.find("2, shapes kept"), std::string::npos) << kept.out;
+    EXPECT_NE(kept.out.find("\nworld inputs      4\n"), std::string::npos) << kept.out;
+    expect_refused({"bench", "--keep", "--filter", small_row}, {"--keep", "--scene"});
 }
 
 TEST_F(Bench, PrintsASummaryAndWritesAFile) {
@@ -109,9 +139,6 @@ TEST_F(Bench, RefusesWhatOnlyTheLibraryFindsByFileAndPlace) {
     expect_bad_scene("\"tolerance\": 0.1", "\"tolerance\": 1e-9",
                      {"query 3", "the smallest tolerance that fits"});
 }
-
-/// A small row: two bars of 100 vertices.
-constexpr auto small_row = "wavy x1, vertices";
 
 TEST_F(Bench, WithoutASceneItMeasuresRowsOfTheStandardTableByEachTechnique) {
     const Json json = answer({"bench", "--filter", small_row});

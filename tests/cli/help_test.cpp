@@ -124,7 +124,7 @@ TEST_F(Help, NamesCommandsAndTheirOptions) {
     expect_names({}, {"query", "scene", "bench", "simulate", "calibrate", "info", "--version"});
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
-    expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--json"});
+    expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--keep", "--json"});
     expect_names({"simulate"}, {"--response", "--frames", "--bodies", "--every", "--video"});
     expect_names({"calibrate"}, {"file"});
     expect_names({"info"}, {"devices"});

@@ -32,6 +32,8 @@ struct Measurement {
     benchmark::Spread frame_ms;
     double slowest_ms = 0.0;
     Timings timings;
+    std::size_t pairs = 0;         ///< of one frame, each query of a pair
+    std::size_t world_inputs = 0;  ///< poses, points and so on of queries of all instances
 };
 
 Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
@@ -43,7 +45,8 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
         if (show_progress) {
             std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
         }
-        const double milliseconds = runner.run_frame();
+        const double milliseconds =
+            runner.run_frame(arguments.keep ? FrameInput::poses : FrameInput::all);
         runner.require_results();
         if (frame >= arguments.warm_up) {
             frames_ms.push_back(milliseconds);
@@ -54,7 +57,7 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
         std::cerr << '\n';
     }
     return {benchmark::spread_of(frames_ms), *std::max_element(frames_ms.begin(), frames_ms.end()),
-            benchmark::median_timings(timings)};
+            benchmark::median_timings(timings), runner.pair_count(), runner.world_input_count()};
 }
 
 void write_bench_json(std::ostream& stream, const Measurement& measurement,
@@ -65,6 +68,9 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
     json.key("scene").value(std::string_view(arguments.scene));
     json.key("device").value_or_null(device);
     json.key("technique").value(technique);
+    json.key("pairs").value(std::uint64_t{measurement.pairs});
+    json.key("world_inputs").value(std::uint64_t{measurement.world_inputs});
+    json.key("keep").value(arguments.keep);
     json.key("frames").value(std::uint64_t{arguments.frames});
     json.key("median_ms").value(measurement.frame_ms.median);
     json.key("min_ms").value(measurement.frame_ms.least);
@@ -75,11 +81,16 @@ void write_bench_json(std::ostream& stream, const Measurement& measurement,
 }
 
 void write_bench_summary(std::ostream& stream, const Measurement& measurement, const Scene& scene,
-                         const std::string& device, std::string_view technique) {
+                         bool keep, const std::string& device, std::string_view technique) {
     stream << "device            " << device_text(device) << '\n'
            << "technique         " << technique << '\n'
            << "queries           " << scene.queries.size() << '\n'
-           << "frames            " << measurement.frame_ms.count << '\n'
+           << "pairs             " << measurement.pairs << '\n';
+    if (measurement.world_inputs > 0) {
+        stream << "world inputs      " << measurement.world_inputs << '\n';
+    }
+    stream << "frames            " << measurement.frame_ms.count << (keep ? ", shapes kept" : "")
+           << '\n'
            << "median            " << short_number(measurement.frame_ms.median) << " ms a frame ("
            << short_number(measurement.frame_ms.least) << " to "
            << short_number(measurement.slowest_ms) << ")\n";
@@ -132,6 +143,11 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
         ->type_name("COUNT")
         ->needs(scene);
     command
+        ->add_flag("--keep", arguments.keep,
+                   "Frames in which only poses change: the shapes are passed once, before the "
+                   "first one; default: every frame passes all vertices anew")
+        ->needs(scene);
+    command
         ->add_option("--json", arguments.json,
                      "Write the times as JSON, milliseconds; - for the standard output, the "
                      "summary then goes to the standard error; default none")
@@ -163,7 +179,7 @@ void run_bench(const BenchArguments& arguments) {
     if (std::ostream* json = report.json()) {
         write_bench_json(*json, measurement, arguments, context.device_name(), runner.technique());
     }
-    write_bench_summary(report.summary(), measurement, scene, context.device_name(),
+    write_bench_summary(report.summary(), measurement, scene, arguments.keep, context.device_name(),
                         runner.technique());
     report.commit();
 }

@@ -20,6 +20,7 @@ struct BenchArguments {
     std::optional<std::string> json;
     std::uint32_t frames = 50;
     std::uint32_t warm_up = 5;
+    bool keep = false;  ///< a frame passes poses alone, no shapes
 };
 
 /// Adds the command `bench` to the program. Parsing fills `arguments`, which must outlive it.
