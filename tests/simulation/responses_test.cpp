@@ -32,7 +32,7 @@ namespace {
 
 using namespace simulation;
 
-World world_of(Scene scene, Response response, Technique technique = Technique::cpu) {
+simulation::World world_of(Scene scene, Response response, Technique technique = Technique::cpu) {
     return {simulation_context(), std::move(scene), response, technique};
 }
 

@@ -21,7 +21,7 @@ struct SceneRun {
 };
 
 /// The positions of all bodies.
-std::vector<Vector2> vertices_of(const World& world) {
+std::vector<Vector2> vertices_of(const simulation::World& world) {
     std::vector<Vector2> vertices;
     for (const auto& body : world.scene().bodies) {
         for (const Ring& ring : body->rings()) {
