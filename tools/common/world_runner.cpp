@@ -30,8 +30,7 @@ WorldRunner::WorldRunner(const Scene& scene, Context& context, std::span<const S
     for (std::size_t group = 0; group < groups_.size(); group += groups_per_world) {
         add_world(context, group);
     }
-    for (std::size_t query = 0; query < entries_.size(); ++query) {
-        Entry& entry = entries_[query];
+    for (Entry& entry : entries_) {
         if (entry.answer.request == nullptr) {
             continue;
         }

@@ -376,6 +376,7 @@ std::optional<WorldQueryType> find_world_query_type(std::string_view name) noexc
 
 std::vector<std::string_view> world_query_type_names() {
     std::vector<std::string_view> names;
+    names.reserve(types.size());
     for (const auto& [text, type] : types) {
         names.push_back(text);
     }
