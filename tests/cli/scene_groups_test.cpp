@@ -83,6 +83,19 @@ TEST_F(SceneGroups, HitsOnlyLeavesOutWhatIsApart) {
         5U);
 }
 
+TEST_F(SceneGroups, OfContainmentTheHitsAreInside) {
+    Json scene = strip();
+    scene["shapes"]["speck"] = {{"rings", {{{0, 0}, {0.25, 0}, {0, 0.25}}}}};
+    scene["instances"]["within"] = {{"shape", "speck"}, {"pose", {1.1, 1.1, 0}}};
+    scene["instances"]["across"] = {{"shape", "speck"}, {"pose", {3.9, 1.1, 0}}};
+    scene["queries"] =
+        Json::parse(R"([{"query": "containment", "pairs": "all", "hits_only": true}])");
+    const Json results = answer({"scene", folder_.write("scene.json", scene.dump())}).at("results");
+    ASSERT_EQ(results.size(), 1U) << results;
+    EXPECT_EQ(results.at(0).at("a"), "within");
+    EXPECT_EQ(results.at(0).at("b"), "i1");
+}
+
 TEST_F(SceneGroups, BadGroupsAndPairsAreNamed) {
     Json scene = strip();
     scene["groups"] = Json::parse(R"({

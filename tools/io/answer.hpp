@@ -52,14 +52,16 @@ struct SceneAnswer {
 }
 
 /// True of a result that says that the shapes meet, as its kind means it: penetrating points,
-/// samples or contacts were found; moving shapes touch, or were not proven not to; otherwise the
-/// shapes share a point.
+/// samples or contacts were found; moving shapes touch, or were not proven not to; A is inside B;
+/// otherwise the shapes share a point.
 [[nodiscard]] inline bool is_hit(const AnyResult& result) {
     return std::visit(
         [](const auto& any) {
             using Result = std::decay_t<decltype(any)>;
             if constexpr (std::is_same_v<Result, TimeOfImpactResult>) {
                 return any.state != ImpactState::separated;
+            } else if constexpr (std::is_same_v<Result, ContainmentResult>) {
+                return any.inside;
             } else if constexpr (requires { any.count; }) {
                 return any.count > 0;
             } else {
