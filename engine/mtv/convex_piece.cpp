@@ -1,6 +1,8 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/mtv/convex_piece.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 
 namespace nearfield::mtv {
@@ -25,6 +27,12 @@ void ConvexPiece::clip(const Corners& corners, const Vector& direction, double l
     kept.clear();
     if (corners.empty()) {
         return;
+    }
+    // At least as much as most pieces ever need: memory moves from piece to piece, and none of it
+    // should grow again later.
+    constexpr std::size_t usual_corners = 64;
+    if (kept.capacity() <= corners.size()) {
+        kept.reserve(std::max(usual_corners, 2 * corners.size()));
     }
     const Vector* from = &corners.back();
     double beyond = direction.dot(*from) - least;

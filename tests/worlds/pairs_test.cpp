@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -104,7 +105,7 @@ auto records_of(const Result& result) {
 class ChangingScene : public Scene {
 public:
     explicit ChangingScene(std::uint64_t seed)
-        : Scene(make_scene(SceneKind::ordinary, seed)), random_(seed + 7) {
+        : Scene(make_scene(kind_of(seed), seed)), random_(seed + 7) {
         for (std::size_t i = 0; i < size(); ++i) {
             present_.push_back(i);
             poses_.push_back(placements()[i].pose);
@@ -139,6 +140,12 @@ public:
     }
 
 private:
+    static SceneKind kind_of(std::uint64_t seed) {
+        constexpr SceneKind kinds[] = {SceneKind::every_family, SceneKind::grid, SceneKind::holes,
+                                       SceneKind::ordinary};
+        return kinds[seed % std::size(kinds)];
+    }
+
     [[nodiscard]] std::size_t any() {
         return present_[static_cast<std::size_t>(
             random_.whole(0, static_cast<int>(present_.size()) - 1))];
@@ -183,11 +190,11 @@ void check_against_batch(ChangingScene& scene, const PairTable<Query>& table) {
 
 template <class Query>
 void follow(const Query& query, double reach) {
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    std::uint32_t kept = 0;
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
         ChangingScene scene(seed);
         PairTable all(query, {reach, false});
         PairTable hits(query, {reach, true});
-        std::uint32_t kept = 0;
         for (int frame = 0; frame < 12; ++frame) {
             scene.step();
             ASSERT_TRUE(scene.world().update(all).ok());
@@ -205,8 +212,8 @@ void follow(const Query& query, double reach) {
                 check_against_batch(scene, all);
             }
         }
-        EXPECT_GT(kept, 0U) << "nothing was kept";
     }
+    EXPECT_GT(kept, 0U) << "nothing was kept";
 }
 
 TEST(PairTables, FollowPenetrations) {

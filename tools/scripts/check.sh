@@ -38,24 +38,26 @@ check_sanitized() {
     local runs=(
         'driver/test_driver HostMemory.*' 'driver/test_driver -HostMemory.*'
         'test_geometry *' 'test_localize *' 'test_simd *' 'test_narrowphase *' 'test_grid *'
-        'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*'
+        'test_cpu *' 'test_plan *' 'test_graph -GraphExecute.*' 'test_mtv *' 'worlds/test_worlds *'
     )
     configure sanitize >/dev/null
     build sanitize --target test_driver test_geometry test_localize test_simd test_narrowphase \
-        test_grid test_cpu test_plan test_graph test_reload
+        test_grid test_cpu test_plan test_graph test_mtv test_worlds test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
     # Shader reload, which only debug builds have. It runs on a device, so without leak detection.
     ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/reload/test_reload" --gtest_brief=1
 }
 
-# Runs contexts on several threads, with a check of every shared memory access.
+# Runs contexts, and histories of worlds, on several threads, with a check of every shared memory
+# access.
 check_threads() {
     configure threads >/dev/null
-    build threads --target test_threads
+    build threads --target test_threads test_worlds
     # TSAN_OPTIONS cannot contain a path with a space.
-    (cd "$root" && TSAN_OPTIONS="suppressions=tests/threads/suppressions.txt halt_on_error=1" \
-        build/threads/tests/threads/test_threads --gtest_brief=1)
+    (cd "$root" && export TSAN_OPTIONS="suppressions=tests/threads/suppressions.txt halt_on_error=1" &&
+        build/threads/tests/threads/test_threads --gtest_brief=1 &&
+        build/threads/tests/worlds/test_worlds --gtest_brief=1 --gtest_filter='WorldHistory.*')
 }
 
 # expect_none WHAT LINES: fails and shows the lines if there are any.
