@@ -26,12 +26,12 @@ namespace nearfield::tools {
 }
 
 template <class Row>
-void describe(Row& row, std::uint8_t intersects) {
+void write_cells(Row& row, std::uint8_t intersects) {
     row.truth("hit", intersects != 0);
 }
 
 template <class Row>
-void describe(Row& row, const Clearance& clearance) {
+void write_cells(Row& row, const Clearance& clearance) {
     const bool has_direction = is_direction(clearance.direction);
     row.number("distance", clearance.distance);
     row.number("error_bound", clearance.error_bound);
@@ -42,7 +42,7 @@ void describe(Row& row, const Clearance& clearance) {
 }
 
 template <class Row>
-void describe(Row& row, const RayHit& hit) {
+void write_cells(Row& row, const RayHit& hit) {
     const bool is_hit = is_instance(hit.instance);
     row.instance("instance", hit.instance);
     row.number("parameter", hit.parameter);
@@ -53,7 +53,7 @@ void describe(Row& row, const RayHit& hit) {
 }
 
 template <class Row>
-void describe(Row& row, const ShapeCastHit& hit) {
+void write_cells(Row& row, const ShapeCastHit& hit) {
     row.state("state", hit.state);
     row.instance("instance", hit.instance);
     row.number("time", hit.time);
@@ -65,7 +65,7 @@ void describe(Row& row, const ShapeCastHit& hit) {
 }
 
 template <class Row>
-void describe(Row& row, const NearestHit& hit) {
+void write_cells(Row& row, const NearestHit& hit) {
     row.instance("instance", hit.instance);
     row.number("distance", hit.distance);
     row.number("error_bound", hit.error_bound);
@@ -74,7 +74,7 @@ void describe(Row& row, const NearestHit& hit) {
 }
 
 template <class Row>
-void describe(Row& row, InstanceHandle instance) {
+void write_cells(Row& row, InstanceHandle instance) {
     row.instance("instance", instance);
 }
 

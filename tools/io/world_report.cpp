@@ -63,7 +63,7 @@ void write_record(JsonWriter& json, const WorldAnswer& answer, const Record& rec
         }
         JsonRow row(answer, json);
         json.begin_object();
-        describe(row, record);
+        write_cells(row, record);
         json.end_object();
     }
 }
@@ -136,7 +136,7 @@ void write_counts(JsonWriter& json, const WorldAnswer& answer,
     }
     JsonRow row(answer, json);
     json.begin_object().key("pose").value(std::uint64_t{*least});
-    describe(row, clearances[*least]);
+    write_cells(row, clearances[*least]);
     json.end_object();
 }
 

@@ -145,7 +145,7 @@ private:
 /// Describes all records to a row, each with the number of its input where there are lists;
 /// `end` is called after each.
 template <class Row, class End>
-void describe_all(const WorldAnswer& answer, Row& row, End end) {
+void write_all_cells(const WorldAnswer& answer, Row& row, End end) {
     std::visit(
         [&](const auto& found) {
             const auto& records = records_of(found);
@@ -154,13 +154,13 @@ void describe_all(const WorldAnswer& answer, Row& row, End end) {
                     for (std::uint32_t i = found.offsets[input]; i < found.offsets[input + 1];
                          ++i) {
                         row.index("", input, true);
-                        describe(row, records[i]);
+                        write_cells(row, records[i]);
                         end();
                     }
                 }
             } else {
                 for (const auto& record : records) {
-                    describe(row, record);
+                    write_cells(row, record);
                     end();
                 }
             }
@@ -197,7 +197,7 @@ std::vector<std::string> world_columns(const WorldAnswer& answer) {
             if (has_lists<std::decay_t<decltype(found)>>) {
                 names.emplace_back(input_name(*answer.request));
             }
-            describe(row, typename std::decay_t<decltype(records_of(found))>::value_type{});
+            write_cells(row, typename std::decay_t<decltype(records_of(found))>::value_type{});
         },
         answer.records);
     return names;
@@ -210,14 +210,14 @@ void write_world_csv(std::ostream& stream, const WorldAnswer& answer) {
         row.text(name);
     }
     row.end();
-    describe_all(answer, row, [&row] { row.end(); });
+    write_all_cells(answer, row, [&row] { row.end(); });
 }
 
 void write_world_npy(std::ostream& stream, const WorldAnswer& answer) {
     const std::size_t columns = world_columns(answer).size();
     std::vector<double> numbers;
     NumbersRow row(answer, numbers);
-    describe_all(answer, row, [] {});
+    write_all_cells(answer, row, [] {});
     write_npy(stream, std::span<const double>(numbers), static_cast<std::uint32_t>(columns),
               static_cast<std::uint32_t>(numbers.size() / columns));
 }
