@@ -93,6 +93,7 @@ void OutputFile::commit() {
 void require_different_files(const std::vector<std::string>& inputs,
                              const std::vector<std::string>& outputs) {
     std::vector<std::filesystem::path> taken;
+    taken.reserve(inputs.size() + outputs.size());
     std::error_code ignored;
     for (const std::string& input : inputs) {
         taken.push_back(std::filesystem::weakly_canonical(input, ignored));
