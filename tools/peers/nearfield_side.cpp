@@ -31,8 +31,8 @@ Answer answer_of(const ResultSummary& /*result*/) {
 NearfieldSide::NearfieldSide(const Problem& problem, Context& context)
     : runner_(problem.scene, problem.name, context) {}
 
-double NearfieldSide::run_frame() {
-    const double milliseconds = runner_.run_frame();
+double NearfieldSide::run_frame(tools::FrameInput input) {
+    const double milliseconds = runner_.run_frame(input);
     runner_.require_results();
     return milliseconds;
 }

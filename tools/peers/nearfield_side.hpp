@@ -10,15 +10,14 @@
 
 namespace nearfield::peers {
 
-/// nearfield on a problem: Technique::automatic, whole frames, everything submitted anew each
-/// frame.
+/// nearfield on a problem: Technique::automatic, whole frames.
 class NearfieldSide {
 public:
     /// Both must outlive it.
     NearfieldSide(const Problem& problem, Context& context);
 
-    /// Runs one frame. Throws if anything is rejected.
-    double run_frame();
+    /// Runs one frame; `input`: what is passed anew. Throws if anything is rejected.
+    double run_frame(tools::FrameInput input);
 
     /// The answers of the last frame.
     [[nodiscard]] std::vector<Answer> answers() const;

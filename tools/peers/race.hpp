@@ -28,8 +28,9 @@ struct PeerTimes {
 struct ProblemTimes {
     std::string name;
     std::size_t queries = 0;
-    std::string technique;  ///< the technique nearfield used
-    benchmark::Spread nearfield_ms;
+    std::string technique;       ///< the technique nearfield used
+    benchmark::Spread built_ms;  ///< of nearfield: all shapes passed anew
+    benchmark::Spread kept_ms;   ///< of nearfield: shapes and poses as in the frame before
     std::vector<PeerTimes> peers;
 
     /// The median of the fastest peer that gives the whole answer exactly; empty if there is none.

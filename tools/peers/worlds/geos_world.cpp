@@ -128,10 +128,10 @@ double GeosWorld::distance(const GEOSGeometry* item) const {
 const GeosWorld::Shape& GeosWorld::nearest(const GEOSGeometry* item) const {
     // One of the two is the item, which is no Shape of the tree.
     const auto measure = [](const void* first, const void* second, double* distance, void* data) {
-        const Shape& item = *static_cast<const Shape*>(data);
-        const void* const other = first == &item ? second : first;
+        const Shape& asked = *static_cast<const Shape*>(data);
+        const void* const other = first == &asked ? second : first;
         const Shape& shape = *static_cast<const Shape*>(other);
-        return GEOSPreparedDistance_r(shape.context, shape.prepared, item.geometry, distance);
+        return GEOSPreparedDistance_r(shape.context, shape.prepared, asked.geometry, distance);
     };
     Shape of_item{context_, const_cast<GEOSGeometry*>(item), nullptr};
     const void* const found =
