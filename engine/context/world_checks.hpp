@@ -3,9 +3,11 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/plan/check_query.hpp>
 #include <nearfield/shape.hpp>
+#include <nearfield/world.hpp>
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 
 /// \file Checks of what the calls of a world are given, before any work. They throw.
@@ -39,6 +41,25 @@ inline void require_point(const char* call, const char* what, std::size_t i, con
                          geometry::number(point.x) + ", " + geometry::number(point.y) +
                          "); coordinates must be finite and at most " +
                          geometry::number(largest_coordinate) + " in magnitude");
+    }
+}
+
+inline void require_poses(const char* call, std::span<const Pose> poses) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        require_pose(call, "the shape", i, poses[i]);
+    }
+}
+
+inline void require_points(const char* call, std::span<const Vector2> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        require_point(call, "point", i, points[i]);
+    }
+}
+
+inline void require_segments(const char* call, std::span<const Segment> segments) {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        require_point(call, "the start of segment", i, segments[i].from);
+        require_point(call, "the end of segment", i, segments[i].to);
     }
 }
 

@@ -26,7 +26,9 @@ World::Implementation::Implementation(Context::Implementation& context)
 
 InstanceHandle World::Implementation::add(const WorldInstance& instance) {
     static_cast<void>(shape(instance.shape, "add"));
-    require_pose("add", "the instance", 0, instance.pose);
+    if (Status status = plan::check_pose(instance.pose, "the instance"); !status.ok()) {
+        refuse("add", status.message());
+    }
     return instances_.add(instance);
 }
 
@@ -76,9 +78,7 @@ void World::Implementation::test_poses(const PoseTestQuery& query, std::span<con
                                        std::span<std::uint8_t> intersects) {
     require_lengths("test_poses", "poses", poses.size(), intersects.size());
     const geometry::Polygon& polygon = shape(query.shape, "test_poses");
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        require_pose("test_poses", "the shape", i, poses[i]);
-    }
+    require_poses("test_poses", poses);
     prepare();
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
@@ -99,9 +99,7 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
                                       number(query.max_clearance) +
                                       " are no range that ends at 0 or above");
     }
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        require_pose("find_clearances", "the shape", i, poses[i]);
-    }
+    require_poses("find_clearances", poses);
     prepare();
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
@@ -127,9 +125,7 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
     if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
         refuse("find_nearest", "the kind is no enumerator");
     }
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        require_point("find_nearest", "point", i, points[i]);
-    }
+    require_points("find_nearest", points);
     prepare();
     for (std::size_t block = 0; block < points.size(); block += sorted_at_a_time) {
         const auto some = points.subspan(block, std::min(sorted_at_a_time, points.size() - block));
@@ -149,10 +145,7 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
 void World::Implementation::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                                       const WorldFilter& filter) {
     require_lengths("cast_rays", "segments", segments.size(), hits.size());
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        require_point("cast_rays", "the start of segment", i, segments[i].from);
-        require_point("cast_rays", "the end of segment", i, segments[i].to);
-    }
+    require_segments("cast_rays", segments);
     prepare();
     jobs_.divide(segments.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::RayQueries& queries = scratch_[job].rays;
@@ -165,10 +158,7 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
 
 void World::Implementation::cast_rays(std::span<const Segment> segments, RayHits& hits,
                                       const WorldFilter& filter) {
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-        require_point("cast_rays", "the start of segment", i, segments[i].from);
-        require_point("cast_rays", "the end of segment", i, segments[i].to);
-    }
+    require_segments("cast_rays", segments);
     prepare();
     hits.offsets.assign(1, 0);
     hits.hits.clear();
@@ -188,6 +178,9 @@ void World::Implementation::write_lists(std::size_t count, InstanceLists& lists,
     for (std::size_t i = 0; i < count; ++i) {
         found.clear();
         find(i, found);
+        std::sort(found.begin(), found.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return instances_.number(a) < instances_.number(b);
+        });
         for (const std::uint32_t index : found) {
             lists.instances.push_back(instances_.handle(index));
         }
@@ -216,9 +209,7 @@ void World::Implementation::find_overlaps(std::span<const Rectangle> rectangles,
 
 void World::Implementation::find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
                                           const WorldFilter& filter) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        require_point("find_overlaps", "point", i, points[i]);
-    }
+    require_points("find_overlaps", points);
     prepare();
     world::OverlapQueries& queries = scratch_.front().overlaps;
     queries.begin(instances_, filter);
@@ -230,9 +221,7 @@ void World::Implementation::find_overlaps(std::span<const Vector2> points, Insta
 void World::Implementation::find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                                           InstanceLists& lists) {
     const geometry::Polygon& polygon = shape(query.shape, "find_overlaps");
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        require_pose("find_overlaps", "the shape", i, poses[i]);
-    }
+    require_poses("find_overlaps", poses);
     prepare();
     world::PoseQueries& queries = scratch_.front().poses;
     queries.begin(instances_, polygon, query.filter);

@@ -84,7 +84,7 @@ private:
     /// Takes in what has changed in the world.
     void prepare();
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
-    /// Writes one list per entry; `find(job, i, found)` appends the instances of entry i.
+    /// Writes one list per entry; `find(i, found)` appends the instances of entry i, in any order.
     template <class Find>
     void write_lists(std::size_t count, InstanceLists& lists, const Find& find);
     void find_candidates(const ShapeCastQuery& query, const geometry::Polygon& shape,

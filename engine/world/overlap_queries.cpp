@@ -2,7 +2,6 @@
 #include <engine/localize/hierarchy.hpp>
 #include <engine/world/overlap_queries.hpp>
 
-#include <algorithm>
 #include <array>
 
 namespace nearfield::world {
@@ -15,14 +14,7 @@ void OverlapQueries::begin(const Instances& instances, const WorldFilter& filter
     filter_ = filter;
 }
 
-void OverlapQueries::sort(std::vector<std::uint32_t>& found, std::ptrdiff_t first) const {
-    std::sort(found.begin() + first, found.end(), [this](std::uint32_t a, std::uint32_t b) {
-        return instances_->number(a) < instances_->number(b);
-    });
-}
-
 void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& found) const {
-    const auto first = static_cast<std::ptrdiff_t>(found.size());
     const Vector p = geometry::to_vector(point);
     instances_->boxes().for_meeting({p, p}, [&](std::uint32_t index) {
         if (instances_->passes(index, filter_) &&
@@ -30,7 +22,6 @@ void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& foun
             found.push_back(index);
         }
     });
-    sort(found, first);
 }
 
 /// True if an edge comes into the rectangle, or the rectangle lies inside.
@@ -71,7 +62,6 @@ bool OverlapQueries::meets(std::uint32_t index, const Box& box) const {
 }
 
 void OverlapQueries::find(const Rectangle& rectangle, std::vector<std::uint32_t>& found) const {
-    const auto first = static_cast<std::ptrdiff_t>(found.size());
     const Box box(geometry::to_vector(rectangle.min), geometry::to_vector(rectangle.max));
     const Box search = geometry::grown(box, instances_->max_rounding());
     instances_->boxes().for_meeting(search, [&](std::uint32_t index) {
@@ -81,7 +71,6 @@ void OverlapQueries::find(const Rectangle& rectangle, std::vector<std::uint32_t>
             found.push_back(index);
         }
     });
-    sort(found, first);
 }
 
 }  // namespace nearfield::world

@@ -15,13 +15,12 @@ public:
     /// The instances have to be prepared.
     void begin(const Instances& instances, const WorldFilter& filter);
 
-    /// Appends the instances that a point lies in, in the order in which they were added.
+    /// Appends the instances that a point lies in, in any order.
     void find(const Vector2& point, std::vector<std::uint32_t>& found) const;
-    /// Appends the instances with which a rectangle shares a point, in the same order.
+    /// Appends the instances with which a rectangle shares a point, in any order.
     void find(const Rectangle& rectangle, std::vector<std::uint32_t>& found) const;
 
 private:
-    void sort(std::vector<std::uint32_t>& found, std::ptrdiff_t first) const;
     [[nodiscard]] bool meets(std::uint32_t index, const geometry::Box& box) const;
 
     const Instances* instances_ = nullptr;

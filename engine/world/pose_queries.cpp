@@ -72,14 +72,10 @@ bool PoseQueries::intersects(const Pose& pose) {
 
 void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
     place(pose);
-    const auto first = static_cast<std::ptrdiff_t>(found.size());
     instances_->boxes().for_meeting(search_box(), [&](std::uint32_t index) {
         if (instances_->passes(index, filter_) && intersects(index)) {
             found.push_back(index);
         }
-    });
-    std::sort(found.begin() + first, found.end(), [this](std::uint32_t a, std::uint32_t b) {
-        return instances_->number(a) < instances_->number(b);
     });
 }
 

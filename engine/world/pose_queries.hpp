@@ -21,7 +21,7 @@ public:
                const WorldFilter& filter);
 
     [[nodiscard]] bool intersects(const Pose& pose);
-    /// Appends the instances that the shape intersects, in the order in which they were added.
+    /// Appends the instances that the shape intersects, in any order.
     void find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found);
     [[nodiscard]] Clearance clearance(const Pose& pose, const ClearanceQuery& query);
 

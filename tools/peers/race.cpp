@@ -1,11 +1,11 @@
 #include <tools/benchmark/interleave.hpp>
+#include <tools/benchmark/milliseconds_of.hpp>
 #include <tools/peers/agreement.hpp>
 #include <tools/peers/nearfield_side.hpp>
 #include <tools/peers/peer.hpp>
 #include <tools/peers/race.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -13,13 +13,7 @@
 namespace nearfield::peers {
 namespace {
 
-template <class Action>
-double milliseconds_of(Action action) {
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
+using benchmark::milliseconds_of;
 
 /// A peer at work on a problem, in two copies: one rebuilt each frame and one kept.
 struct Entry {

@@ -8,11 +8,11 @@
 #include <sched.h>
 #include <tools/benchmark/interleave.hpp>
 #include <tools/benchmark/machine.hpp>
+#include <tools/benchmark/milliseconds_of.hpp>
 #include <tools/benchmark/spread.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/peers/worlds/contest.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <iomanip>
@@ -24,13 +24,7 @@
 namespace nearfield::peers {
 namespace {
 
-template <class Action>
-double milliseconds_of(Action action) {
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
+using benchmark::milliseconds_of;
 
 void require(const Status& status) {
     if (!status.ok()) {
