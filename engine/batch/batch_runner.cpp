@@ -69,6 +69,7 @@ void BatchRunner::make_tile_batches() {
     for (std::uint32_t number = 0; number < plan_.tile_batches; ++number) {
         builder.build(plan_, number, tile_batches_[number]);
     }
+    search_count_ = planning_->searches.build(plan_, searches_);
     resident_outputs_builder_.build(plan_, std::span(tile_batches_).first(plan_.tile_batches),
                                     results_.results, resident_);
 }
@@ -114,12 +115,15 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
                                             : render::SampleRoom::likely;
         renderer_->prepare(std::span(tile_batches_).first(plan_.tile_batches), resident_,
                            plan_.extent, room, *slot_, timings);
+        renderer_->prepare_searches(planning_->searches.shapes(),
+                                    std::span(searches_).first(search_count_), room, *slot_,
+                                    timings);
     }
 }
 
 /// Resident records need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
-    return plan_.tile_batches > 0 || !resident_.empty();
+    return plan_.tile_batches > 0 || search_count_ > 0 || !resident_.empty();
 }
 
 void BatchRunner::answer_on_cpu() {
@@ -221,6 +225,11 @@ void BatchRunner::collect() {
         for (const std::uint32_t number : slot_->running()) {
             if (slot_->round(number).had_room()) {
                 decode(number);
+            }
+        }
+        for (const std::uint32_t number : slot_->running_searches()) {
+            if (slot_->search(number).had_room()) {
+                decoder_.add_found(searches_[number], slot_->search(number).found(), plan_);
             }
         }
         timings.decode += start.milliseconds();

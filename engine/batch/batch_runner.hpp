@@ -2,6 +2,7 @@
 
 #include <engine/base/stopwatch.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/point_search.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/renderer.hpp>
@@ -26,6 +27,7 @@ struct Planning {
     select::TechniqueSelector selector;
     plan::Planner planner;
     plan::TileBatchBuilder builder;
+    plan::PointSearchBuilder searches;
     results::AnswerJobs answers;
 
     Planning(const plan::PlanLimits& limits, const CostModel& costs, const JobSystem& jobs)
@@ -107,6 +109,8 @@ private:
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them
+    std::vector<plan::PointSearch> searches_;    // the first search_count_ of them
+    std::size_t search_count_ = 0;
     resident::ResidentOutputsBuilder resident_outputs_builder_;
     plan::ResidentOutputs resident_;
     results::ResultDecoder decoder_;

@@ -27,6 +27,7 @@
     X(vkCmdCopyBuffer)                \
     X(vkCmdCopyQueryPoolResults)      \
     X(vkCmdDispatch)                  \
+    X(vkCmdDispatchIndirect)          \
     X(vkCmdDraw)                      \
     X(vkCmdEndQuery)                  \
     X(vkCmdEndRenderPass)             \

@@ -15,7 +15,7 @@ constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADE
 // Attachments are read as well as written: load operations, blending, logic operations and tests
 // depend on the previous content. All reads of images share one layout, and all reads of one kind
 // of resource differ in their stages; so a read after a read needs no check of the layout.
-constexpr std::array<AccessTraits, 12> accesses = {{
+constexpr std::array<AccessTraits, 13> accesses = {{
     {.name = "color_attachment",
      .stages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      .read_access = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
@@ -76,6 +76,10 @@ constexpr std::array<AccessTraits, 12> accesses = {{
      .usage = VK_IMAGE_USAGE_STORAGE_BIT,
      .writes = true,
      .of_image = true,
+     .pass_kind = PassKind::compute},
+    {.name = "indirect_arguments",
+     .stages = VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+     .read_access = VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
      .pass_kind = PassKind::compute},
     {.name = "exported_buffer",
      .stages = shaders_of_users,

@@ -9,6 +9,10 @@ namespace nearfield::plan {
 /// (PenetrationRecord::unique).
 inline constexpr double uniqueness_margin = 1e-3;
 
+/// Where the errors of single precision exceed this part of a cell, a search for points leaves to
+/// the CPU which of several edges is the nearest.
+inline constexpr double search_precision = 1.0 / 16384.0;
+
 /// Relative error of a field's distance due to single precision, for every technique.
 inline constexpr double far_rounding = 0x1p-19;
 

@@ -90,6 +90,9 @@ struct PlannedQuery {
     /// Answered on the CPU with nothing planned: PointPenetration or PointContacts finds the
     /// points.
     bool brute_force = false;
+    /// Technique::compute: the device searches for its points (PointSearch); nothing is planned.
+    bool searched = false;
+    double margin = 0.0;  ///< where searched: bound on the device's errors, world units
     /// Technique::compute: its tiles have no place in the atlas, and tile batches of their own.
     bool by_compute = false;
     /// Index in Plan::queries of the other direction: points of B in the field of A.
@@ -144,6 +147,7 @@ struct Plan {
     BoundingVolume bounding_volume{};     ///< that hierarchies are made of
     geometry::SubpixelGrid subpixel;      ///< that overlaps are snapped to
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
+    std::vector<std::uint32_t> searched;  ///< queries, and directions, that the device searches
     /// Contact queries with gradient normals.
     std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;

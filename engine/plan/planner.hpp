@@ -80,6 +80,9 @@ private:
     /// Nothing to plan: Containment answers it.
     void add(const ContainmentQuery& /*query*/, ContainmentResult& /*result*/) {}
 
+    [[nodiscard]] bool can_be_searched(double samples);
+    void search(double reach, bool both_ways, ResultSummary& result);
+
     /// Checks that the device has what a strategy needs, if a device is involved; the result states
     /// the error.
     [[nodiscard]] bool check_strategy(IntersectionStrategy strategy, ResultSummary& result) const;
@@ -171,9 +174,9 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
-    double max_to_keep_ = 0.0;     // samples of a query, at once
-    double max_kept_ = 0.0;        // of any query of the batch
-    double rough_bytes_ = 0.0;     // that records may take of queries that were not localised
+    double max_to_keep_ = 0.0;  // samples of a query, at once
+    double max_kept_ = 0.0;     // of any query of the batch
+    double rough_bytes_ = 0.0;  // that records may take of queries that were not localised
     bool counts_closely_ = false;  // those are localised too, so that they need less memory
 
     // Scratch.

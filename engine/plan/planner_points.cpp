@@ -2,6 +2,8 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/point_search.hpp>
+#include <engine/plan/region.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -75,6 +77,38 @@ bool Planner::fits(double samples, double bytes_of_record, double tolerance) {
     return true;
 }
 
+/// Returns whether the device may search for the points of the query. Resident outputs still need
+/// planned points.
+bool Planner::can_be_searched(double samples) {
+    const PlannedQuery& planned = plan_->queries[query_];
+    return planned.by_compute && !planned.resident && samples <= max_searched_points &&
+           fits_roughly(samples, bytes_per_point);
+}
+
+/// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
+/// inside, or up to `reach` outside.
+void Planner::search(double reach, bool both_ways, ResultSummary& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    planned.searched = true;
+    const double cell = planned.budget.cell;
+    const Box box_a = TransformedPolygon(*planned.a, planned.pose_a).box();
+    const Box box_b = TransformedPolygon(*planned.b, planned.pose_b).box();
+    const Box of_a = box_a.intersection(grown(box_b, reach));
+    const Box of_b = box_b.intersection(grown(box_a, reach));
+    const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
+    if (are_near) {
+        const Box where = both_ways ? of_a.merged(of_b) : of_a;
+        result.regions.push_back(region_of(Grid::covering(where, cell)));
+        plan_->searched.push_back(query_);
+    }
+    if (both_ways) {
+        const std::uint32_t reverse = add_reverse();
+        if (are_near) {
+            plan_->searched.push_back(reverse);
+        }
+    }
+}
+
 void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
     const ErrorBudget budget = penetration_budget(query, planned.deviations);
@@ -93,11 +127,15 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     planned.budget = budget;
-    const TransformedPolygon a(*planned.a, query.a.pose);
-    const TransformedPolygon b(*planned.b, query.b.pose);
     if (!check_numbers(result)) {
         return;
     }
+    if (can_be_searched(of_boundary)) {
+        search(0.0, false, result);
+        return;
+    }
+    const TransformedPolygon a(*planned.a, query.a.pose);
+    const TransformedPolygon b(*planned.b, query.b.pose);
 
     const Stopwatch start;
     const Box box_b = b.box();
@@ -202,6 +240,10 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
     planned.brute_force = may_be_by_edge && fits_roughly(of_boundaries, bytes_of_record);
     if (planned.brute_force || !check_numbers(result)) {
+        return;
+    }
+    if (!gradients && can_be_searched(of_boundaries)) {
+        search(query.contact_distance, true, result);
         return;
     }
     const TransformedPolygon a(*planned.a, planned.pose_a);

@@ -37,28 +37,68 @@ narrowphase::Boundary& PointResolver::boundary_of_b() {
     return boundary_;
 }
 
+/// The nearest point of B for one that the device searched: of the edge that it named and its
+/// neighbours, among which single precision may not have been able to choose.
+narrowphase::NearestPoint PointResolver::nearest_of_neighbours(const Vector& point,
+                                                               std::uint32_t edge) const {
+    const geometry::Polygon& polygon = b_->polygon();
+    narrowphase::NearestPoint nearest{edge, nearest_on_edge(*b_, edge, point)};
+    for (const std::uint32_t other : {polygon.previous(edge), polygon.next(edge)}) {
+        const geometry::NearestOnSegment on_other = nearest_on_edge(*b_, other, point);
+        if (on_other.squared_distance < nearest.on_edge.squared_distance) {
+            nearest = {other, on_other};
+        }
+    }
+    return nearest;
+}
+
+PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t word) {
+    const std::uint32_t edge = word & plan::point_edge_mask;
+    const double tolerance = query_->budget.cell / std::numbers::sqrt2;
+    Found found{{edge, {}}, (word & plan::point_inside) != 0, (word & plan::point_unique) != 0};
+    if (query_->searched && (word & plan::point_doubtful) != 0) {
+        found.nearest = boundary_of_b().nearest(point, edge);
+        found.inside = boundary_of_b().contains(point);
+        found.unique =
+            boundary_of_b().is_unique(point, found.nearest, tolerance * plan::uniqueness_margin);
+        return found;
+    }
+    if (query_->margin > plan::search_precision * query_->budget.cell) {
+        found.nearest = nearest_of_neighbours(point, edge);
+        return found;
+    }
+    found.nearest.on_edge = nearest_on_edge(*b_, edge, point);
+    const double far = farthest_in_single_precision * query_->budget.cell;
+    if (!query_->searched && found.nearest.on_edge.squared_distance > far * far) {
+        found.nearest = boundary_of_b().nearest(point);
+        found.unique =
+            boundary_of_b().is_unique(point, found.nearest, tolerance * plan::uniqueness_margin);
+    }
+    return found;
+}
+
+/// Points nearer to the boundary than this touch it.
+double PointResolver::touching(const plan::PlannedPoint& planned) const {
+    if (query_->on_cpu) {
+        return rounding_;
+    }
+    return query_->searched ? touching_distance(query_->budget.cell, 0)
+                            : touching_distance(plan_->tiles[planned.tile]);
+}
+
 ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uint32_t word) {
     const Vector point = position(*a_, planned.point);
-    const std::uint32_t edge = word & plan::point_edge_mask;
-    narrowphase::NearestPoint nearest{edge, nearest_on_edge(*b_, edge, point)};
-    bool unique = (word & plan::point_unique) != 0;
-    const double far = farthest_in_single_precision * query_->budget.cell;
-    if (nearest.on_edge.squared_distance > far * far) {
-        nearest = boundary_of_b().nearest(point);
-        const double tolerance = query_->budget.cell / std::numbers::sqrt2;
-        unique = boundary_of_b().is_unique(point, nearest, tolerance * plan::uniqueness_margin);
-    }
-    const double distance = std::sqrt(nearest.on_edge.squared_distance);
-    return {
-        point,
-        nearest.on_edge.point,
-        distance,
-        nearest.edge,
-        nearest.on_edge.parameter,
-        feature_at(*b_, nearest.edge, nearest.on_edge.parameter),
-        (word & plan::point_inside) != 0 &&
-            distance > (query_->on_cpu ? rounding_ : touching_distance(plan_->tiles[planned.tile])),
-        unique};
+    const Found found = find(point, word);
+    const geometry::NearestOnSegment& on_edge = found.nearest.on_edge;
+    const double distance = std::sqrt(on_edge.squared_distance);
+    return {point,
+            on_edge.point,
+            distance,
+            found.nearest.edge,
+            on_edge.parameter,
+            feature_at(*b_, found.nearest.edge, on_edge.parameter),
+            found.inside && distance > touching(planned),
+            found.unique};
 }
 
 }  // namespace nearfield::records

@@ -48,6 +48,17 @@ public:
     [[nodiscard]] narrowphase::Boundary& boundary_of_b();
 
 private:
+    /// What is known of a point: B's nearest point, the side, whether it is the only nearest one.
+    struct Found {
+        narrowphase::NearestPoint nearest;
+        bool inside = false;
+        bool unique = true;
+    };
+    [[nodiscard]] Found find(const geometry::Vector& point, std::uint32_t word);
+    [[nodiscard]] narrowphase::NearestPoint nearest_of_neighbours(const geometry::Vector& point,
+                                                                  std::uint32_t edge) const;
+    [[nodiscard]] double touching(const plan::PlannedPoint& planned) const;
+
     const plan::Plan* plan_ = nullptr;
     const plan::PlannedQuery* query_ = nullptr;
     std::optional<geometry::TransformedPolygon> a_;

@@ -71,10 +71,12 @@ std::uint64_t BatchResources::align(std::uint64_t offset) const {
 void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
                             const plan::ResidentOutputs& resident) {
     make_room_for(tile_batches.size());
+    running_searches_.clear();
     has_resident_outputs_ = !resident.empty();
+    passes_ = static_cast<std::uint32_t>(tile_batches.size()) * max_passes;
     if (has_resident_outputs_) {
-        timestamps_.reserve(static_cast<std::uint32_t>(tile_batches.size()) * max_passes +
-                            export_passes(resident));
+        passes_ += export_passes(resident);
+        timestamps_.reserve(passes_);
         resident_.upload(resident);
     }
     tile_batches_.resize(tile_batches.size());
@@ -104,6 +106,20 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     }
     input_.flush();
     mesh_.flush();
+}
+
+void BatchResources::upload_searches(std::span<const plan::SearchUnit> shapes,
+                                     std::span<const plan::PointSearch> searches,
+                                     const SearchCounts& expected) {
+    const auto count = static_cast<std::uint32_t>(searches.size());
+    timestamps_.reserve(passes_ + count * passes::PointSearch::pass_count);
+    while (searches_.size() < searches.size()) {
+        searches_.push_back(std::make_unique<SearchBuffers>(*device_, *layout_));
+    }
+    for (std::uint32_t number = 0; number < count; ++number) {
+        searches_[number]->upload(shapes, searches[number], expected);
+        running_searches_.push_back(number);
+    }
 }
 
 void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
@@ -146,6 +162,11 @@ void BatchResources::run_those_without_room() {
     std::erase_if(running_, [&](std::uint32_t number) { return tile_batches_[number].had_room(); });
     for (const std::uint32_t number : running_) {
         tile_batches_[number].context.sample_capacity = tile_batches_[number].sample_count;
+    }
+    std::erase_if(running_searches_,
+                  [&](std::uint32_t number) { return searches_[number]->had_room(); });
+    for (const std::uint32_t number : running_searches_) {
+        searches_[number]->grow();
     }
 }
 
@@ -198,6 +219,9 @@ void BatchResources::wait() {
     read_back_.invalidate();
     if (recorded) {
         require_stamp();
+    }
+    for (const std::uint32_t number : running_searches_) {
+        searches_[number]->read_back();
     }
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& round = tile_batches_[number];

@@ -9,6 +9,7 @@
 #include <engine/render/compiled_graph.hpp>
 #include <engine/render/compute_buffers.hpp>
 #include <engine/render/resident_buffers.hpp>
+#include <engine/render/search_buffers.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
 #include <passes/record_context.hpp>
@@ -71,6 +72,16 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> running() const { return running_; }
     /// Lays out the outputs of the selected tile batches and points their descriptor sets to them.
     void lay_out_output();
+
+    /// Uploads searches for points, after the tile batches; `shapes`: what their input starts with.
+    void upload_searches(std::span<const plan::SearchUnit> shapes,
+                         std::span<const plan::PointSearch> searches, const SearchCounts& expected);
+    [[nodiscard]] std::span<const std::uint32_t> running_searches() const {
+        return running_searches_;
+    }
+    [[nodiscard]] const SearchBuffers& search(std::uint32_t number) const {
+        return *searches_[number];
+    }
 
     [[nodiscard]] TileBatchOnDevice& round(std::uint32_t number) { return tile_batches_[number]; }
     [[nodiscard]] const TileBatchOnDevice& round(std::uint32_t number) const {
@@ -142,6 +153,7 @@ private:
     const passes::ComputeLayout* layout_;
     gpu::Submission submission_;
     gpu::Timestamps timestamps_;
+    std::uint32_t passes_ = 0;  // of the tile batches and their exports, at most
     gpu::MappedBuffer mesh_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer read_back_;
@@ -158,6 +170,8 @@ private:
     std::vector<std::unique_ptr<ComputeBuffers>> compute_;
     std::vector<TileBatchOnDevice> tile_batches_;
     std::vector<std::uint32_t> running_;
+    std::vector<std::unique_ptr<SearchBuffers>> searches_;
+    std::vector<std::uint32_t> running_searches_;
     SubmissionState state_ = SubmissionState::none;
     std::uint64_t stamp_offset_ = 0;  // in the read-back, which holds 0 there until execution
     std::uint32_t stamp_ = 0;

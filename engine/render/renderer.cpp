@@ -11,6 +11,9 @@ namespace {
 // practice.
 constexpr std::size_t max_graphs = 8;
 
+// Elements that a search makes room for, if none has found more.
+constexpr std::uint32_t min_expected = 4096;
+
 ComputeKey compute_key_of(const plan::TileBatch& round) {
     const plan::ComputeWork& work = round.compute;
     ComputeKey needs;
@@ -61,6 +64,7 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
     }
     if (techniques.compute) {
         passes_.compute.emplace(device, layout_, context_);
+        point_search_.emplace(device, layout_);
     }
 }
 
@@ -133,6 +137,22 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     timings.plan += start.milliseconds();
 }
 
+void Renderer::prepare_searches(std::span<const plan::SearchUnit> shapes,
+                                std::span<const plan::PointSearch> searches, SampleRoom room,
+                                BatchResources& slot, Timings& timings) {
+    const Stopwatch start;
+    last_had_searches_ = !searches.empty();
+    if (last_had_searches_) {
+        SearchCounts expected;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            expected[i] =
+                room == SampleRoom::all ? UINT32_MAX : std::max(min_expected, max_counts_[i]);
+        }
+        slot.upload_searches(shapes, searches, expected);
+    }
+    timings.plan += start.milliseconds();
+}
+
 void Renderer::submit(BatchResources& slot, const Submission& order, Timings& timings) {
     const Stopwatch start;
     record_tile_batches(slot, slot.begin());
@@ -152,7 +172,7 @@ void Renderer::record(BatchResources& slot, VkCommandBuffer commands, std::uint3
 
 bool Renderer::submit_those_without_room(BatchResources& slot, Timings& timings) {
     slot.run_those_without_room();
-    if (slot.running().empty()) {
+    if (slot.running().empty() && slot.running_searches().empty()) {
         return false;
     }
     slot.lay_out_output();
@@ -170,6 +190,9 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
         }
         slot.bind_buffers(*round.graph, number);
         round.graph->execute(commands, slot.timestamps());
+    }
+    for (const std::uint32_t number : slot.running_searches()) {
+        point_search_->record(commands, slot.timestamps(), slot.search(number).item());
     }
     record_exports(slot, commands);
 }
@@ -197,6 +220,13 @@ void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
 void Renderer::wait(BatchResources& slot, Timings& timings) {
     slot.wait();
     slot.timestamps().collect(timings.passes);
+    for (const std::uint32_t number : slot.running_searches()) {
+        const SearchCounts& counts = slot.search(number).counts();
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            // A little more, so that a scene that grows slowly is seldom submitted again.
+            max_counts_[i] = std::max(max_counts_[i], counts[i] + counts[i] / 8);
+        }
+    }
     for (const std::uint32_t number : slot.running()) {
         max_samples_ = std::max(max_samples_, slot.round(number).sample_count);
     }
@@ -204,6 +234,9 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
 
 std::string Renderer::print(GraphFormat format) const {
     std::string text = last_graph_ == nullptr ? std::string() : last_graph_->print(format);
+    if (last_had_searches_) {
+        text += point_search_->print(format);
+    }
     if (last_had_fields_) {
         text += export_field_.print(format);
     }

@@ -9,17 +9,19 @@
 #include <passes/export_field.hpp>
 #include <passes/export_records.hpp>
 #include <passes/export_samples.hpp>
+#include <passes/point_search.hpp>
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace nearfield::render {
 
-/// Number of samples of intersections to reserve memory for: a likely number, since tile batches
-/// that exceed it can be submitted again; or all.
+/// Number of samples of intersections, and of points of searches, to reserve memory for: a likely
+/// number, since what exceeds it can be submitted again; or all.
 enum class SampleRoom { likely, all };
 
 /// Takes the tile batches of a batch to the device in one submission, or into a command buffer of
@@ -45,6 +47,11 @@ public:
     void prepare(std::span<const plan::TileBatch> tile_batches,
                  const plan::ResidentOutputs& resident, plan::TileSize extent, SampleRoom room,
                  BatchResources& slot, Timings& timings);
+    /// Uploads searches for points, after prepare(); nothing of them is needed afterwards. `shapes`:
+    /// what their input starts with.
+    void prepare_searches(std::span<const plan::SearchUnit> shapes,
+                          std::span<const plan::PointSearch> searches, SampleRoom room,
+                          BatchResources& slot, Timings& timings);
     /// Records the prepared tile batches and submits them; adds to the time of recording.
     void submit(BatchResources& slot, const Submission& order, Timings& timings);
     /// Records the prepared tile batches into a command buffer of the host, followed by a stamp
@@ -74,6 +81,7 @@ private:
     passes::RecordContext context_;  // of the tile batch that is being recorded
     passes::ComputeLayout layout_;
     PipelineSet passes_;
+    std::optional<passes::PointSearch> point_search_;  // with the compute technique
     passes::CopyBack copy_back_;
     passes::ExportField export_field_;
     passes::ExportRecords export_records_;
@@ -83,6 +91,8 @@ private:
     bool last_had_fields_ = false;  // among the resident outputs of the last batch
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
+    bool last_had_searches_ = false;
+    SearchCounts max_counts_{};      // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
 

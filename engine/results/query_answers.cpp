@@ -10,7 +10,7 @@ using plan::PlannedQuery;
 /// Adds the effort to the result's statistics if the test uses hierarchies.
 bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
     const PlannedQuery& query = asked.planned();
-    if (query.on_cpu) {
+    if (query.on_cpu || query.searched) {
         return intersection_test_.intersect(query, instances_);
     }
     localize::Effort effort;
@@ -47,7 +47,7 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
     resolver_.begin(asked.plan, planned);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
-        if ((asked.words[i] & plan::point_inside) == 0) {
+        if ((asked.words[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
             continue;
         }
         const records::ResolvedPoint resolved =

@@ -2,6 +2,7 @@
 
 #include <engine/decode/field_results.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/plan/point_search.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/results/answer_jobs.hpp>
 #include <nearfield/result.hpp>
@@ -25,6 +26,9 @@ public:
 
     /// Decodes the read-back of one tile batch.
     void add_points(const plan::TileBatch& round, std::span<const std::uint32_t> words);
+    /// Adds the points that a search has found to those of the plan.
+    void add_found(const plan::PointSearch& search, std::span<const plan::FoundPointData> found,
+                   plan::Plan& plan);
     static void add_summaries(const plan::Plan& plan, const plan::TileBatch& round,
                               std::span<const plan::TileSummary> summaries,
                               std::vector<AnyResult>& results);

@@ -1,12 +1,27 @@
 #include <tests/query/all_numbers.hpp>
 #include <tests/query/resident_test.hpp>
 
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
 
 constexpr std::uint64_t frame_seed = 8100;
+
+/// By compute, only points with resident records are localised; regions and effort show it.
+Results without_regions(Results results) {
+    for (AnyResult& any : results.results) {
+        std::visit(
+            [](auto& result) {
+                result.regions.clear();
+                result.localization = {};
+            },
+            any);
+    }
+    return results;
+}
 
 TEST_F(Resident, AFrameKeepsItsImagesWhileTheNextIsSubmitted) {
     Random random(frame_seed);
@@ -89,7 +104,7 @@ TEST_F(Resident, WhatComesBackIsTheSameWithAndWithout) {
             EXPECT_TRUE(ticket.has_value()) << ticket.error().text();
             EXPECT_TRUE(made->collect(*ticket, results).ok());
             records = results[of_depths].records.size();
-            return all_numbers(results);
+            return all_numbers(without_regions(std::move(results)));
         };
         std::size_t with = 0;
         std::size_t without = 0;

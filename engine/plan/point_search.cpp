@@ -1,0 +1,254 @@
+#include <engine/base/status_exception.hpp>
+#include <engine/geometry/transformed_polygon.hpp>
+#include <engine/plan/boundary_points.hpp>
+#include <engine/plan/edge_sampler.hpp>
+#include <engine/plan/point_search.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace nearfield::plan {
+
+using geometry::Polygon;
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+namespace {
+
+// Of the header of a shape: numbers, box, first boxes by level.
+constexpr std::uint32_t header_units = 4;
+
+using FloatBox = std::array<float, 4>;  // low corner, high corner
+
+SearchUnit unit_of(const FloatBox& floats) {
+    return {std::bit_cast<std::uint32_t>(floats[0]), std::bit_cast<std::uint32_t>(floats[1]),
+            std::bit_cast<std::uint32_t>(floats[2]), std::bit_cast<std::uint32_t>(floats[3])};
+}
+
+constexpr FloatBox empty_box{
+    std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
+    -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+
+void extend(FloatBox& box, const FloatBox& by) {
+    box = {std::min(box[0], by[0]), std::min(box[1], by[1]), std::max(box[2], by[2]),
+           std::max(box[3], by[3])};
+}
+
+std::uint32_t units_for(std::size_t words) {
+    return static_cast<std::uint32_t>((words + 3) / 4);
+}
+
+std::uint32_t chunks_of(const Polygon& polygon) {
+    std::uint32_t chunks = 0;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        chunks += (polygon.ring_end(ring) - polygon.ring_begin(ring) + chunk_size - 1) / chunk_size;
+    }
+    return chunks;
+}
+
+double reach_of(const PlannedQuery& query) {
+    const auto* const contacts = std::get_if<ContactQuery>(query.query);
+    return contacts == nullptr ? 0.0 : contacts->contact_distance;
+}
+
+bool asks_for_vertices(const PlannedQuery& query) {
+    const auto* const penetration = std::get_if<PenetrationQuery>(query.query);
+    return penetration != nullptr && penetration->points == PenetrationPoints::vertices;
+}
+
+// A float that is not below the value.
+float rounded_up(double value) {
+    const auto rounded = static_cast<float>(value);
+    return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
+                           : rounded;
+}
+
+// Transforms A's frame to B's. Everything happens in floats, in a handful of operations, each of
+// which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates covers them.
+SearchDirectionData direction_of(const PlannedQuery& query) {
+    const TransformedPolygon a(*query.a, query.pose_a);
+    const TransformedPolygon b(*query.b, query.pose_b);
+    const Vector axis = b.rotation().transpose() * a.rotation().col(0);
+    const Vector offset = b.to_local(a.translation());
+    SearchDirectionData data;
+    data.cosine = static_cast<float>(axis.x());
+    data.sine = static_cast<float>(axis.y());
+    data.x = static_cast<float>(offset.x());
+    data.y = static_cast<float>(offset.y());
+    const double extent = query.a->radius() + query.b->radius() + offset.norm();
+    const double cell = query.budget.cell;
+    data.reach = rounded_up(reach_of(query));
+    data.margin = rounded_up(std::ldexp(extent, -20));
+    data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
+    data.outside = query.outside ? 1.0F : 0.0F;
+    data.doubt = data.margin > search_precision * cell ? 4.0F * data.margin : -1.0F;
+    return data;
+}
+
+}  // namespace
+
+BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found) {
+    if (found.number == 0) {
+        return {found.edge, 0.0};
+    }
+    const std::span<const Vector> vertices = query.a->vertices();
+    const double length = (vertices[query.a->next(found.edge)] - vertices[found.edge]).norm();
+    return {found.edge, found.number / parts_of_length(length, query.budget.cell)};
+}
+
+std::size_t PointSearchBuilder::Hash::operator()(const Key& key) const {
+    return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.spacing) << 1U);
+}
+
+std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& searches) {
+    std::size_t count = 0;
+    if (plan.searched.empty()) {
+        return count;
+    }
+    ++batch_;
+    drop_unused();
+    units_in_use_ = 0;
+    for (const std::uint32_t query : plan.searched) {
+        const PlannedQuery& planned = plan.queries[query];
+        const double points = asks_for_vertices(planned)
+                                  ? static_cast<double>(planned.a->size())
+                                  : max_samples(*planned.a, planned.budget.cell);
+        if (count == 0 || searches[count - 1].max_points + points > max_searched_points) {
+            searches.resize(std::max(searches.size(), ++count));
+            searches[count - 1].clear();
+        }
+        PointSearch& search = searches[count - 1];
+        search.max_points += points;
+        search.max_edges += static_cast<double>(planned.a->size());
+        add(plan, query, search);
+    }
+    return count;
+}
+
+void PointSearchBuilder::add(Plan& plan, std::uint32_t query, PointSearch& search) {
+    PlannedQuery& planned = plan.queries[query];
+    SearchDirectionData& data = search.directions.emplace_back(direction_of(planned));
+    planned.margin = data.margin;
+    data.shape_a = find_or_make({planned.a, 0.0});
+    data.shape_b = find_or_make({planned.b, 0.0});
+    if (!asks_for_vertices(planned)) {
+        data.parts = 4 * find_or_make({planned.a, planned.budget.cell});
+    }
+    data.first_item = search.items;
+    search.items += chunks_of(*planned.a);
+    search.queries.push_back(query);
+}
+
+/// Starts anew if most of what is kept was not used by the last batch.
+void PointSearchBuilder::drop_unused() {
+    if (units_.size() > 4 * units_in_use_ + 4096) {
+        entries_.clear();
+        units_.clear();
+    }
+}
+
+std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
+    Entry& entry = entries_[key];
+    if (entry.room == 0 || entry.revision != key.polygon->revision()) {
+        made_.clear();
+        if (key.spacing == 0.0) {
+            make_shape(*key.polygon);
+        } else {
+            make_parts(*key.polygon, key.spacing);
+        }
+        const auto count = static_cast<std::uint32_t>(made_.size());
+        if (entry.room < count) {
+            // What grows gets twice the room, so that it leaves little behind in the long run.
+            entry.first = static_cast<std::uint32_t>(units_.size());
+            entry.room = entry.room == 0 ? count : 2 * count;
+            units_.resize(units_.size() + entry.room);
+        }
+        if (key.spacing == 0.0) {
+            // The header's places are relative to the shape until here.
+            for (const std::size_t place : {std::size_t{2}, std::size_t{3}}) {
+                for (std::uint32_t& first_box : made_[place]) {
+                    first_box += entry.first;
+                }
+            }
+            made_[0][2] += entry.first;
+            made_[0][3] += 4 * entry.first;
+        }
+        std::copy(made_.begin(), made_.end(), units_.begin() + entry.first);
+        entry.revision = key.polygon->revision();
+    }
+    if (entry.batch != batch_) {
+        entry.batch = batch_;
+        units_in_use_ += entry.room;
+    }
+    return entry.first;
+}
+
+void PointSearchBuilder::make_shape(const Polygon& polygon) {
+    const std::span<const Vector> vertices = polygon.vertices();
+    const std::uint32_t chunks = chunks_of(polygon);
+    made_.resize(header_units);
+    std::uint32_t levels = 0;
+    std::uint32_t next = header_units;
+    std::uint32_t boxes = chunks;
+    for (;; boxes = (boxes + chunk_size - 1) / chunk_size) {
+        made_[2 + levels / 4][levels % 4] = next;
+        ++levels;
+        next += boxes;
+        if (boxes <= chunk_size) {
+            break;
+        }
+    }
+    const std::uint32_t edges = next;
+    const std::uint32_t infos = edges + chunk_size * chunks;
+    made_[0] = {chunks, levels, edges, 4 * infos};
+    made_.resize(infos + units_for(chunks));
+    boxes_.assign(chunks, empty_box);
+    std::uint32_t chunk = 0;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t end = polygon.ring_end(ring);
+        for (std::uint32_t edge = polygon.ring_begin(ring); edge < end; ++chunk) {
+            const std::uint32_t count = std::min(end - edge, chunk_size);
+            made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
+            for (std::uint32_t i = 0; i < count; ++i, ++edge) {
+                const Vector& a = vertices[edge];
+                const Vector& b = vertices[edge + 1 == end ? polygon.ring_begin(ring) : edge + 1];
+                const FloatBox ends{static_cast<float>(a.x()), static_cast<float>(a.y()),
+                                    static_cast<float>(b.x()), static_cast<float>(b.y())};
+                made_[edges + chunk_size * chunk + i] = unit_of(ends);
+                extend(boxes_[chunk], ends);
+                extend(boxes_[chunk], {ends[2], ends[3], ends[0], ends[1]});
+            }
+        }
+    }
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        const std::uint32_t first = made_[2 + level / 4][level % 4];
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            made_[first + i] = unit_of(boxes_[i]);
+        }
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            FloatBox& group = boxes_[i / chunk_size];
+            const FloatBox own = boxes_[i];
+            group = i % chunk_size == 0 ? own : group;
+            extend(group, own);
+        }
+        boxes_.resize((boxes_.size() + chunk_size - 1) / chunk_size);
+    }
+    for (std::size_t i = 1; i < boxes_.size(); ++i) {
+        extend(boxes_.front(), boxes_[i]);
+    }
+    made_[1] = unit_of(boxes_.front());
+}
+
+void PointSearchBuilder::make_parts(const Polygon& polygon, double spacing) {
+    made_.resize(units_for(polygon.size()));
+    EdgeSampler sampler(polygon, spacing);
+    for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
+        made_[edge / 4][edge % 4] = static_cast<std::uint32_t>(sampler.parts_of(edge));
+    }
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,133 @@
+#include <engine/render/search_buffers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace nearfield::render {
+namespace {
+
+constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
+
+// Of the arguments: by stage, three numbers of workgroups and the count.
+constexpr std::uint64_t argument_words = 4;
+constexpr std::uint64_t stages = SearchCounts{}.size();
+
+// Elements with one sum: a workgroup's.
+constexpr std::uint32_t block_size = 64;
+
+// The shader keeps three counts at the start of its scratch memory.
+constexpr std::uint32_t header_words = 4;
+
+std::uint32_t blocks_for(std::uint32_t elements) {
+    return (elements + block_size - 1) / block_size + 1;
+}
+
+std::uint32_t rounded_up(double value) {
+    return static_cast<std::uint32_t>(std::ceil(value));
+}
+
+}  // namespace
+
+SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
+    : layout_(&layout),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+             "nearfield search input"),
+      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
+               "nearfield search scratch"),
+      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+               "nearfield found points"),
+      arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                 gpu::Direction::readback, "nearfield search arguments"),
+      sets_(device, layout, names_of_sets) {
+    arguments_.reserve(stages * argument_words * sizeof(std::uint32_t));
+    item_.set = sets_[0];
+}
+
+void SearchBuffers::upload(std::span<const plan::SearchUnit> shapes,
+                           const plan::PointSearch& search, const SearchCounts& expected) {
+    const std::uint64_t direction_bytes =
+        search.directions.size() * sizeof(plan::SearchDirectionData);
+    input_.reserve(shapes.size_bytes() + direction_bytes);
+    std::memcpy(input_.data(), shapes.data(), shapes.size_bytes());
+    std::memcpy(input_.data() + shapes.size_bytes(), search.directions.data(), direction_bytes);
+    input_.flush();
+    item_.items = search.items;
+    item_.first_direction = static_cast<std::uint32_t>(shapes.size());
+    item_.directions = static_cast<std::uint32_t>(search.directions.size());
+    const std::uint32_t max_points = rounded_up(search.max_points);
+    max_counts_ = {rounded_up(search.max_edges), max_points, max_points};
+    lay_out(expected);
+}
+
+void SearchBuffers::lay_out(const SearchCounts& expected) {
+    passes::SearchLayout& layout = item_.layout;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        layout.capacities[i] = std::min(expected[i], max_counts_[i]);
+    }
+    const auto [edges, points, found] = layout.capacities;
+    std::uint32_t word = header_words;
+    const auto words = [&word](std::uint32_t count) {
+        const std::uint32_t first = word;
+        word += (count + 3) / 4 * 4;
+        return first;
+    };
+    layout.item_blocks = words(blocks_for(item_.items));
+    layout.edge_blocks = words(blocks_for(edges));
+    layout.point_blocks = words(blocks_for(points));
+    layout.item_words = words(item_.items);
+    layout.edge_units = word / 4;
+    layout.point_units = layout.edge_units + 2 * edges;
+    layout.units = std::uint64_t{layout.point_units} + points;
+    scratch_.reserve(layout.units * sizeof(plan::SearchUnit));
+    records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
+    item_.input = input_.handle();
+    item_.scratch = scratch_.handle();
+    item_.records = records_.handle();
+    item_.arguments = arguments_.handle();
+    using Layout = passes::ComputeLayout;
+    layout_->write_buffer(item_.set, Layout::tiles, item_.input, 0, VK_WHOLE_SIZE);
+    layout_->write_buffer(item_.set, Layout::geometry, item_.scratch, 0, VK_WHOLE_SIZE);
+    layout_->write_buffer(item_.set, Layout::points, item_.records, 0, VK_WHOLE_SIZE);
+    layout_->write_buffer(item_.set, Layout::output, item_.arguments, 0, VK_WHOLE_SIZE);
+}
+
+void SearchBuffers::read_back() {
+    arguments_.invalidate();
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        std::memcpy(&counts_[i],
+                    arguments_.data() + (argument_words * i + 3) * sizeof(std::uint32_t),
+                    sizeof(counts_[i]));
+    }
+    if (had_room()) {
+        records_.invalidate();
+    }
+}
+
+bool SearchBuffers::had_room() const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        if (counts_[i] > item_.layout.capacities[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void SearchBuffers::grow() {
+    SearchCounts expected = item_.layout.capacities;
+    double growth = 1.0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        // A stage that came after one without room counted only a part.
+        const double counted = growth * counts_[i];
+        growth = std::max(growth, counted / std::max(1.0, 1.0 * expected[i]));
+        expected[i] = static_cast<std::uint32_t>(
+            std::min(1.0 * max_counts_[i], std::max(1.0 * expected[i], std::ceil(counted))));
+    }
+    lay_out(expected);
+}
+
+std::span<const plan::FoundPointData> SearchBuffers::found() const {
+    return {reinterpret_cast<const plan::FoundPointData*>(records_.data()), counts_[2]};
+}
+
+}  // namespace nearfield::render

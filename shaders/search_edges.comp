@@ -1,0 +1,157 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The search's second step, one thread per edge of A that can have points that are asked for. One
+// walk over B's boxes finds the sides of the edge's first and last point, and the interval of the
+// points that B's boundary may separate from them, or that lie within reach of it.
+
+#include "search.glsl"
+#include "block_sum.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Item {
+    uint direction;
+    uint slot;  // of the edge of A
+};
+
+// Restricts t to where a + t * d lies between low and high.
+bool clip(float a, float d, float low, float high, inout vec2 t) {
+    if (d == 0.0) {
+        return low <= a && a <= high;
+    }
+    float u = (low - a) / d;
+    float v = (high - a) / d;
+    t = vec2(max(t.x, min(u, v)), min(t.y, max(u, v)));
+    return t.x <= t.y;
+}
+
+bool clip_to_box(vec2 a, vec2 d, vec4 box, inout vec2 t) {
+    return clip(a.x, d.x, box.x, box.z, t) && clip(a.y, d.y, box.y, box.w, t);
+}
+
+struct Stretch {
+    vec2 near;  // the interval of the points that may be near B's boundary; empty: y < x
+    bool first_inside;
+    bool last_inside;
+};
+
+Stretch find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides) {
+    Stretch stretch = Stretch(vec2(infinity, -infinity), false, false);
+    vec4 margin = vec4(-grow, -grow, grow, grow);
+    vec2 along = to - from;
+    Walk walk = start_walk(b);
+    bool enters = true;
+    for (;;) {
+        if (enters) {
+            walk.mask = 0u;
+            uint count = boxes_of_group(b, walk.level, walk.group);
+            for (uint i = 0u; i < count; ++i) {
+                vec4 box = float_units[b.first_box[walk.level] + chunk_size * walk.group + i];
+                vec2 t = vec2(0.0, 1.0);
+                bool visit = clip_to_box(from, along, box + margin, t) ||
+                             (sides && (ray_meets(from, box) || ray_meets(to, box)));
+                walk.mask |= visit ? 1u << i : 0u;
+            }
+        }
+        uint box;
+        if (!next_box(b, walk, box)) {
+            return stretch;
+        }
+        enters = walk.level > 0u;
+        if (enters) {
+            descend(walk, box);
+            continue;
+        }
+        uint end = chunk_size * box + (input_words[b.infos + box] & 15u);
+        for (uint i = chunk_size * box; i < end; ++i) {
+            vec4 edge = float_units[b.edges + i];
+            vec4 edge_box = vec4(min(edge.xy, edge.zw), max(edge.xy, edge.zw));
+            vec2 t = vec2(0.0, 1.0);
+            if (clip_to_box(from, along, edge_box + margin, t)) {
+                stretch.near = vec2(min(stretch.near.x, t.x), max(stretch.near.y, t.y));
+            }
+            if (sides) {
+                stretch.first_inside = stretch.first_inside != crosses(from, edge.xy, edge.zw);
+                stretch.last_inside = stretch.last_inside != crosses(to, edge.xy, edge.zw);
+            }
+        }
+    }
+}
+
+Item item_of(uint index) {
+    uint block =
+        last_block(push.item_blocks, (push.items + block_size - 1u) / block_size, index);
+    uint rest = index - scratch[push.item_blocks + block];
+    uint low = block * block_size;
+    uint count = min(block_size, push.items - low);
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        if (scratch[push.item_words + low + half_count] >> 8 <= rest) {
+            low += half_count;
+            count -= half_count;
+        } else {
+            count = half_count;
+        }
+    }
+    uint word = scratch[push.item_words + low];
+    uint mask = word & 255u;
+    for (uint skip = rest - (word >> 8); skip > 0u; --skip) {
+        mask &= mask - 1u;
+    }
+    uint direction = direction_of(low);
+    uint chunk = low - units[push.directions + 4u * direction + 1u].w;
+    return Item(direction, chunk_size * chunk + findLSB(mask));
+}
+
+// The points of an edge that the next step looks at: `first`, ..., `first + count - 1`. It asks for
+// the side of those from `ask_begin` to `ask_end - 1`; the others are known to be inside.
+struct Points {
+    uint first;
+    uint count;
+    uint ask_begin;
+    uint ask_end;
+};
+
+Points points_of(Item item) {
+    Direction direction = direction_at(item.direction);
+    Shape a = shape_at(direction.shape_a);
+    Shape b = shape_at(direction.shape_b);
+    vec4 edge = float_units[a.edges + item.slot];
+    uint number = (input_words[a.infos + item.slot / chunk_size] >> 4) + item.slot % chunk_size;
+    uint parts = parts_of(direction, number);
+    vec2 from = direction.rotation * edge.xy + direction.translation;
+    vec2 end = direction.rotation * edge.zw + direction.translation;
+    vec2 to = parts == 1u ? from : from + (end - from) * (float(parts - 1u) / float(parts));
+    bool sides = !direction.outside;
+    Stretch stretch =
+        find_stretch(from, to, b, direction.reach + 2.0 * direction.margin, sides);
+    if (stretch.near.y < stretch.near.x) {
+        return Points(0u, stretch.first_inside ? parts : 0u, 0u, 0u);
+    }
+    // More points at either end, for rounding.
+    float steps = float(parts - 1u);
+    float slack = 1.0 + steps / 1048576.0;
+    uint ask_begin = uint(max(floor(stretch.near.x * steps - slack), 0.0));
+    uint ask_end = min(parts, uint(ceil(stretch.near.y * steps + slack)) + 1u);
+    uint first = stretch.first_inside ? 0u : ask_begin;
+    uint last = stretch.last_inside ? parts : ask_end;
+    return Points(first, last - first, ask_begin, ask_end);
+}
+
+void main() {
+    uint index = dispatched_index();
+    bool exists = index < scratch[edge_total];
+    Item item;
+    Points points = Points(0u, 0u, 0u, 0u);
+    if (exists) {
+        item = item_of(index);
+        points = points_of(item);
+    }
+    uint before = sum_before(points.count, push.edge_blocks + index / block_size);
+    if (exists) {
+        uint unit = push.edge_units + 2u * index;
+        scratch_units[unit] = uvec4(item.direction, item.slot, points.first, before);
+        scratch_units[unit + 1u] = uvec4(points.ask_begin, points.ask_end, 0u, 0u);
+    }
+}

@@ -1,0 +1,54 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The search's first step, one thread per item, which is a chunk of A's edges in one direction:
+// which of these edges can have points that are asked for.
+
+#include "search.glsl"
+#include "block_sum.glsl"
+
+layout(local_size_x = 64) in;
+
+bool overlap(vec4 a, vec4 b) {
+    return all(lessThanEqual(a.xy, b.zw)) && all(lessThanEqual(b.xy, a.zw));
+}
+
+// The box, in B's frame, of a box in A's.
+vec4 transformed(Direction direction, vec4 box) {
+    vec2 centre = direction.rotation * (0.5 * (box.xy + box.zw)) + direction.translation;
+    vec2 half_size = 0.5 * (box.zw - box.xy);
+    vec2 reach = abs(direction.rotation[0]) * half_size.x + abs(direction.rotation[1]) * half_size.y;
+    return vec4(centre - reach, centre + reach);
+}
+
+uint edges_of(uint item) {
+    Direction direction = direction_at(direction_of(item));
+    uint chunk = item - direction.first_item;
+    Shape a = shape_at(direction.shape_a);
+    float grow = direction.reach + 2.0 * direction.margin;
+    vec4 near = float_units[direction.shape_b + 1u] + vec4(-grow, -grow, grow, grow);
+    if (!overlap(transformed(direction, float_units[a.first_box[0] + chunk]), near)) {
+        return 0u;
+    }
+    uint info = input_words[a.infos + chunk];
+    uint mask = 0u;
+    for (uint i = 0u; i < (info & 15u); ++i) {
+        vec4 edge = float_units[a.edges + chunk_size * chunk + i];
+        vec2 from = direction.rotation * edge.xy + direction.translation;
+        vec2 to = direction.rotation * edge.zw + direction.translation;
+        if (overlap(vec4(min(from, to), max(from, to)), near) &&
+            parts_of(direction, (info >> 4) + i) > 0u) {
+            mask |= 1u << i;
+        }
+    }
+    return mask;
+}
+
+void main() {
+    uint item = push.first + dispatched_index();
+    uint mask = item < push.items ? edges_of(item) : 0u;
+    uint before = sum_before(bitCount(mask), push.item_blocks + item / block_size);
+    if (item < push.items) {
+        scratch[push.item_words + item] = mask | before << 8;
+    }
+}
