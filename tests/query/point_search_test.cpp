@@ -1,0 +1,212 @@
+#include <tests/query/agreement.hpp>
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/check.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 18000;
+
+/// Points of a boundary that the device searches by itself (technique compute), compared with the
+/// oracle and with technique cpu.
+class PointSearch : public QueryTest {
+protected:
+    /// Penetration of boundary and vertices, and contacts, of all pairs in one batch.
+    static void check(Context& context, const std::vector<Pair>& pairs) {
+        std::vector<std::unique_ptr<PlacedPair>> placed;
+        Batch batch;
+        for (const Pair& pair : pairs) {
+            placed.push_back(std::make_unique<PlacedPair>(context, pair, Technique::compute));
+            add(*placed.back(), Technique::compute, batch);
+        }
+        Results found;
+        ASSERT_TRUE(context.run(batch, found).ok());
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            SCOPED_TRACE(describe(pairs[i]));
+            check(*placed[i], context, &found.results[queries_per_pair * i]);
+        }
+    }
+
+    /// All numbers of the answer of a query alone.
+    template <class Query>
+    static std::vector<double> numbers(Context& context, const Query& query) {
+        Results results;
+        results.results.emplace_back(run_alone(context, query));
+        return all_numbers(results);
+    }
+
+    static double contact_distance_of(const PlacedPair& pair) { return 2.0 * pair.tolerance(); }
+
+private:
+    static constexpr std::size_t queries_per_pair = 3;
+
+    /// The answer with the technique and the regions of another.
+    static AnyResult by_cpu(AnyResult result, const AnyResult& other) {
+        std::visit(
+            [&result](const auto& by_cpu) {
+                std::visit(
+                    [&by_cpu](auto& one) {
+                        one.technique = by_cpu.technique;
+                        one.regions = by_cpu.regions;
+                    },
+                    result);
+            },
+            other);
+        return result;
+    }
+
+    static void add(const PlacedPair& pair, Technique technique, Batch& batch) {
+        const auto add_by_technique = [&](auto query) {
+            query.technique = technique;
+            batch.add(query);
+        };
+        add_by_technique(pair.penetration());
+        add_by_technique(pair.penetration(PenetrationPoints::vertices));
+        add_by_technique(pair.contacts(contact_distance_of(pair)));
+    }
+
+    static void check(const PlacedPair& pair, Context& context, const AnyResult* found) {
+        check_penetration(pair, PenetrationPoints::boundary, std::get<PenetrationResult>(found[0]));
+        check_penetration(pair, PenetrationPoints::vertices, std::get<PenetrationResult>(found[1]));
+        check_contacts(pair, contact_distance_of(pair), std::get<ContactResult>(found[2]));
+        Batch batch;
+        add(pair, Technique::cpu, batch);
+        Results expected;
+        ASSERT_TRUE(context.run(batch, expected).ok());
+        for (std::size_t i = 0; i < queries_per_pair; ++i) {
+            check_agreement({pair, batch.queries()[i]}, by_cpu(found[i], expected.results[i]),
+                            expected.results[i]);
+        }
+    }
+};
+
+TEST_F(PointSearch, HoldsForRandomPairs) {
+    for_each_case(seed, 12, [&](Random& random) {
+        std::vector<Pair> pairs;
+        for (int i = 0; i < 8; ++i) {
+            pairs.push_back(any_pair(random));
+        }
+        check(context(), pairs);
+    });
+}
+
+// The tolerance is so small against the shapes that single precision cannot name the feature.
+TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
+    for_each_case(seed + 1000, 6, [&](Random& random) {
+        Pair pair = any_pair(random);
+        // A small part of A's boundary lies in B, so that the samples stay few.
+        pair.a.rings = scaled_and_moved(star(random, 5, 0.5), 0.01, {});
+        pair.a.name = "small star";
+        pair.b.rings = coast(random, random.whole(8, 400), 0.4);
+        pair.b.name = "coast";
+        const double angle = random.between(0.0, 2.0 * std::numbers::pi);
+        const Vector2 world{random.between(-1e4, 1e4), random.between(-1e4, 1e4)};
+        pair.pose_b = pose_at({}, world, angle);
+        pair.pose_a = pose_at({}, {world.x + random.between(0.3, 1.0), world.y}, -angle);
+        pair.tolerance = random.scale(1e-6, 1e-4);
+        check(context(), {pair});
+    });
+}
+
+// Sizes apart by four orders of magnitude, rings in dozens, and coordinates of a million.
+TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
+    for_each_case(seed + 2000, 6, [&](Random& random) {
+        const Vector2 world{random.between(-1e6, 1e6), random.between(-1e6, 1e6)};
+        std::vector<Pair> pairs;
+        for (int i = 0; i < 4; ++i) {
+            const double size = random.scale(1.0, 1e4);
+            Pair pair;
+            pair.a = {"star", star(random, random.whole(3, 40), 0.4)};
+            pair.b = {"parts", several_parts(random, random.whole(2, 60))};
+            pair.b.rings = scaled_and_moved(pair.b.rings, size, {});
+            pair.pose_b = pose_at({}, world, random.between(-3.0, 3.0));
+            const double along = random.between(-3.0, 3.0);
+            const double away = random.between(0.2, 1.0) * size;
+            pair.pose_a = pose_at(
+                {}, {world.x + away * std::cos(along), world.y + away * std::sin(along)}, along);
+            pair.tolerance = random.scale(0.005, 0.1);
+            pairs.push_back(pair);
+        }
+        check(context(), pairs);
+    });
+}
+
+// More points than a new context makes room for: the search is repeated, and nothing is cut.
+TEST_F(PointSearch, RepeatsWithMoreRoom) {
+    Expected<Context> fresh = Context::create(host_device());
+    ASSERT_TRUE(fresh.has_value()) << fresh.error().text();
+    Random random(seed);
+    const Pair pair{
+        {"coast", coast(random, 500, 0.4)}, {"square", rectangle({-2, -2}, {2, 2})}, {}, {}, 1e-4};
+    const PlacedPair placed(*fresh, pair, Technique::compute);
+    const PenetrationResult first = run_alone(*fresh, placed.penetration());
+    ASSERT_TRUE(first.status.ok()) << first.status.text();
+    PenetrationQuery by_cpu = placed.penetration();
+    by_cpu.technique = Technique::cpu;
+    const PenetrationResult expected = run_alone(*fresh, by_cpu);
+    EXPECT_GT(first.count, 20000U);
+    EXPECT_EQ(first.count, expected.count);
+    Results all;
+    all.results.emplace_back(first);
+    EXPECT_EQ(all_numbers(all), numbers(*fresh, placed.penetration()));
+}
+
+// Long boundaries of which little lies in B: what the device may find is counted for each query,
+// and many of them take several searches.
+TEST_F(PointSearch, IsDividedWhereItMayFindMuch) {
+    Random random(seed + 1);
+    const Pair pair{{"star", star(random, 30, 0.5)},
+                    {"square", rectangle({0.5, -0.02}, {2, 0.02})},
+                    {},
+                    {},
+                    1e-5};
+    const PlacedPair placed(context(), pair, Technique::compute);
+    Batch batch;
+    std::vector<QueryHandle<PenetrationQuery>> handles;
+    for (int i = 0; i < 6; ++i) {
+        handles.push_back(batch.add(placed.penetration()));
+    }
+    Results results;
+    ASSERT_TRUE(context().run(batch, results).ok());
+    check_penetration(placed, PenetrationPoints::boundary, results[handles.front()]);
+    for (const auto handle : handles) {
+        EXPECT_GT(results[handle].count, 100U);
+    }
+    const std::vector<double> first = numbers(context(), placed.penetration());
+    std::vector<double> six;
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        six.insert(six.end(), first.begin(), first.end());
+    }
+    EXPECT_EQ(all_numbers(results), six);
+}
+
+// What is kept of shapes that change, grow and shrink never shows.
+TEST_F(PointSearch, KeepsNothingOfFormerShapes) {
+    Random random(seed + 2);
+    const auto any = [&random] { return star(random, random.whole(3, 200), 0.3); };
+    const Expected<ShapeHandle> a = context().add_shape(any());
+    const Expected<ShapeHandle> b = context().add_shape(any());
+    ASSERT_TRUE(a.has_value() && b.has_value());
+    for (int frame = 0; frame < 40; ++frame) {
+        const Pair pair{{"A", any()}, {"B", any()}, {{0.3, 0.1}, 0.2}, {}, 0.02};
+        ASSERT_TRUE(context().update_shape(*a, pair.a.rings).ok());
+        ASSERT_TRUE(context().update_shape(*b, pair.b.rings).ok());
+        const PlacedPair fresh(context(), pair, Technique::compute);
+        PenetrationQuery query = fresh.penetration();
+        const std::vector<double> expected = numbers(context(), query);
+        query.a.shape = *a;
+        query.b.shape = *b;
+        EXPECT_EQ(numbers(context(), query), expected) << "frame " << frame;
+    }
+    EXPECT_TRUE(context().remove_shape(*a).ok());
+    EXPECT_TRUE(context().remove_shape(*b).ok());
+}
+
+}  // namespace
+}  // namespace nearfield::test
