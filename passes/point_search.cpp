@@ -40,7 +40,7 @@ PointSearch::PointSearch(const gpu::Device& device, const ComputeLayout& layout)
                                        "nearfield pack points")),
       input_(graph_.import_buffer({"search input", true, false})),
       scratch_(graph_.import_buffer({"search scratch"})),
-      arguments_(graph_.import_buffer({"search arguments", false, true})),
+      arguments_(graph_.import_buffer({"search arguments", true, true})),
       records_(graph_.import_buffer({"found points", false, true})) {
     declare();
     executor_ = graph::make_executor(device, graph_);

@@ -60,7 +60,8 @@ struct Direction {
     float margin;  // bound on the errors of single precision
     float rival;   // a second point that is farther by no more makes the nearest not unique
     bool outside;  // points outside B are asked for as well
-    float doubt;   // a second edge that is farther by no more leaves the nearest one in doubt
+    float doubt;   // a second edge that is farther by no more leaves the nearest one in doubt;
+                   // negative: none does
 };
 
 Direction direction_at(uint index) {
@@ -75,8 +76,12 @@ Direction direction_at(uint index) {
 
 // The direction that an item belongs to.
 uint direction_of(uint item) {
-    uint low = 0u;
-    uint count = push.direction_count;
+    // The first directions of blocks of items follow the directions.
+    uint blocks = 4u * (push.directions + 4u * push.direction_count);
+    uint block = item / block_size;
+    uint low = input_words[blocks + block];
+    uint count = (block_size * (block + 1u) < push.items ? input_words[blocks + block + 1u] + 1u
+                                                         : push.direction_count) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
         if (units[push.directions + 4u * (low + half_count) + 1u].w <= item) {

@@ -118,8 +118,8 @@ struct Rivals {
 };
 
 // A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
-// more than twice as far from it as one straight edge explains. A second edge, except for the
-// neighbours, that is as near up to rounding leaves the nearest one in doubt.
+// more than twice as far from it as one straight edge explains. A second edge that is as near, up to
+// rounding, leaves both in doubt, except for a neighbour with the same nearest point.
 void compare_chunk(vec2 p, Shape b, uint chunk, Nearest nearest, uint edge, Direction direction,
                    inout Rivals rivals) {
     float limit = nearest.distance + direction.rival;
@@ -134,7 +134,9 @@ void compare_chunk(vec2 p, Shape b, uint chunk, Nearest nearest, uint edge, Dire
             rivals.unique = false;
         }
         uint number = first + i % chunk_size;
-        if (d <= nearest.distance + direction.doubt && (number + 1u < edge || number > edge + 1u)) {
+        bool elsewhere = number + 1u < edge || number > edge + 1u ||
+                         dot(apart, apart) > 16.0 * direction.margin * direction.margin;
+        if (d <= nearest.distance + direction.doubt && elsewhere) {
             rivals.doubtful = true;
         }
     }

@@ -108,6 +108,14 @@ struct PlannedQuery {
     std::uint32_t field_point_count = 0;
 };
 
+/// A query, or one direction of it, whose points the device searches.
+struct SearchedQuery {
+    std::uint32_t query = 0;  ///< in Plan::queries
+    /// A's frame in B's, both relative to the centres of the shapes.
+    geometry::Vector axis = geometry::Vector::UnitX();
+    geometry::Vector offset = geometry::Vector::Zero();
+};
+
 /// Indices of an array, sorted by tile batch; original order within each tile batch.
 class ByTileBatch {
 public:
@@ -147,7 +155,7 @@ struct Plan {
     BoundingVolume bounding_volume{};     ///< that hierarchies are made of
     geometry::SubpixelGrid subpixel;      ///< that overlaps are snapped to
     std::vector<std::uint32_t> resident;  ///< queries whose results stay on the device as well
-    std::vector<std::uint32_t> searched;  ///< queries, and directions, that the device searches
+    std::vector<SearchedQuery> searched;
     /// Contact queries with gradient normals.
     std::vector<std::uint32_t> with_gradient_normals;
     std::vector<Tile> tiles;

@@ -63,6 +63,14 @@ public:
     [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }
 
 private:
+    struct BoxedPolygon {
+        geometry::TransformedPolygon placed;
+        geometry::Box box;
+
+        BoxedPolygon(const geometry::Polygon& polygon, const Pose& pose)
+            : placed(polygon, pose), box(placed.box()) {}
+    };
+
     void plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
                   Plan& plan, std::vector<AnyResult>& results, Submissions submissions);
     void add(const PenetrationQuery& query, PenetrationResult& result);
@@ -131,6 +139,8 @@ private:
     /// Checks that deviations and coordinates are compatible with the tolerance; the result states
     /// the error.
     [[nodiscard]] bool check_numbers(ResultSummary& result) const;
+    [[nodiscard]] bool check_numbers(const BoxedPolygon& a, const BoxedPolygon& b,
+                                     ResultSummary& result) const;
     /// Returns whether this many boundary samples, and what is derived from them, may be kept at
     /// once.
     [[nodiscard]] bool can_keep(double samples);
@@ -174,9 +184,9 @@ private:
     Plan* plan_ = nullptr;             // of the call in progress
     std::uint32_t query_ = 0;
     double localize_milliseconds_ = 0.0;
-    double max_to_keep_ = 0.0;  // samples of a query, at once
-    double max_kept_ = 0.0;     // of any query of the batch
-    double rough_bytes_ = 0.0;  // that records may take of queries that were not localised
+    double max_to_keep_ = 0.0;     // samples of a query, at once
+    double max_kept_ = 0.0;        // of any query of the batch
+    double rough_bytes_ = 0.0;     // that records may take of queries that were not localised
     bool counts_closely_ = false;  // those are localised too, so that they need less memory
 
     // Scratch.

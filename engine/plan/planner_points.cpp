@@ -37,17 +37,28 @@ constexpr double max_search_samples = 4096.0;
 // bits.
 constexpr double max_numbered_samples = 1U << 30U;
 
+SearchedQuery searched_query(std::uint32_t query, const TransformedPolygon& a,
+                             const TransformedPolygon& b) {
+    return {query, b.rotation().transpose() * a.rotation().col(0), b.to_local(a.translation())};
+}
+
 }  // namespace
 
 bool Planner::check_numbers(ResultSummary& result) const {
     const PlannedQuery& planned = plan_->queries[query_];
-    const TransformedPolygon a(*planned.a, planned.pose_a);
-    const TransformedPolygon b(*planned.b, planned.pose_b);
+    return check_numbers(BoxedPolygon(*planned.a, planned.pose_a),
+                         BoxedPolygon(*planned.b, planned.pose_b), result);
+}
+
+bool Planner::check_numbers(const BoxedPolygon& a, const BoxedPolygon& b,
+                            ResultSummary& result) const {
+    const PlannedQuery& planned = plan_->queries[query_];
     result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
     if (result.status.ok()) {
-        result.status = check_resolution(result.tolerance,
-                                         std::max(geometry::largest_magnitude(a, planned.pose_a),
-                                                  geometry::largest_magnitude(b, planned.pose_b)));
+        result.status = check_resolution(
+            result.tolerance,
+            std::max(geometry::largest_magnitude(a.placed, planned.pose_a, a.box),
+                     geometry::largest_magnitude(b.placed, planned.pose_b, b.box)));
     }
     return result.status.ok();
 }
@@ -89,22 +100,24 @@ bool Planner::can_be_searched(double samples) {
 /// inside, or up to `reach` outside.
 void Planner::search(double reach, bool both_ways, ResultSummary& result) {
     PlannedQuery& planned = plan_->queries[query_];
+    const BoxedPolygon a(*planned.a, planned.pose_a);
+    const BoxedPolygon b(*planned.b, planned.pose_b);
+    if (!check_numbers(a, b, result)) {
+        return;
+    }
     planned.searched = true;
-    const double cell = planned.budget.cell;
-    const Box box_a = TransformedPolygon(*planned.a, planned.pose_a).box();
-    const Box box_b = TransformedPolygon(*planned.b, planned.pose_b).box();
-    const Box of_a = box_a.intersection(grown(box_b, reach));
-    const Box of_b = box_b.intersection(grown(box_a, reach));
+    const Box of_a = a.box.intersection(grown(b.box, reach));
+    const Box of_b = b.box.intersection(grown(a.box, reach));
     const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
     if (are_near) {
         const Box where = both_ways ? of_a.merged(of_b) : of_a;
-        result.regions.push_back(region_of(Grid::covering(where, cell)));
-        plan_->searched.push_back(query_);
+        result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
+        plan_->searched.push_back(searched_query(query_, a.placed, b.placed));
     }
     if (both_ways) {
         const std::uint32_t reverse = add_reverse();
         if (are_near) {
-            plan_->searched.push_back(reverse);
+            plan_->searched.push_back(searched_query(reverse, b.placed, a.placed));
         }
     }
 }
@@ -127,11 +140,11 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     planned.budget = budget;
-    if (!check_numbers(result)) {
-        return;
-    }
     if (can_be_searched(of_boundary)) {
         search(0.0, false, result);
+        return;
+    }
+    if (!check_numbers(result)) {
         return;
     }
     const TransformedPolygon a(*planned.a, query.a.pose);
@@ -239,11 +252,14 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
         planned.on_cpu && !gradients && of_boundaries <= max_numbered_samples;
     const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
     planned.brute_force = may_be_by_edge && fits_roughly(of_boundaries, bytes_of_record);
-    if (planned.brute_force || !check_numbers(result)) {
+    if (planned.brute_force) {
         return;
     }
     if (!gradients && can_be_searched(of_boundaries)) {
         search(query.contact_distance, true, result);
+        return;
+    }
+    if (!check_numbers(result)) {
         return;
     }
     const TransformedPolygon a(*planned.a, planned.pose_a);

@@ -1,5 +1,4 @@
 #include <engine/base/status_exception.hpp>
-#include <engine/geometry/transformed_polygon.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/point_search.hpp>
@@ -14,7 +13,6 @@
 namespace nearfield::plan {
 
 using geometry::Polygon;
-using geometry::TransformedPolygon;
 using geometry::Vector;
 
 namespace {
@@ -69,23 +67,19 @@ float rounded_up(double value) {
 
 // Transforms A's frame to B's. Everything happens in floats, in a handful of operations, each of
 // which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates covers them.
-SearchDirectionData direction_of(const PlannedQuery& query) {
-    const TransformedPolygon a(*query.a, query.pose_a);
-    const TransformedPolygon b(*query.b, query.pose_b);
-    const Vector axis = b.rotation().transpose() * a.rotation().col(0);
-    const Vector offset = b.to_local(a.translation());
+SearchDirectionData direction_of(const PlannedQuery& query, const SearchedQuery& searched) {
     SearchDirectionData data;
-    data.cosine = static_cast<float>(axis.x());
-    data.sine = static_cast<float>(axis.y());
-    data.x = static_cast<float>(offset.x());
-    data.y = static_cast<float>(offset.y());
-    const double extent = query.a->radius() + query.b->radius() + offset.norm();
+    data.cosine = static_cast<float>(searched.axis.x());
+    data.sine = static_cast<float>(searched.axis.y());
+    data.x = static_cast<float>(searched.offset.x());
+    data.y = static_cast<float>(searched.offset.y());
+    const double extent = query.a->radius() + query.b->radius() + searched.offset.norm();
     const double cell = query.budget.cell;
     data.reach = rounded_up(reach_of(query));
     data.margin = rounded_up(std::ldexp(extent, -20));
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.outside ? 1.0F : 0.0F;
-    data.doubt = data.margin > search_precision * cell ? 4.0F * data.margin : -1.0F;
+    data.doubt = data.margin > search_precision * cell ? data.rival + 4.0F * data.margin : -1.0F;
     return data;
 }
 
@@ -112,8 +106,8 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
     ++batch_;
     drop_unused();
     units_in_use_ = 0;
-    for (const std::uint32_t query : plan.searched) {
-        const PlannedQuery& planned = plan.queries[query];
+    for (const SearchedQuery& searched : plan.searched) {
+        const PlannedQuery& planned = plan.queries[searched.query];
         const double points = asks_for_vertices(planned)
                                   ? static_cast<double>(planned.a->size())
                                   : max_samples(*planned.a, planned.budget.cell);
@@ -124,14 +118,14 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
         PointSearch& search = searches[count - 1];
         search.max_points += points;
         search.max_edges += static_cast<double>(planned.a->size());
-        add(plan, query, search);
+        add(plan, searched, search);
     }
     return count;
 }
 
-void PointSearchBuilder::add(Plan& plan, std::uint32_t query, PointSearch& search) {
-    PlannedQuery& planned = plan.queries[query];
-    SearchDirectionData& data = search.directions.emplace_back(direction_of(planned));
+void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSearch& search) {
+    PlannedQuery& planned = plan.queries[searched.query];
+    SearchDirectionData& data = search.directions.emplace_back(direction_of(planned, searched));
     planned.margin = data.margin;
     data.shape_a = find_or_make({planned.a, 0.0});
     data.shape_b = find_or_make({planned.b, 0.0});
@@ -139,8 +133,14 @@ void PointSearchBuilder::add(Plan& plan, std::uint32_t query, PointSearch& searc
         data.parts = 4 * find_or_make({planned.a, planned.budget.cell});
     }
     data.first_item = search.items;
-    search.items += chunks_of(*planned.a);
-    search.queries.push_back(query);
+    // Of each block of items, the direction of its first one.
+    const auto direction = static_cast<std::uint32_t>(search.queries.size());
+    const std::uint32_t end = search.items + chunks_of(*planned.a);
+    while (search_block * search.first_directions.size() < end) {
+        search.first_directions.push_back(direction);
+    }
+    search.items = end;
+    search.queries.push_back(searched.query);
 }
 
 /// Starts anew if most of what is kept was not used by the last batch.

@@ -25,6 +25,8 @@ using SearchUnit = std::array<std::uint32_t, 4>;
 
 /// Edges per chunk, and boxes per box of the next level.
 inline constexpr std::uint32_t chunk_size = 8;
+/// Elements that the device sums at once: those of one workgroup.
+inline constexpr std::uint32_t search_block = 64;
 /// Replaces the first word of the numbers of parts: one point per edge, its first vertex.
 inline constexpr std::uint32_t no_parts = UINT32_MAX;
 
@@ -39,7 +41,7 @@ struct SearchDirectionData {
     float margin = 0.0F;                     ///< bound on the errors of single precision
     float rival = 0.0F;    ///< a second point farther by no more: the nearest is not unique
     float outside = 0.0F;  ///< 1: points outside B are asked for as well
-    float doubt = 0.0F;    ///< a second edge farther by no more: the nearest is in doubt
+    float doubt = 0.0F;    ///< a second edge farther by no more: in doubt; < 0: never
     float unused[3]{};
 };
 static_assert(sizeof(SearchDirectionData) == 4 * sizeof(SearchUnit));
@@ -61,13 +63,15 @@ struct PointSearch {
     std::vector<SearchDirectionData> directions;
     std::vector<std::uint32_t> queries;  ///< by direction: index in Plan::queries
     std::uint32_t items = 0;
-    double max_edges = 0.0;  ///< upper bounds on what the device may find
+    std::vector<std::uint32_t> first_directions;  ///< by block of items: of its first item
+    double max_edges = 0.0;                       ///< upper bounds on what the device may find
     double max_points = 0.0;
 
     void clear() {
         directions.clear();
         queries.clear();
         items = 0;
+        first_directions.clear();
         max_edges = max_points = 0.0;
     }
 };
@@ -106,7 +110,7 @@ private:
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
     void make_shape(const geometry::Polygon& polygon);
     void make_parts(const geometry::Polygon& polygon, double spacing);
-    void add(Plan& plan, std::uint32_t query, PointSearch& search);
+    void add(Plan& plan, const SearchedQuery& searched, PointSearch& search);
 
     std::unordered_map<Key, Entry, Hash> entries_;
     std::vector<SearchUnit> units_;

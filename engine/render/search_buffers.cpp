@@ -1,8 +1,10 @@
+#include <engine/base/status_exception.hpp>
 #include <engine/render/search_buffers.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 namespace nearfield::render {
 namespace {
@@ -13,14 +15,11 @@ constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
 constexpr std::uint64_t argument_words = 4;
 constexpr std::uint64_t stages = SearchCounts{}.size();
 
-// Elements with one sum: a workgroup's.
-constexpr std::uint32_t block_size = 64;
-
 // The shader keeps three counts at the start of its scratch memory.
 constexpr std::uint32_t header_words = 4;
 
 std::uint32_t blocks_for(std::uint32_t elements) {
-    return (elements + block_size - 1) / block_size + 1;
+    return (elements + plan::search_block - 1) / plan::search_block + 1;
 }
 
 std::uint32_t rounded_up(double value) {
@@ -46,11 +45,13 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
 
 void SearchBuffers::upload(std::span<const plan::SearchUnit> shapes,
                            const plan::PointSearch& search, const SearchCounts& expected) {
-    const std::uint64_t direction_bytes =
-        search.directions.size() * sizeof(plan::SearchDirectionData);
-    input_.reserve(shapes.size_bytes() + direction_bytes);
-    std::memcpy(input_.data(), shapes.data(), shapes.size_bytes());
-    std::memcpy(input_.data() + shapes.size_bytes(), search.directions.data(), direction_bytes);
+    const auto blocks = std::as_bytes(std::span(search.first_directions));
+    const auto directions = std::as_bytes(std::span(search.directions));
+    input_.reserve(shapes.size_bytes() + directions.size() + blocks.size());
+    std::byte* target = input_.data();
+    for (const auto bytes : {std::as_bytes(shapes), directions, blocks}) {
+        target = std::copy(bytes.begin(), bytes.end(), target);
+    }
     input_.flush();
     item_.items = search.items;
     item_.first_direction = static_cast<std::uint32_t>(shapes.size());
@@ -81,6 +82,9 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     layout.units = std::uint64_t{layout.point_units} + points;
     scratch_.reserve(layout.units * sizeof(plan::SearchUnit));
     records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
+    // A device that is lost leaves no counts of an earlier search.
+    std::memset(arguments_.data(), 0, stages * argument_words * sizeof(std::uint32_t));
+    arguments_.flush();
     item_.input = input_.handle();
     item_.scratch = scratch_.handle();
     item_.records = records_.handle();
@@ -98,6 +102,14 @@ void SearchBuffers::read_back() {
         std::memcpy(&counts_[i],
                     arguments_.data() + (argument_words * i + 3) * sizeof(std::uint32_t),
                     sizeof(counts_[i]));
+    }
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        if (counts_[i] > max_counts_[i]) {
+            throw StatusException({StatusCode::device_error, "a search for points counted " +
+                                                                 std::to_string(counts_[i]) +
+                                                                 " where there are at most " +
+                                                                 std::to_string(max_counts_[i])});
+        }
     }
     if (had_room()) {
         records_.invalidate();

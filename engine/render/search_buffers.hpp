@@ -29,7 +29,8 @@ public:
 
     [[nodiscard]] const passes::PointSearch::Item& item() const { return item_; }
 
-    /// Call once the device is done: reads the counts.
+    /// Call once the device is done: reads the counts. Throws StatusException (device_error) if
+    /// they exceed what there can be.
     void read_back();
     /// What the device found, whether or not there was room for it; where there was none, the
     /// counts after it are too small.

@@ -87,7 +87,9 @@ TEST(MockDriver, CopiesWhatStaysOnTheDeviceToWhereTheHostReadsIt) {
         };
         // The edge, or the vertices at its ends.
         EXPECT_EQ(edges(true), (std::set<std::uint32_t>{1}));
-        EXPECT_EQ(edges(false), (std::set<std::uint32_t>{2, 3}));
+        // By compute, the device searches for points that do not stay; the mock driver finds none.
+        EXPECT_EQ(edges(false), technique == Technique::raster ? (std::set<std::uint32_t>{2, 3})
+                                                               : std::set<std::uint32_t>{});
         EXPECT_EQ(world.driver().breaches(), std::vector<std::string>{});
     }
 }

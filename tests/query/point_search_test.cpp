@@ -98,7 +98,7 @@ TEST_F(PointSearch, HoldsForRandomPairs) {
 
 // The tolerance is so small against the shapes that single precision cannot name the feature.
 TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
-    for_each_case(seed + 1000, 6, [&](Random& random) {
+    for_each_case(seed + 1000, 20, [&](Random& random) {
         Pair pair = any_pair(random);
         // A small part of A's boundary lies in B, so that the samples stay few.
         pair.a.rings = scaled_and_moved(star(random, 5, 0.5), 0.01, {});
