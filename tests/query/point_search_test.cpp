@@ -41,11 +41,6 @@ protected:
         return all_numbers(results);
     }
 
-    static double contact_distance_of(const PlacedPair& pair) { return 2.0 * pair.tolerance(); }
-
-private:
-    static constexpr std::size_t queries_per_pair = 3;
-
     /// The answer with the technique and the regions of another.
     static AnyResult by_cpu(AnyResult result, const AnyResult& other) {
         std::visit(
@@ -60,6 +55,11 @@ private:
             other);
         return result;
     }
+
+    static double contact_distance_of(const PlacedPair& pair) { return 2.0 * pair.tolerance(); }
+
+private:
+    static constexpr std::size_t queries_per_pair = 3;
 
     static void add(const PlacedPair& pair, Technique technique, Batch& batch) {
         const auto add_by_technique = [&](auto query) {
@@ -111,6 +111,32 @@ TEST_F(PointSearch, HoldsWhereSinglePrecisionLeavesDoubt) {
         pair.pose_a = pose_at({}, {world.x + random.between(0.3, 1.0), world.y}, -angle);
         pair.tolerance = random.scale(1e-6, 1e-4);
         check(context(), {pair});
+    });
+}
+
+// Vertices of A nearer to B's boundary than single precision can tell, on either side.
+TEST_F(PointSearch, DecidesTheSideWhereSinglePrecisionCannot) {
+    for_each_case(seed + 3000, 6, [&](Random& random) {
+        Pair pair;
+        pair.b = {"coast", coast(random, 300, 0.2)};
+        pair.a = {"nearly the same", pair.b.rings};
+        for (Vector2& vertex : pair.a.rings.front()) {
+            const double move = random.scale(1e-10, 1e-6);
+            const double angle = random.between(-std::numbers::pi, std::numbers::pi);
+            vertex = {vertex.x + move * std::cos(angle), vertex.y + move * std::sin(angle)};
+        }
+        pair.pose_a = pair.pose_b = {{random.between(-10, 10), random.between(-10, 10)}, 0.7};
+        pair.tolerance = 1e-5;
+        const PlacedPair placed(context(), pair, Technique::compute);
+        const PenetrationResult found =
+            run_alone(context(), placed.penetration(PenetrationPoints::vertices));
+        // To a tolerance like this one the oracle needs minutes.
+        PenetrationQuery query = placed.penetration(PenetrationPoints::vertices);
+        query.technique = Technique::cpu;
+        const PenetrationResult expected = run_alone(context(), query);
+        check_agreement({placed, query}, by_cpu(found, expected), expected);
+        EXPECT_GT(found.count, 50U);
+        EXPECT_LT(found.count, 250U);
     });
 }
 
