@@ -40,7 +40,7 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
         samples_.clear();
         row_counts_.clear();
         for (const Tile& tile : band) {
-            find_common(plan, planned, tile, with_runs, shapes);
+            find_common(planned, tile, with_runs, shapes);
             records::add_summary(tile, summarize(), result);
             if (query.records) {
                 append_samples(planned, tile, band.size() == 1 ? result.samples : samples_);
@@ -52,8 +52,8 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
     }
 }
 
-void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& planned,
-                               const Tile& tile, bool with_runs, plan::SimplifiedShapes& shapes) {
+void ExactOverlap::find_common(const PlannedQuery& planned, const Tile& tile, bool with_runs,
+                               plan::SimplifiedShapes& shapes) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
     const double cell = tile.grid.cell;
     const double slack = planned.budget.simplification / cell;
@@ -61,20 +61,20 @@ void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& plann
     const auto boundary_of = [&](const geometry::Polygon& polygon, const Pose& pose) {
         return plan::overlap_boundary(polygon, pose, planned.budget, tile, shapes);
     };
-    b_.reset(tile.width, tile.height, plan.subpixel);
+    b_.reset(tile.width, tile.height, geometry::cpu_grid);
     if (query.kind == IntersectionKind::boundary_boundary) {
-        for_offset_polygons(boundary_of(*planned.b, planned.pose_b), tile, offset, plan.subpixel,
-                            b_, [this](const plan::EdgeRun&, std::size_t i, std::uint64_t bits) {
+        for_offset_polygons(boundary_of(*planned.b, planned.pose_b), tile, offset, b_,
+                            [this](const plan::EdgeRun&, std::size_t i, std::uint64_t bits) {
                                 b_.words()[i] |= bits;
                             });
     } else {
-        fill(boundary_of(*planned.b, planned.pose_b), tile, slack, plan.subpixel, b_);
+        fill(boundary_of(*planned.b, planned.pose_b), tile, slack, b_);
     }
 
-    a_.reset(tile.width, tile.height, plan.subpixel);
+    a_.reset(tile.width, tile.height, geometry::cpu_grid);
     const TileBoundary a = boundary_of(*planned.a, planned.pose_a);
     if (query.kind == IntersectionKind::volume_volume) {
-        fill(a, tile, slack, plan.subpixel, a_);
+        fill(a, tile, slack, a_);
         a_.keep_common(b_);
         return;
     }
@@ -82,22 +82,21 @@ void ExactOverlap::find_common(const plan::Plan& plan, const PlannedQuery& plann
         runs_.resize(std::max(runs_.size(), 64 * a_.words().size()));
     }
     // If the polygons of several edges of A cover a sample, the first counts, as it is drawn first.
-    for_offset_polygons(a, tile, offset, plan.subpixel, a_,
-                        [&](const plan::EdgeRun& run, std::size_t i, std::uint64_t bits) {
-                            const std::uint64_t found = bits & b_.words()[i] & ~a_.words()[i];
-                            a_.words()[i] |= found;
-                            if (with_runs) {
-                                grid::for_bits(
-                                    found, [&](std::uint32_t bit) { runs_[64 * i + bit] = run; });
-                            }
-                        });
+    for_offset_polygons(
+        a, tile, offset, a_, [&](const plan::EdgeRun& run, std::size_t i, std::uint64_t bits) {
+            const std::uint64_t found = bits & b_.words()[i] & ~a_.words()[i];
+            a_.words()[i] |= found;
+            if (with_runs) {
+                grid::for_bits(found, [&](std::uint32_t bit) { runs_[64 * i + bit] = run; });
+            }
+        });
 }
 
 void ExactOverlap::fill(const TileBoundary& boundary, const Tile& tile, double slack,
-                        geometry::SubpixelGrid grid, grid::Coverage& coverage) {
+                        grid::Coverage& coverage) {
     crossing_.clear();
     plan::crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
-    const geometry::FillMesh mesh(tile.width, tile.height, grid);
+    const geometry::FillMesh mesh(tile.width, tile.height, geometry::cpu_grid);
     for (const plan::TileEdge& edge : crossing_) {
         for (const auto& [x0, y0, x1, y1] : mesh.pieces(edge.a, edge.b)) {
             coverage.invert_left_of({x0, y0}, {x1, y1});
@@ -108,12 +107,13 @@ void ExactOverlap::fill(const TileBoundary& boundary, const Tile& tile, double s
 
 template <class Use>
 void ExactOverlap::for_offset_polygons(const TileBoundary& boundary, const Tile& tile,
-                                       double offset, geometry::SubpixelGrid grid,
-                                       const grid::Coverage& coverage, const Use& use) {
+                                       double offset, const grid::Coverage& coverage,
+                                       const Use& use) {
     const std::size_t words_per_row = coverage.words_per_row();
     boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
-        const std::optional<geometry::OffsetPolygon> polygon = geometry::offset_polygon(
-            boundary.start(i), boundary.end(i), offset, tile.width, tile.height, grid);
+        const std::optional<geometry::OffsetPolygon> polygon =
+            geometry::offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
+                                     tile.height, geometry::cpu_grid);
         if (!polygon) {
             return;
         }

@@ -14,9 +14,9 @@
 
 namespace nearfield::cpu {
 
-/// Computes intersections without the device (Technique::cpu). The tiles, snapped edges and fill
-/// rule are those of the rasteriser, so the samples and edges are identical, bit for bit. Reuses
-/// its memory between batches.
+/// Computes intersections without the device (Technique::cpu). Tiles and fill rule are those of the
+/// rasteriser, and edges are snapped to geometry::cpu_grid: on a device with the same grid the
+/// samples and edges are identical, bit for bit. Reuses its memory between batches.
 class ExactOverlap {
 public:
     /// Adds the count, box and samples of a query.
@@ -25,16 +25,15 @@ public:
 
 private:
     /// Finds the samples of a tile, in a_, and if with_runs, the edges of A they belong to.
-    void find_common(const plan::Plan& plan, const plan::PlannedQuery& planned,
-                     const plan::Tile& tile, bool with_runs, plan::SimplifiedShapes& shapes);
+    void find_common(const plan::PlannedQuery& planned, const plan::Tile& tile, bool with_runs,
+                     plan::SimplifiedShapes& shapes);
     void fill(const plan::TileBoundary& boundary, const plan::Tile& tile, double slack,
-              geometry::SubpixelGrid grid, grid::Coverage& coverage);
+              grid::Coverage& coverage);
     /// Calls `use(run of edges, word, bits)` for the words of `coverage` that each offset polygon
     /// of a boundary covers, in drawing order.
     template <class Use>
     void for_offset_polygons(const plan::TileBoundary& boundary, const plan::Tile& tile,
-                             double offset, geometry::SubpixelGrid grid,
-                             const grid::Coverage& coverage, const Use& use);
+                             double offset, const grid::Coverage& coverage, const Use& use);
     [[nodiscard]] plan::TileSummary summarize() const;
     /// Appends the samples of a tile row by row, and the number in each row to row_counts_.
     void append_samples(const plan::PlannedQuery& planned, const plan::Tile& tile,

@@ -34,4 +34,7 @@ struct SubpixelGrid {
     [[nodiscard]] double largest_move() const;
 };
 
+/// The grid of Technique::cpu, on every machine: that of most devices.
+inline constexpr SubpixelGrid cpu_grid{256.0};
+
 }  // namespace nearfield::geometry

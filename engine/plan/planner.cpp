@@ -112,7 +112,6 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     plan.clear();
     plan_ = &plan;
     plan.bounding_volume = limits_.bounding_volume;
-    plan.subpixel = limits_.subpixel;
     localize_milliseconds_ = rough_bytes_ = max_kept_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());

@@ -19,7 +19,7 @@ namespace nearfield::plan {
 
 /// Limits set by the device and the caller.
 struct PlanLimits {
-    geometry::SubpixelGrid subpixel;
+    geometry::SubpixelGrid subpixel;    ///< of the device
     std::uint32_t largest_tile = 1024;  ///< cells along a side
     /// Side, in cells, of tiles for boundary points. Points are sparse in their region: small tiles
     /// omit the empty parts, and each draws and tests only the edges near it.

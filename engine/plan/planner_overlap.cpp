@@ -19,7 +19,9 @@ constexpr double bytes_per_tile = sizeof(Tile) + sizeof(TileSummary) + 64.0;
 
 void Planner::add(const IntersectionQuery& query, IntersectionResult& result) {
     PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = intersection_budget(query, limits_.subpixel, planned.deviations);
+    // The CPU's answers must not depend on the device.
+    const geometry::SubpixelGrid grid = planned.on_cpu ? geometry::cpu_grid : limits_.subpixel;
+    planned.budget = intersection_budget(query, grid, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     result.kind = query.kind;

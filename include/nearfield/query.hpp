@@ -37,10 +37,12 @@ inline constexpr double max_deviation = 0.25;
 
 /// The technique that answers a query. ResultSummary::technique states which one did.
 ///
-/// All techniques give the same records: the same points, depths and distances that differ by less
-/// than d/1000, and the same sides except for points that touch the other boundary. Intersections
-/// have the same samples and edges, bit for bit. Fields have the same grid, and values within both
-/// error bounds; raster and compute give the same signs, bit for bit.
+/// All techniques give the same records: the same points, and depths and distances that differ by
+/// less than d/1000. A point penetrates a shape if it is inside and deeper than d/1024; otherwise
+/// it touches. Intersections have the same samples and edges, bit for bit, on a device with 8
+/// sub-pixel bits, whose grid cpu has everywhere; on others, only raster and compute do. Fields
+/// have the same grid, and values within both error bounds; raster and compute give the same signs,
+/// bit for bit.
 enum class Technique {
     /// Selects, per query, the technique that makes the batch take the least time by the costs on
     /// this machine (Settings::costs).
@@ -52,11 +54,11 @@ enum class Technique {
     /// drawn (invalid_query). IntersectionStrategy and SignEncoding, which are ways of drawing with
     /// identical results, are ignored here and need nothing of the device.
     compute,
-    /// Runs entirely on the CPU. Points are resolved to single edges in double precision,
-    /// intersections by bit masks of the raster's samples, distance fields by the near edges of
-    /// each block of cells. Answers every query except GradientMethod::blended and resident results
-    /// (invalid_query); it alone answers intersection tests, times of impact, separation vectors
-    /// and containment.
+    /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are
+    /// resolved to single edges in double precision, intersections by bit masks of a raster's
+    /// samples, distance fields by the near edges of each block of cells. Answers every query
+    /// except GradientMethod::blended and resident results (invalid_query); it alone answers
+    /// intersection tests, times of impact, separation vectors and containment.
     ///
     /// ResultSummary::regions are not sampled grids for points. They are the common box of both
     /// shapes (none for penetration without records); for contacts the box around the parts of

@@ -71,6 +71,21 @@ TEST_F(PlannerTest, EveryPointLiesInACellOfItsTileThatIsNeeded) {
     }
 }
 
+TEST_F(PlannerTest, TheGridOfTheDeviceDecidesNothingThatTheCpuAnswers) {
+    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.01};
+    const auto cell_of = [&](Technique technique, double steps) {
+        query.technique = technique;
+        limits_.subpixel = {steps};
+        run({query});
+        const auto& result = std::get<IntersectionResult>(results_.front());
+        EXPECT_TRUE(result.status.ok()) << result.status.text();
+        return result.cell;
+    };
+    EXPECT_EQ(cell_of(Technique::cpu, 16.0), cell_of(Technique::cpu, 4096.0));
+    EXPECT_EQ(cell_of(Technique::cpu, 16.0), cell_of(Technique::raster, 256.0));
+    EXPECT_LT(cell_of(Technique::raster, 16.0), cell_of(Technique::raster, 256.0));
+}
+
 TEST_F(PlannerTest, AFieldsTilesCoverItsGridOnce) {
     limits_.largest_tile = 64;
     DistanceFieldQuery field;
