@@ -51,12 +51,14 @@ const uint points_per_block = 32u;  // as in engine/plan/resident_outputs.hpp
 const uint words_of_details = 4u;   // as in details.glsl
 const uint words_of_point = 4u;
 const float touching = 1.0 / 32768.0;  // as in details.glsl, cells
+const float touching_depth = 0.70710678 / 1024.0;  // as in engine/plan/error_budget.hpp, cells
 const float infinity = 1.0 / 0.0;
 const uint resolved_flag = 1u << 29;  // as in nearest.glsl
 
 struct Resolved {
     bool is_record;
     bool inside;
+    bool penetrates;
     bool touches;
     float distance;  // cells
     vec2 offset;     // from the point to the nearest, cells
@@ -71,8 +73,9 @@ Resolved resolved_at(uint index) {
     resolved.distance = length(resolved.offset);
     resolved.touches = resolved.distance <= touching;
     resolved.inside = (word & nearfield_inside_flag) != 0u && !resolved.touches;
+    resolved.penetrates = resolved.inside && resolved.distance > touching_depth;
     resolved.is_record = (word & resolved_flag) != 0u &&
-                         (push.nearby < 0.0 ? resolved.inside
+                         (push.nearby < 0.0 ? resolved.penetrates
                                             : resolved.distance * push.cell <= push.nearby);
     resolved.point = push.points + words_of_point * index;
     return resolved;
@@ -87,7 +90,7 @@ void count_records(uint block, uint begin, uint end) {
     for (uint i = begin; i < end; ++i) {
         Resolved resolved = resolved_at(i);
         if (resolved.is_record) {
-            float depth = (resolved.inside ? resolved.distance : -resolved.distance) * push.cell;
+            float depth = (resolved.penetrates ? resolved.distance : -resolved.distance) * push.cell;
             if (depth > found.depth) {
                 found.depth = depth;
                 found.deepest = found.count;
@@ -158,7 +161,7 @@ void write_records(uint place, uint begin, uint end) {
             vec2 point = position_of(resolved);
             uint feature = feature_of(word, uintBitsToFloat(words[detail + 2u])) |
                            (word & nearfield_unique_flag) |
-                           (resolved.inside ? nearfield_inside_flag : 0u);
+                           (resolved.penetrates ? nearfield_inside_flag : 0u);
             records[place++] = NearfieldRecord(
                 point, point + push.cell * resolved.offset,
                 normal_of(resolved, unpackSnorm2x16(words[detail + 3u])),

@@ -37,7 +37,7 @@ void PointPenetration::answer(const plan::PlannedQuery& query,
         } else if (a.box.intersects(b.box)) {
             find_vertices_inside(a.starts(), b);
         }
-        const double touching = a.rounding + b.rounding;
+        const double touching = result.tolerance * plan::touching_depth;
         const double margin = result.tolerance * plan::uniqueness_margin;
         if (asked.records) {
             nearest_.find(inside_.arrays(), b, margin);

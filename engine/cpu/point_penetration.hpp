@@ -52,7 +52,7 @@ private:
         bool unique;
     };
 
-    // Points nearer to B's boundary than `touching` are on it.
+    // Points of at most the depth `touching` touch B (plan::touching_depth).
 
     /// Writes the summary if only the deepest point is requested.
     void write_deepest(double touching, double margin, const simd::TransformedEdges& b,

@@ -1,14 +1,17 @@
+#include <engine/plan/error_budget.hpp>
 #include <engine/records/found_contacts.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace nearfield::records {
 
 using geometry::Vector;
 
 void FoundContacts::begin(double cell, double rounding) {
-    touching_ = std::max(std::ldexp(cell, -15), 1024.0 * rounding);
+    touching_depth_ = cell / std::numbers::sqrt2 * plan::touching_depth;
+    undirected_ = std::max(std::ldexp(cell, -15), 1024.0 * rounding);
     of_a_.clear();
     of_b_.clear();
 }
@@ -51,14 +54,14 @@ void FoundContacts::write(const geometry::Polygon& a, const geometry::Polygon& b
 }
 
 ContactRecord FoundContacts::make_record(const ResolvedPoint& resolved, Side on,
-                                         const Vector& normal) {
+                                         const Vector& normal) const {
     return {geometry::to_public(resolved.point),
             geometry::to_public(normal),
             resolved.distance,
             geometry::to_public(resolved.nearest),
             resolved.feature,
             on,
-            resolved.inside,
+            resolved.inside && resolved.distance > touching_depth_,
             resolved.unique};
 }
 

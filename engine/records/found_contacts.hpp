@@ -27,7 +27,7 @@ public:
     template <class BoundaryOfB>
     void add_of_a(const plan::BoundaryPoint& place, const ResolvedPoint& resolved,
                   const BoundaryOfB& boundary_of_b) {
-        const geometry::Vector normal = resolved.distance > touching_
+        const geometry::Vector normal = resolved.distance > undirected_
                                             ? growth_of_distance(resolved)
                                             : normal_at_nearest(boundary_of_b(), resolved);
         of_a_.push_back({make_record(resolved, Side::a, normal), place, place});
@@ -51,15 +51,16 @@ public:
                ContactResult& result);
 
 private:
-    [[nodiscard]] static ContactRecord make_record(const ResolvedPoint& resolved, Side on,
-                                                   const geometry::Vector& normal);
+    [[nodiscard]] ContactRecord make_record(const ResolvedPoint& resolved, Side on,
+                                            const geometry::Vector& normal) const;
     /// The gradient of the signed distance.
     [[nodiscard]] static geometry::Vector growth_of_distance(const ResolvedPoint& resolved);
     [[nodiscard]] static geometry::Vector normal_at_nearest(narrowphase::Boundary& boundary,
                                                             const ResolvedPoint& resolved);
 
     // At distances below this, rounding would determine the direction to the nearest point.
-    double touching_ = 0.0;
+    double undirected_ = 0.0;
+    double touching_depth_ = 0.0;  // of points that do not count as inside
     std::vector<TransformedContact> of_a_;
     std::vector<TransformedContact> of_b_;
     ManifoldBuilder manifold_;

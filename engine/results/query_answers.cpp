@@ -1,4 +1,5 @@
 #include <engine/localize/overlap.hpp>
+#include <engine/plan/error_budget.hpp>
 #include <engine/records/intersection_samples.hpp>
 #include <engine/results/query_answers.hpp>
 
@@ -44,6 +45,7 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         return;
     }
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
+    const double touching = result.tolerance * plan::touching_depth;
     resolver_.begin(asked.plan, planned);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
@@ -52,8 +54,8 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         }
         const records::ResolvedPoint resolved =
             resolver_.resolve(asked.plan.points[i], asked.words[i]);
-        if (!resolved.inside) {
-            continue;  // it touches the boundary
+        if (!resolved.inside || resolved.distance <= touching) {
+            continue;
         }
         const PenetrationRecord record = penetration_record(resolved);
         if (result.count == 0 || record.depth > result.deepest.depth) {

@@ -126,7 +126,8 @@ namespace resident_feature {
 inline constexpr std::uint32_t index_mask = 0x0fffffff;  ///< index of the edge or vertex
 inline constexpr std::uint32_t vertex = 1U << 28U;       ///< set: a vertex; clear: an edge
 inline constexpr std::uint32_t unique = 1U << 30U;       ///< as PenetrationRecord::unique
-inline constexpr std::uint32_t inside = 1U << 31U;       ///< the place lies inside the shape
+/// The place lies inside the shape; that of a record, deeper than d/1024.
+inline constexpr std::uint32_t inside = 1U << 31U;
 }  // namespace resident_feature
 
 /// The bits of RecordData::flags.

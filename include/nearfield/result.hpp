@@ -61,7 +61,7 @@ struct Feature {
 /// One penetrating point of A.
 struct PenetrationRecord {
     Vector2 point;       ///< on A's boundary, inside B
-    double depth = 0.0;  ///< distance from `point` to `nearest`, > 0
+    double depth = 0.0;  ///< distance from `point` to `nearest`, > d/1024
     Vector2 direction;   ///< unit vector from `point` to `nearest`: points out of B
     Vector2 nearest;     ///< the point of B's boundary nearest to `point`
     Feature feature;     ///< of B: where `nearest` lies
@@ -183,7 +183,7 @@ struct ContactRecord {
     Vector2 nearest;        ///< the nearest point of the other shape's boundary
     Feature feature;        ///< of the other shape: where `nearest` lies
     Side on = Side::a;      ///< the shape whose boundary `point` is on
-    bool inside = false;    ///< `point` lies inside the other shape
+    bool inside = false;    ///< `point` lies inside the other shape, deeper than d/1024
     /// As PenetrationRecord::unique. Also false if ContactNormals::gradient found almost no
     /// gradient and the analytic normal was used instead.
     bool unique = true;
