@@ -42,6 +42,15 @@ if(NEARFIELD_SANITIZE)
     target_link_options(nearfield_options INTERFACE -fsanitize=${NEARFIELD_SANITIZE})
 endif()
 
+# For code that decides answers: the same bits on every machine and by every compiler.
+add_library(nearfield_same_bits INTERFACE)
+target_compile_options(nearfield_same_bits INTERFACE -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # Where GCC 12 makes a vector of two numbers, it drops the rounding of a conversion to float and
+    # back (tests/unit/base/rounding.cpp).
+    target_compile_options(nearfield_same_bits INTERFACE -fno-tree-slp-vectorize)
+endif()
+
 # nearfield_module(NAME [LINK MODULE|LIBRARY...]) makes the object library nearfield_NAME from all
 # sources in engine/NAME, or in the top-level folder NAME. It links the modules directly below it. A
 # file may include files of those and of all modules below them; the tests of a module link nothing
@@ -55,7 +64,7 @@ function(nearfield_module name)
     endif()
     file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*.hpp)
     add_library(nearfield_${name} OBJECT ${sources})
-    target_link_libraries(nearfield_${name} PUBLIC nearfield_options)
+    target_link_libraries(nearfield_${name} PUBLIC nearfield_options PRIVATE nearfield_same_bits)
     set(below "")
     foreach(library IN LISTS module_LINK)
         if(TARGET nearfield_${library})

@@ -9,6 +9,8 @@
 namespace nearfield {
 namespace {
 
+using geometry::arc_sine;
+using geometry::direction;
 using geometry::to_public;
 using geometry::to_vector;
 using geometry::Vector;
@@ -120,7 +122,7 @@ CurvePath& CurvePath::arc_to(const EllipticArc& arc, Vector2 to) {
     if (half_chord == Vector::Zero()) {
         return *this;
     }
-    const Vector axis_x(std::cos(arc.rotation), std::sin(arc.rotation));
+    const Vector axis_x = direction(arc.rotation);
     const Vector axis_y = turned_left(axis_x);
     // In coordinates where the ellipse is a unit circle, half the chord is the sine of half the
     // sweep.
@@ -135,7 +137,7 @@ CurvePath& CurvePath::arc_to(const EllipticArc& arc, Vector2 to) {
         radius_x *= sine;
         radius_y *= sine;
     }
-    const double narrow = std::asin(std::min(sine, 1.0));
+    const double narrow = arc_sine(std::min(sine, 1.0));
     const auto from_unit = [&](const Vector& v) -> Vector {
         return v.x() * radius_x * axis_x + v.y() * radius_y * axis_y;
     };
@@ -158,7 +160,8 @@ CurvePath& CurvePath::arc_about(Vector2 centre, double sweep) {
     }
     const Vector radius = to_vector(current()) - to_vector(centre);
     const auto turned = [&](double angle) -> Vector {
-        return std::cos(angle) * radius + std::sin(angle) * turned_left(radius);
+        const Vector along = direction(angle);
+        return along.x() * radius + along.y() * turned_left(radius);
     };
     const Vector apex = turned(0.5 * sweep);
     const Vector along = sweep > 0.0 ? turned_left(apex) : -turned_left(apex);
@@ -185,7 +188,7 @@ CurvePath& CurvePath::ellipse(Vector2 centre, double radius_x, double radius_y, 
         refuse("ellipse", "a radius or the rotation is not a finite number");
         return *this;
     }
-    const Vector axis(std::cos(rotation), std::sin(rotation));
+    const Vector axis = direction(rotation);
     contours_.push_back(whole_turn(to_vector(centre), std::abs(radius_x) * axis,
                                    std::abs(radius_y) * turned_left(axis)));
     open_ = false;

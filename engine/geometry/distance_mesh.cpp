@@ -53,7 +53,7 @@ Vector left_normal(const Vector& tangent) {
 double largest_half_angle(double reach, const DistanceMeshOptions& options) {
     const double move = options.grid.largest_move();
     const double range = std::max(options.error, 10.0 * move) - 2.0 * move;
-    return std::acos(reach / (reach + range));
+    return 0.5 * std::numbers::pi - arc_sine(reach / (reach + range));
 }
 
 // True if the whole box `within` lies beyond the line through `point` with the unit normal
@@ -77,8 +77,7 @@ void append_fan(const Vector& v, const Vector& from, const Vector& to, double tu
     const double angle = 2.0 * largest_half_angle(reach, options);
     const int count = static_cast<int>(std::ceil(std::abs(turn) / angle));
     const double half_angle = turn / (2.0 * count);
-    const double cosine = std::cos(half_angle);
-    const double sine = std::sin(half_angle);
+    const auto [sine, cosine] = sine_cosine(half_angle);
     const double slope = 0.5 * (1.0 + 1.0 / cosine);
     const double rim = reach / cosine;
 
@@ -140,9 +139,9 @@ void append_cone_sector(const Vector& before, const Vector& v, const Vector& aft
     }
     // Where the boundary turns left, the tents on its right separate, and vice versa. The normals
     // on that side turn with the boundary, or through the tip where it turns back on itself.
-    const double turn = std::atan2(cross(in, out), in.dot(out));
+    const double turn = arc_tangent(cross(in, out), in.dot(out));
     const double width_the_tents_cover = overlap(options.grid) - options.grid.largest_move();
-    if (grown * std::abs(std::sin(0.5 * turn)) < width_the_tents_cover) {
+    if (grown * std::abs(sine_cosine(0.5 * turn).sine) < width_the_tents_cover) {
         return;
     }
     const double side = turn >= 0.0 ? -1.0 : 1.0;

@@ -22,6 +22,7 @@
 namespace nearfield {
 namespace {
 
+using geometry::arc_sine;
 using geometry::cross;
 using geometry::to_public;
 using geometry::to_vector;
@@ -42,7 +43,7 @@ std::string number(double value) {
 
 /// Half of one minus the cosine of an angle, without cancellation.
 double half_versine(double angle) {
-    const double sine = std::sin(0.5 * angle);
+    const double sine = sine_cosine(0.5 * angle).sine;
     return sine * sine;
 }
 
@@ -99,9 +100,9 @@ struct ArcPiece {
 
     /// The point at an angle from the middle.
     [[nodiscard]] Vector point(double angle) const {
-        const double rise =
-            2.0 * std::sin(0.5 * (half_sweep + angle)) * std::sin(0.5 * (half_sweep - angle));
-        return 0.5 * (start + to) + rise * apex + std::sin(angle) * along;
+        const double rise = 2.0 * sine_cosine(0.5 * (half_sweep + angle)).sine *
+                            sine_cosine(0.5 * (half_sweep - angle)).sine;
+        return 0.5 * (start + to) + rise * apex + sine_cosine(angle).sine * along;
     }
 
     [[nodiscard]] double deviation() const {
@@ -114,7 +115,8 @@ struct ArcPiece {
         const double rise = 2.0 * half_versine(half_sweep);
         const double by_parameter = rise * apex.norm();
         const double squared = along.squaredNorm();
-        const bool within_strip = std::tan(half_sweep) * std::abs(apex.dot(along)) <= squared;
+        const auto [sine, cosine] = sine_cosine(half_sweep);
+        const bool within_strip = sine / cosine * std::abs(apex.dot(along)) <= squared;
         if (!(squared > 0.0 && within_strip)) {
             return by_parameter;
         }
@@ -123,8 +125,7 @@ struct ArcPiece {
 
     [[nodiscard]] std::array<ArcPiece, 2> halves() const {
         const double quarter = 0.5 * half_sweep;
-        const double cosine = std::cos(quarter);
-        const double sine = std::sin(quarter);
+        const auto [sine, cosine] = sine_cosine(quarter);
         const Vector middle = point(0.0);
         return {
             {{start, middle, cosine * apex - sine * along, cosine * along + sine * apex, quarter},
@@ -258,7 +259,7 @@ private:
         }
         // Parts of a circle are all alike, so equal parts are the fewest.
         const double share = std::min(1.0, target_ / (2.0 * radius));
-        const double widest = std::min(4.0 * std::asin(std::sqrt(share)), 2.0 * pi / 3.0);
+        const double widest = std::min(4.0 * arc_sine(std::sqrt(share)), 2.0 * pi / 3.0);
         const double least = min_depth_ > 0 ? 4.0 : 1.0;
         const double parts = std::max(least, std::ceil(2.0 * arc.half_sweep / widest - 1e-9));
         if (parts > static_cast<double>(room_)) {

@@ -1,7 +1,7 @@
 #include <engine/geometry/transformed_polygon.hpp>
+#include <nearfield/portable_math.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -9,8 +9,7 @@ namespace nearfield::geometry {
 
 TransformedPolygon::TransformedPolygon(const Polygon& polygon, const Pose& pose)
     : polygon_(&polygon) {
-    const double cosine = std::cos(pose.angle);
-    const double sine = std::sin(pose.angle);
+    const auto [sine, cosine] = sine_cosine(pose.angle);
     rotation_ << cosine, -sine, sine, cosine;
     translation_ = rotation_ * polygon.centre() + to_vector(pose.translation);
 }

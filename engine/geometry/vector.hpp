@@ -1,9 +1,16 @@
 #pragma once
 
+#include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
+// Eigen fuses multiplications with additions where a processor can, which changes roundings.
+#if !defined(__SSE2__) || defined(__FMA__)
+#define EIGEN_DONT_VECTORIZE
+#endif
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include <cmath>
 
 namespace nearfield::geometry {
 
@@ -20,6 +27,17 @@ inline Box grown(Box box, double by) {
     box.min().array() -= by;
     box.max().array() += by;
     return box;
+}
+
+/// The angle from -pi/2 to pi/2 with this sine.
+inline double arc_sine(double sine) {
+    return arc_tangent(sine, std::sqrt((1.0 - sine) * (1.0 + sine)));
+}
+
+/// The unit vector at an angle from the x axis.
+inline Vector direction(double angle) {
+    const auto [sine, cosine] = sine_cosine(angle);
+    return {cosine, sine};
 }
 
 inline Vector to_vector(const Vector2& v) {

@@ -1,10 +1,12 @@
 #include <engine/geometry/vertex_kernels.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 // Highway compiles the rest once per instruction set by including this file again.
 #undef HWY_TARGET_INCLUDE
@@ -108,15 +110,19 @@ struct GrowingRange {
     Extent box{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     double sum = 0.0;  // NaN if any coordinate is not finite
-    double length = 0.0;
+    // In parts, coordinate by coordinate, so that the number of lanes does not determine the
+    // rounding of their sum.
+    std::array<double, max_lanes> length{};
 
-    HWY_INLINE void add(const double* vertex, const double* next) {
+    /// `i`: the vertex.
+    HWY_INLINE void add(std::size_t i, const double* vertex, const double* next) {
         box.low_x = std::min(box.low_x, vertex[0]);
         box.low_y = std::min(box.low_y, vertex[1]);
         box.high_x = std::max(box.high_x, vertex[0]);
         box.high_y = std::max(box.high_y, vertex[1]);
         sum += vertex[0] * 0.0 + vertex[1] * 0.0;
-        length += std::abs(next[0] - vertex[0]) + std::abs(next[1] - vertex[1]);
+        length[2 * i % max_lanes] += std::abs(next[0] - vertex[0]);
+        length[(2 * i + 1) % max_lanes] += std::abs(next[1] - vertex[1]);
     }
 };
 
@@ -125,20 +131,24 @@ VertexRange FindRange(const double* interleaved, std::size_t count) {
     const std::size_t lanes = hn::Lanes(tag);
     GrowingRange range;
     std::size_t i = 0;
-    if (const std::size_t step = lanes / 2; step > 0 && count > step) {
+    constexpr std::size_t step = max_lanes / 2;
+    if (lanes > 1 && count > step) {
         // x and y alternate, as in memory. Zero times an infinite coordinate is NaN.
         const Lanes zero = hn::Zero(tag);
         Lanes low = hn::Set(tag, std::numeric_limits<double>::infinity());
         Lanes high = hn::Neg(low);
         Lanes sum = zero;
-        Lanes length = zero;
         for (; i + step < count; i += step) {
-            const Lanes vertices = hn::LoadU(tag, interleaved + 2 * i);
-            const Lanes next = hn::LoadU(tag, interleaved + 2 * i + 2);
-            low = hn::Min(low, vertices);
-            high = hn::Max(high, vertices);
-            sum = hn::Add(sum, hn::Mul(vertices, zero));
-            length = hn::Add(length, hn::Abs(hn::Sub(next, vertices)));
+            for (std::size_t lane = 0; lane < max_lanes; lane += lanes) {
+                const double* const first = interleaved + 2 * i + lane;
+                const Lanes vertices = hn::LoadU(tag, first);
+                const Lanes along = hn::Abs(hn::Sub(hn::LoadU(tag, first + 2), vertices));
+                low = hn::Min(low, vertices);
+                high = hn::Max(high, vertices);
+                sum = hn::Add(sum, hn::Mul(vertices, zero));
+                double* const length = range.length.data() + lane;
+                hn::StoreU(hn::Add(hn::LoadU(tag, length), along), tag, length);
+            }
         }
         double lows[max_lanes];
         double highs[max_lanes];
@@ -151,12 +161,12 @@ VertexRange FindRange(const double* interleaved, std::size_t count) {
                          std::max(range.box.high_y, highs[lane + 1])};
         }
         range.sum = hn::GetLane(hn::SumOfLanes(tag, sum));
-        range.length = hn::GetLane(hn::SumOfLanes(tag, length));
     }
     for (; i < count; ++i) {
-        range.add(interleaved + 2 * i, interleaved + 2 * (i + 1 < count ? i + 1 : 0));
+        range.add(i, interleaved + 2 * i, interleaved + 2 * (i + 1 < count ? i + 1 : 0));
     }
-    return {range.box, range.sum == 0.0, range.length};
+    return {range.box, range.sum == 0.0,
+            std::accumulate(range.length.begin(), range.length.end(), 0.0)};
 }
 
 void Subtract(const double* interleaved, std::size_t count, double x, double y, double* relative) {

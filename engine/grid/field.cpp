@@ -157,7 +157,7 @@ Disc FieldSolver::disc(const Square& square, const Vector& origin) const {
     const Extent size = extent(square);
     return {static_cast<float>(static_cast<double>(square.column) + 0.5 * size.width - origin.x()),
             static_cast<float>(static_cast<double>(square.row) + 0.5 * size.height - origin.y()),
-            static_cast<float>(0.5 * std::hypot(size.width - 1.0, size.height - 1.0))};
+            static_cast<float>(0.5 * Vector(size.width - 1.0, size.height - 1.0).norm())};
 }
 
 namespace {
@@ -201,7 +201,7 @@ void FieldSolver::make_near_list(const Square& square, const EdgeList& far, doub
     }
     // An edge that can be nearest to a cell, or as near as the nearest, is no farther from it than
     // this; far ends are cut off in double precision. The remaining coordinates are small.
-    const double reach = nearest * (1.0 + 0x1p-16) + std::hypot(size.width, size.height) / 2.0 +
+    const double reach = nearest * (1.0 + 0x1p-16) + Vector(size.width, size.height).norm() / 2.0 +
                          output_.margin + 1.0;
     const double across = 0.5 * size.width + reach;
     const double up = 0.5 * size.height + reach;

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-// Compiled once per instruction set.
+// Compiled once per instruction set. Without MulAdd, which rounds once on some of them and twice on
+// others: the answers have the same bits on all.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/grid/near_edges.cpp"
 #include <hwy/foreach_target.h>
@@ -29,15 +30,17 @@ struct Away {
     Vector x;
     Vector y;
 
-    [[nodiscard]] HWY_INLINE Vector squared() const { return hn::MulAdd(x, x, hn::Mul(y, y)); }
+    [[nodiscard]] HWY_INLINE Vector squared() const {
+        return hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+    }
 };
 
 HWY_INLINE Away away_from(Vector to_x, Vector to_y, Vector along_x, Vector along_y,
                           Vector inverse_x, Vector inverse_y) {
     const Floats d;
-    Vector parameter = hn::MulAdd(to_x, inverse_x, hn::Mul(to_y, inverse_y));
+    Vector parameter = hn::Add(hn::Mul(to_x, inverse_x), hn::Mul(to_y, inverse_y));
     parameter = hn::Min(hn::Max(parameter, hn::Zero(d)), hn::Set(d, 1.0F));
-    return {hn::NegMulAdd(parameter, along_x, to_x), hn::NegMulAdd(parameter, along_y, to_y)};
+    return {hn::Sub(to_x, hn::Mul(parameter, along_x)), hn::Sub(to_y, hn::Mul(parameter, along_y))};
 }
 
 /// From one edge to several points.
@@ -172,8 +175,9 @@ void find_runs(const EdgeList& edges, geometry::FloatArrays<3>& runs) {
             const auto start_y = hn::Sub(number(EdgeList::start_y), hn::Set(d, y));
             const auto end_x = hn::Add(start_x, number(EdgeList::along_x));
             const auto end_y = hn::Add(start_y, number(EdgeList::along_y));
-            const auto farther = hn::Max(hn::MulAdd(start_x, start_x, hn::Mul(start_y, start_y)),
-                                         hn::MulAdd(end_x, end_x, hn::Mul(end_y, end_y)));
+            const auto farther =
+                hn::Max(hn::Add(hn::Mul(start_x, start_x), hn::Mul(start_y, start_y)),
+                        hn::Add(hn::Mul(end_x, end_x), hn::Mul(end_y, end_y)));
             farthest = hn::Max(farthest, hn::IfThenElseZero(hn::FirstN(d, end - i), farther));
         }
         runs.push({x, y, std::sqrt(hn::GetLane(hn::MaxOfLanes(d, farthest)))}, 0);
@@ -188,7 +192,7 @@ void select_runs(const EdgeList& edges, const geometry::FloatArrays<3>& runs, Ve
     const auto squared_to = [&](std::size_t run) {
         const Vector off_x = hn::Sub(x, hn::Set(d, runs.number(0)[run]));
         const Vector off_y = hn::Sub(y, hn::Set(d, runs.number(1)[run]));
-        return hn::MulAdd(off_x, off_x, hn::Mul(off_y, off_y));
+        return hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y));
     };
     Vector least = squared_to(0);
     for (std::size_t run = 1; run < runs.size(); ++run) {
@@ -197,7 +201,7 @@ void select_runs(const EdgeList& edges, const geometry::FloatArrays<3>& runs, Ve
     // The vertex is no nearer than the nearest edge. Slightly increased for rounding.
     const Vector distance = hn::Sqrt(least);
     const Vector reach =
-        hn::Add(hn::MulAdd(distance, hn::Set(d, 0x1p-16F), distance), hn::Set(d, margin + 0.01F));
+        hn::Add(hn::Mul(distance, hn::Set(d, 1.0F + 0x1p-16F)), hn::Set(d, margin + 0.01F));
     near.clear();
     for (std::size_t run = 0; run < runs.size(); ++run) {
         const Vector limit = hn::Add(reach, hn::Set(d, runs.number(2)[run]));

@@ -39,8 +39,13 @@ Vector principal_axis(const std::array<std::span<const Vector>, 2>& runs) {
     xx -= sum.x() * sum.x() / count;
     xy -= sum.x() * sum.y() / count;
     yy -= sum.y() * sum.y() / count;
-    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
-    return {std::cos(angle), std::sin(angle)};
+    // Its angle is half of that of (xx - yy, 2 xy).
+    const double length = std::sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy);
+    if (!(length > 0.0)) {
+        return Vector::UnitX();
+    }
+    const double cosine = std::clamp((xx - yy) / length, -1.0, 1.0);
+    return {std::sqrt(0.5 * (1.0 + cosine)), std::copysign(std::sqrt(0.5 * (1.0 - cosine)), xy)};
 }
 
 /// The extent of a box from its centre along a unit direction.

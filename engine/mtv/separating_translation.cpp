@@ -183,8 +183,7 @@ void SeparatingTranslationFinder::slide_into_corner(simd::EdgePair wall) {
 
 void SeparatingTranslationFinder::look_around() {
     for (int i = 0; i < even_directions && !work_for_directions().is_used_up(); ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / even_directions;
-        descend({std::cos(angle), std::sin(angle)});
+        descend(geometry::direction(2.0 * std::numbers::pi * i / even_directions));
     }
 }
 

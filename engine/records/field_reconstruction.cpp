@@ -18,7 +18,7 @@ double reconstruction_error(const std::array<double, 4>& values, double distance
         const std::size_t above = i / 2;
         const double x = point.across - static_cast<double>(right);
         const double y = point.up - static_cast<double>(above);
-        const double reach = cell * std::hypot(x, y) + cell_error;
+        const double reach = cell * std::sqrt(x * x + y * y) + cell_error;
         low = std::max(low, values[i] - reach);
         high = std::min(high, values[i] + reach);
     }

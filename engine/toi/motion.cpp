@@ -1,3 +1,4 @@
+#include <engine/geometry/transformed_polygon.hpp>
 #include <engine/toi/motion.hpp>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ Motion::Motion(const Polygon& polygon, const Pose& start, const Pose& end)
 
 MotionState::MotionState(const Motion& motion, const Pose& pose)
     : origin(to_vector(pose.translation)),
-      centre(origin + Eigen::Rotation2Dd(pose.angle) * motion.polygon().centre()),
+      centre(geometry::TransformedPolygon(motion.polygon(), pose).translation()),
       velocity(motion.velocity()),
       spin(motion.spin()) {}
 

@@ -10,6 +10,7 @@
 #include <nearfield/host.hpp>
 #include <nearfield/jobs.hpp>
 #include <nearfield/localization.hpp>
+#include <nearfield/portable_math.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/requirements.hpp>
 #include <nearfield/resident.hpp>

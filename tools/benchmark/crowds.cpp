@@ -1,3 +1,5 @@
+#include <nearfield/portable_math.hpp>
+
 #include <tools/benchmark/crowds.hpp>
 #include <tools/benchmark/objects.hpp>
 #include <tools/benchmark/outlines.hpp>
@@ -43,8 +45,8 @@ tools::Scene small_pairs_scene(std::size_t pairs) {
         const Vector2 place = in_rows(pair, 100, {5.0, 5.0});
         add_star(scene, random, place);
         const double angle = any_angle(random);
-        add_star(scene, random,
-                 {place.x + apart * std::cos(angle), place.y + apart * std::sin(angle)});
+        const auto [sine, cosine] = sine_cosine(angle);
+        add_star(scene, random, {place.x + apart * cosine, place.y + apart * sine});
     }
     return scene;
 }

@@ -1,3 +1,5 @@
+#include <nearfield/portable_math.hpp>
+
 #include <tools/benchmark/outlines.hpp>
 
 #include <algorithm>
@@ -11,7 +13,8 @@ namespace {
 constexpr double full_turn = 2.0 * std::numbers::pi;
 
 Vector2 polar(double radius, double angle) {
-    return {radius * std::cos(angle), radius * std::sin(angle)};
+    const auto [sine, cosine] = sine_cosine(angle);
+    return {radius * cosine, radius * sine};
 }
 
 double share(std::size_t part, std::size_t whole) {
@@ -95,7 +98,9 @@ Ring car(std::size_t n) {
     Ring ring;
     for (std::size_t i = 0; i < n; ++i) {
         const Vector2 p = polar(1.0, full_turn * (share(i, n) + 0.5 / static_cast<double>(n)));
-        const double radius = std::pow(std::pow(p.x, 4.0) + std::pow(2.0 * p.y, 4.0), -0.25);
+        const double x = p.x * p.x;
+        const double y = 4.0 * p.y * p.y;
+        const double radius = 1.0 / std::sqrt(std::sqrt(x * x + y * y));
         ring.push_back({radius * p.x, radius * p.y});
     }
     return ring;
@@ -109,7 +114,8 @@ Ring wavy_bar(std::size_t n, double back, double shift) {
     const std::size_t count = n - 2;
     for (std::size_t i = count; i-- > 0;) {
         const double along = share(i, count - 1);
-        ring.push_back({length * along, shift + amplitude * std::sin(full_turn * waves * along)});
+        ring.push_back(
+            {length * along, shift + amplitude * sine_cosine(full_turn * waves * along).sine});
     }
     return ring;
 }

@@ -25,16 +25,18 @@ struct Driver {
     double mood = 0.0;   // phase of the weaving
 
     [[nodiscard]] double angle(double time) const {
-        return start + pace * time + 0.2 * std::sin(0.9 * time + 3.0 * mood);
+        return start + pace * time + 0.2 * sine_cosine(0.9 * time + 3.0 * mood).sine;
     }
     [[nodiscard]] Vector2 radii(double time) const {
         // In lane at the start.
-        const double beside = lane + 0.35 * std::min(1.0, time) * std::sin(0.7 * time + mood);
+        const double beside =
+            lane + 0.35 * std::min(1.0, time) * sine_cosine(0.7 * time + mood).sine;
         return {4.3 + beside, 3.1 + beside};
     }
     [[nodiscard]] Vector2 place(double angle, double time) const {
         const Vector2 around = radii(time);
-        return course_middle + Vector2{around.x * std::cos(angle), around.y * std::sin(angle)};
+        const auto [sine, cosine] = sine_cosine(angle);
+        return course_middle + Vector2{around.x * cosine, around.y * sine};
     }
 };
 
@@ -60,15 +62,15 @@ void drive(RigidBody& car, const Driver& driver, double time) {
     constexpr double look_ahead = 0.3;
     const Vector2 around = driver.radii(time);
     const Vector2 arm = car.center() - course_middle;
-    const double angle = std::atan2(arm.y / around.y, arm.x / around.x);
+    const double angle = arc_tangent(arm.y / around.y, arm.x / around.x);
     const Vector2 way = driver.place(angle + look_ahead, time) - car.center();
     const Vector2 ahead = polar(1.0, car.angle());
     const Vector2 side = left_of(ahead);
-    const double error = std::atan2(cross(ahead, way), dot(ahead, way));
+    const double error = arc_tangent(cross(ahead, way), dot(ahead, way));
     const double behind = std::remainder(driver.angle(time) - angle, turn);
     const double radius = length(arm);
     const double wanted = std::clamp(radius * (driver.pace + 1.2 * behind), 0.3, fastest) *
-                          std::max(0.25, std::cos(error));
+                          std::max(0.25, sine_cosine(error).cosine);
     const Vector2 velocity = car.velocity();
     const double throttle = std::clamp(response * (wanted - dot(velocity, ahead)), -engine, engine);
     car.pull(throttle * ahead - (grip * dot(velocity, side)) * side);
@@ -95,7 +97,7 @@ Scene cars_scene() {
         const Vector2 place = driver.place(driver.start, 0.0);
         const Vector2 way = driver.place(driver.start + 0.01, 0.0) - place;
         auto body = std::make_unique<RigidBody>(std::vector<Ring>{car_outline(i < 14 ? 15 : 14)},
-                                                Pose{place, std::atan2(way.y, way.x)});
+                                                Pose{place, arc_tangent(way.y, way.x)});
         bodies.push_back(body.get());
         scene.bodies.push_back(std::move(body));
         scene.looks.push_back({static_cast<double>(i) * 0.618, 0.42});

@@ -81,7 +81,7 @@ DeformableBody::Frame DeformableBody::frame() const {
         along += softness_.tension * dot(rest_edge, edge) + support * dot(rest_[i], arm);
         across += softness_.tension * cross(rest_edge, edge) + support * cross(rest_[i], arm);
     }
-    return {center, std::atan2(across, along)};
+    return {center, arc_tangent(across, along)};
 }
 
 Inventory DeformableBody::inventory() const {

@@ -67,7 +67,7 @@ Scene links_scene() {
     scene.act = [ends](double time) {
         constexpr double reach = 0.7;
         constexpr double pace = 2.2;  // radians per second
-        const double speed = reach * pace * std::sin(pace * time);
+        const double speed = reach * pace * sine_cosine(pace * time).sine;
         ends.front()->set_motion({speed, 0.0}, 0.0);
         ends.back()->set_motion({0.0, 0.6 * speed}, 0.0);
     };

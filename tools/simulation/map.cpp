@@ -16,7 +16,8 @@ Scene map_scene() {
     std::vector<RigidBody*> bodies;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         const double turn = static_cast<double>(i) / static_cast<double>(outlines.size());
-        const Pose pose{polar(3.9, 2.0 * std::numbers::pi * turn), 0.6 * std::sin(5.0 * turn)};
+        const Pose pose{polar(3.9, 2.0 * std::numbers::pi * turn),
+                        0.6 * sine_cosine(5.0 * turn).sine};
         auto body = std::make_unique<RigidBody>(std::vector<Ring>{std::move(outlines[i])}, pose);
         bodies.push_back(body.get());
         scene.bodies.push_back(std::move(body));
@@ -29,7 +30,7 @@ Scene map_scene() {
     scene.act = [bodies](double time) {
         // Stirs in both directions, the outer bodies as strongly as the inner ones.
         constexpr double strength = 1.2;
-        const double stir = strength * std::sin(0.9 * time);
+        const double stir = strength * sine_cosine(0.9 * time).sine;
         for (RigidBody* body : bodies) {
             const double distance = length(body->center());
             body->pull((stir / (1.0 + distance)) * left_of(body->center()));

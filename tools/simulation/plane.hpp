@@ -1,10 +1,11 @@
 #pragma once
 
+#include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
 #include <cmath>
 
-/// \file Arithmetic on points and directions in the plane.
+/// \file Arithmetic on points and directions in the plane, with the same bits on every machine.
 
 namespace nearfield::simulation {
 
@@ -35,18 +36,18 @@ inline Vector2& operator-=(Vector2& a, Vector2 b) {
     return a.x * b.y - a.y * b.x;
 }
 [[nodiscard]] inline double length(Vector2 a) {
-    return std::hypot(a.x, a.y);
+    return std::sqrt(dot(a, a));
 }
 /// Rotates by a quarter turn counter-clockwise.
 [[nodiscard]] inline Vector2 left_of(Vector2 a) {
     return {-a.y, a.x};
 }
 [[nodiscard]] inline Vector2 polar(double radius, double angle) {
-    return {radius * std::cos(angle), radius * std::sin(angle)};
+    const auto [sine, cosine] = sine_cosine(angle);
+    return {radius * cosine, radius * sine};
 }
 [[nodiscard]] inline Vector2 rotated(Vector2 a, double angle) {
-    const double cosine = std::cos(angle);
-    const double sine = std::sin(angle);
+    const auto [sine, cosine] = sine_cosine(angle);
     return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y};
 }
 /// Transforms a point from shape coordinates to world coordinates.

@@ -46,6 +46,15 @@ Ring bar(Rectangle box) {
     return ring;
 }
 
+/// Falls from 1 at 0 to 0 at 4, almost like the exponential of -x^2.
+double bump(double x) {
+    double value = std::max(0.0, 1.0 - x * x / 16.0);
+    for (int i = 0; i < 4; ++i) {
+        value *= value;
+    }
+    return value;
+}
+
 /// Marks the vertices beyond a vertical line, on the side given by `sign`.
 std::vector<bool> beyond(const Ring& ring, double x, double sign) {
     std::vector<bool> held;
@@ -79,12 +88,12 @@ Scene wavy_scene() {
         constexpr double every = 5.0;
         constexpr double strength = 0.75;
         const double since = (std::fmod(time, every) - 0.3) / 0.1;
-        const double now = strength * std::exp(-since * since);
+        const double now = strength * bump(since);
         for (std::size_t i = 0; i < vertices; ++i) {
             const Vector2 place = source->rest()[i] + Vector2{0.66, -0.9};
             const double away = (place.y + 2.4) / 0.25;
             if (place.x < 0.2) {
-                source->push_vertex(i, {-now * std::exp(-away * away), 0.0});
+                source->push_vertex(i, {-now * bump(away), 0.0});
             }
         }
     };

@@ -3,11 +3,14 @@
 #include <engine/geometry/transformed_polygon.hpp>
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 #include <tests/unit/support/shape_samples.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace nearfield::geometry {
 namespace {
@@ -32,6 +35,30 @@ void expect_refused(const samples::Rings& rings, const std::string& message) {
 Ring with(Ring ring, std::size_t vertex, Vector2 value) {
     ring.at(vertex) = value;
     return ring;
+}
+
+TEST(PolygonAssign, MeasuresTheSameLengthOnEveryInstructionSet) {
+    const auto lengths = [] {
+        std::vector<double> all;
+        samples::Random random(5);
+        for (std::uint32_t count = 3; count < 100; ++count) {
+            Ring ring;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const double x = random.between(-1.0, 1.0);
+                ring.push_back({x, random.between(-1.0, 1.0)});
+            }
+            all.push_back(samples::polygon({ring}).length_along_axes());
+        }
+        return all;
+    };
+    const std::vector<double> expected = lengths();
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+        hwy::SetSupportedTargetsForTest(left & ~(left - 1));
+        hwy::GetChosenTarget().DeInit();
+        EXPECT_EQ(lengths(), expected) << "target " << (left & ~(left - 1));
+        hwy::SetSupportedTargetsForTest(0);
+        hwy::GetChosenTarget().DeInit();
+    }
 }
 
 TEST(PolygonAssign, RefusesNotANumber) {
