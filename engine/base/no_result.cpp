@@ -5,6 +5,10 @@ namespace nearfield {
 Status Results::status_of(NoResult fault) noexcept {
     try {
         switch (fault) {
+            case NoResult::other_batch:
+                return {StatusCode::invalid_query,
+                        "a handle names no query of these results: it is of another batch, or of "
+                        "the same one before it was cleared"};
             case NoResult::out_of_range:
                 return {StatusCode::invalid_query,
                         "a handle names no query of these results: its position is out of range"};

@@ -13,13 +13,16 @@ BatchRing::BatchRing(std::uint32_t frames, const plan::PlanLimits& limits, const
                      const JobSystem& jobs, render::Renderer* renderer, ShapeStore& shapes)
     : shapes_(&shapes), planning_(limits, costs, jobs), normals_(planning_, renderer) {
     for (std::uint32_t i = 0; i < frames; ++i) {
-        frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, 0}));
+        frames_.push_back(std::make_unique<Frame>(Frame{BatchRunner(planning_, renderer), {}, i}));
     }
 }
 
 BatchRing::Frame* BatchRing::find(Ticket ticket) {
+    if (ticket.number == 0 || ticket.context != shapes_->context()) {
+        return nullptr;
+    }
     for (const auto& frame : frames_) {
-        if (ticket.number != 0 && frame->number == ticket.number) {
+        if (frame->number == ticket.number) {
             return frame.get();
         }
     }
@@ -29,10 +32,14 @@ BatchRing::Frame* BatchRing::find(Ticket ticket) {
 BatchRing::Frame& BatchRing::require(Ticket ticket) {
     Frame* const frame = find(ticket);
     if (frame == nullptr) {
+        const std::string name = "ticket " + std::to_string(ticket.number);
         throw StatusException(
-            {StatusCode::unknown_ticket, "no batch of this context has the ticket " +
-                                             std::to_string(ticket.number) +
-                                             ", or it was collected already"});
+            {StatusCode::unknown_ticket,
+             ticket == Ticket{} ? "the ticket names no batch"
+             : ticket.context != shapes_->context()
+                 ? name + " is of another context (number " + std::to_string(ticket.context) +
+                       "; this one is number " + std::to_string(shapes_->context()) + ")"
+                 : name + " was collected already, or never issued by this context"});
     }
     return *frame;
 }
@@ -54,17 +61,42 @@ void BatchRing::release(Frame& frame) {
     frame.number = 0;
 }
 
+plan::FindShape BatchRing::find_shape_for(Frame& frame) {
+    return [this, &frame](ShapeHandle shape) { return shapes_->hold(shape, frame.shapes); };
+}
+
+void BatchRing::reserve(Frame& frame, const Batch& batch) {
+    frame.runner.results().batch = batch.number();
+    last_ = nullptr;
+    try {
+        frame.runner.reserve(batch.queries(), find_shape_for(frame));
+    } catch (...) {
+        release(frame);
+        throw;
+    }
+    release(frame);
+}
+
+void BatchRing::trim() noexcept {
+    for (const auto& frame : frames_) {
+        if (frame->number == 0) {
+            frame->runner.trim();
+        }
+    }
+    normals_.trim();
+}
+
 template <class Start>
-Ticket BatchRing::start_batch(Results* memory, const Start& start) {
+Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& start) {
     const Stopwatch stopwatch;
     last_ = nullptr;
     Frame& frame = free_frame();
     if (memory != nullptr) {
         std::swap(*memory, frame.runner.results());
     }
+    frame.runner.results().batch = batch.number();
     try {
-        start(frame,
-              [this, &frame](ShapeHandle shape) { return shapes_->hold(shape, frame.shapes); });
+        start(frame, find_shape_for(frame));
     } catch (...) {
         release(frame);
         throw;
@@ -72,39 +104,64 @@ Ticket BatchRing::start_batch(Results* memory, const Start& start) {
     frame.number = ++last_number_;
     last_ = &frame;
     frame.runner.results().timings.total = stopwatch.milliseconds();
-    return {frame.number};
+    return {frame.number, shapes_->context()};
 }
 
-Ticket BatchRing::submit(std::span<const AnyQuery> queries, const Submission& order,
-                         Results* memory) {
-    return start_batch(memory, [&](Frame& frame, const plan::FindShape& find_shape) {
-        frame.runner.submit(queries, find_shape, order);
+Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* memory) {
+    return start_batch(batch, memory, [&](Frame& frame, const plan::FindShape& find_shape) {
+        frame.runner.submit(batch.queries(), find_shape, order);
     });
 }
 
-Ticket BatchRing::record(std::span<const AnyQuery> queries, const Recording& recording) {
+Status BatchRing::already_complete(std::uint64_t host_frame) const {
+    const std::string last = std::to_string(*complete_);
+    const std::string frames = std::to_string(frames_.size());
+    return {StatusCode::invalid_submission,
+            "Recording::frame is " + std::to_string(host_frame) + ", and frame " + last +
+                (complete_by_host_ ? " and all before it are complete: so the host said by "
+                                     "Context::frame_completed()"
+                                   : " and all before it count as complete, since a batch was "
+                                     "recorded for frame " +
+                                         std::to_string(*complete_ + frames_.size()) +
+                                         " and batches_in_flight is " + frames)};
+}
+
+Ticket BatchRing::record(const Batch& batch, const Recording& recording) {
     if (recording.commands == VK_NULL_HANDLE) {
         throw StatusException({StatusCode::invalid_submission, "Recording::commands is null"});
     }
     if (is_complete(recording.frame)) {
-        throw StatusException({StatusCode::invalid_submission,
-                               "Recording::frame is " + std::to_string(recording.frame) +
-                                   ", and the host said that all frames up to " +
-                                   std::to_string(*complete_) + " are complete"});
+        throw StatusException(already_complete(recording.frame));
     }
-    if (recording.frame >= frames_.size()) {
-        complete(recording.frame - frames_.size());
+    if (recording.frame >= frames_.size() && !is_complete(recording.frame - frames_.size())) {
+        complete_ = recording.frame - frames_.size();
+        complete_by_host_ = false;
     }
-    return start_batch(nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
+    return start_batch(batch, nullptr, [&](Frame& frame, const plan::FindShape& find_shape) {
         frame.host_frame = recording.frame;
         // Derived from the number that the ticket will have.
         const auto stamp = static_cast<std::uint32_t>((last_number_ + 1) % UINT32_MAX) + 1;
-        frame.runner.record(queries, find_shape, recording.commands, stamp);
+        frame.runner.record(batch.queries(), find_shape, recording.commands, stamp);
     });
 }
 
 void BatchRing::complete(std::uint64_t host_frame) {
-    complete_ = std::max(complete_.value_or(0), host_frame);
+    if (!is_complete(host_frame)) {
+        complete_ = host_frame;
+        complete_by_host_ = true;
+    }
+}
+
+std::string BatchRing::open_frames() const {
+    std::string names;
+    for (const auto& frame : frames_) {
+        if (frame->number != 0 &&
+            frame->runner.submission_state() == render::SubmissionState::recorded &&
+            !is_complete(frame->host_frame)) {
+            names += (names.empty() ? "" : ", ") + std::to_string(frame->host_frame);
+        }
+    }
+    return names;
 }
 
 bool BatchRing::is_ready(Frame& frame) const {
@@ -151,7 +208,6 @@ void BatchRing::drop(Ticket ticket) {
     release(require(ticket));
 }
 
-#ifdef NEARFIELD_SHADER_RELOAD
 void BatchRing::require_none_in_flight(const char* call) const {
     for (const auto& frame : frames_) {
         if (frame->number != 0) {
@@ -162,6 +218,5 @@ void BatchRing::require_none_in_flight(const char* call) const {
         }
     }
 }
-#endif
 
 }  // namespace nearfield::batch

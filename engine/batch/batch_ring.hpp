@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
+#include <string>
 #include <vector>
 
 namespace nearfield::batch {
@@ -22,12 +22,11 @@ public:
 
     /// Throws StatusException (ring_full) if the ring is full. After any StatusException nothing of
     /// the batch remains. `memory`, if given, is swapped for results that the batch does not need.
-    Ticket submit(std::span<const AnyQuery> queries, const Submission& order,
-                  Results* memory = nullptr);
+    Ticket submit(const Batch& batch, const Submission& order, Results* memory = nullptr);
     /// The same, recorded into a command buffer of the host. Implies that the device has finished
     /// all frames that are no longer in flight by then. May also throw StatusException
     /// (invalid_submission).
-    Ticket record(std::span<const AnyQuery> queries, const Recording& recording);
+    Ticket record(const Batch& batch, const Recording& recording);
     /// Reports that the device has finished the host's frames up to this one.
     void complete(std::uint64_t host_frame);
     /// Returns whether collect() would return without waiting for a submitted batch.
@@ -40,20 +39,39 @@ public:
     /// query has none.
     template <class Query>
     [[nodiscard]] auto resident(Ticket ticket, QueryHandle<Query> handle) {
-        return require(ticket).runner.resident(handle);
+        const Frame& frame = require(ticket);
+        return in_slot(frame, frame.runner.resident(handle));
     }
+    /// What resident() will return for such a query of such a batch, by frame. Throws
+    /// StatusException: (not_ready) if a batch is in flight, and as submit() and resident() do.
+    template <class Query>
+    [[nodiscard]] auto resident_layout(const Batch& batch, QueryHandle<Query> handle) {
+        require_none_in_flight("resident_layout");
+        std::vector<decltype(frames_.front()->runner.resident(handle))> layout;
+        for (const auto& frame : frames_) {
+            reserve(*frame, batch);
+            layout.push_back(in_slot(*frame, frame->runner.resident(handle)));
+        }
+        return layout;
+    }
+    /// Drops the device memory that no batch in flight uses.
+    void trim() noexcept;
     /// Lists the tiles of the batch started last.
     void list_tiles(std::vector<TileReport>& tiles) const;
+    /// The host's frames that are not complete, as far as is known: "3, 4"; empty if there are
+    /// none.
+    [[nodiscard]] std::string open_frames() const;
     /// Abandons a batch of a lost device. Throws as collect() does.
     void drop(Ticket ticket);
-#ifdef NEARFIELD_SHADER_RELOAD
     /// Throws StatusException (not_ready) if a batch is in flight; `call`: for the message.
     void require_none_in_flight(const char* call) const;
+#ifdef NEARFIELD_SHADER_RELOAD
     /// Continues the ticket numbers of another ring without batches in flight: its tickets stay
     /// used.
     void count_on_from(const BatchRing& former) {
         last_number_ = former.last_number_;
         complete_ = former.complete_;
+        complete_by_host_ = former.complete_by_host_;
     }
 #endif
 
@@ -61,6 +79,7 @@ private:
     struct Frame {
         BatchRunner runner;
         ShapeStore::Held shapes;
+        std::uint32_t index = 0;       // among the frames
         std::uint64_t number = 0;      // of its ticket; 0: none
         std::uint64_t host_frame = 0;  // that it was recorded for, if it was
     };
@@ -69,13 +88,22 @@ private:
     [[nodiscard]] Frame& require(Ticket ticket);
     [[nodiscard]] Frame& free_frame();
     void release(Frame& frame);
+    [[nodiscard]] plan::FindShape find_shape_for(Frame& frame);
+    /// Makes room in a frame for a batch that is not started.
+    void reserve(Frame& frame, const Batch& batch);
+    template <class Resident>
+    [[nodiscard]] Resident in_slot(const Frame& frame, Resident resident) const {
+        resident.slot.index = frame.index;
+        return resident;
+    }
     [[nodiscard]] bool is_complete(std::uint64_t host_frame) const {
         return complete_ && host_frame <= *complete_;
     }
     [[nodiscard]] bool is_ready(Frame& frame) const;
     /// Calls `start(runner, find_shape)` to start a batch in a free frame.
     template <class Start>
-    Ticket start_batch(Results* memory, const Start& start);
+    Ticket start_batch(const Batch& batch, Results* memory, const Start& start);
+    [[nodiscard]] Status already_complete(std::uint64_t host_frame) const;
 
     ShapeStore* shapes_;
     Planning planning_;
@@ -84,6 +112,7 @@ private:
     std::uint64_t last_number_ = 0;
     const Frame* last_ = nullptr;            // of the batch started last; null if it failed
     std::optional<std::uint64_t> complete_;  // the last complete frame of the host
+    bool complete_by_host_ = false;          // the host said so; otherwise it follows from a later
 };
 
 }  // namespace nearfield::batch

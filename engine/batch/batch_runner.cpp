@@ -1,4 +1,4 @@
-#include <engine/base/status_exception.hpp>
+#include <engine/base/catch_to_status.hpp>
 #include <engine/batch/batch_runner.hpp>
 #include <engine/plan/technique.hpp>
 
@@ -121,6 +121,19 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     }
 }
 
+void BatchRunner::reserve(std::span<const AnyQuery> queries, const plan::FindShape& find_shape) {
+    begin(queries, find_shape, plan::Submissions::any);
+    if (slot_ != nullptr) {
+        slot_->release();
+    }
+}
+
+void BatchRunner::trim() noexcept {
+    if (renderer_ != nullptr && submission_state() == render::SubmissionState::none) {
+        static_cast<void>(catch_to_status([this] { slot_ = renderer_->make_resources(); }));
+    }
+}
+
 /// Resident records need the device even without tile batches: to state that there are none.
 bool BatchRunner::has_device_work() const {
     return plan_.tile_batches > 0 || search_count_ > 0 || !resident_.empty();
@@ -167,6 +180,9 @@ void BatchRunner::require_resident(QueryHandle<Query> handle) const {
         throw StatusException({StatusCode::invalid_query,
                                "resident: query " + std::to_string(handle.index) + " " + why});
     };
+    if (handle.batch != results_.batch && handle.batch != 0) {
+        refuse("is of another batch, or of the same one before it was cleared");
+    }
     if (handle.index >= queries_.size()) {
         refuse("is none of the batch, which has " + std::to_string(queries_.size()));
     }

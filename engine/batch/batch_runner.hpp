@@ -58,6 +58,13 @@ public:
     void record(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                 VkCommandBuffer commands, std::uint32_t stamp);
 
+    /// Reserves the device memory of such a batch and starts nothing: its resident outputs are
+    /// known until the next batch.
+    void reserve(std::span<const AnyQuery> queries, const plan::FindShape& find_shape);
+    /// Drops the device memory, which the next batch allocates again. Not while a batch is in
+    /// flight. Keeps it if the device has none left for what replaces it.
+    void trim() noexcept;
+
     /// Who still has to finish the commands.
     [[nodiscard]] render::SubmissionState submission_state() const {
         return slot_ == nullptr ? render::SubmissionState::none : slot_->submission_state();

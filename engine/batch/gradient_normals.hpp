@@ -17,6 +17,8 @@ public:
 
     /// Completes the contacts of a collected batch's queries that ask for gradient normals.
     void apply(BatchRunner& main);
+    /// As BatchRunner::trim().
+    void trim() noexcept { runner_.trim(); }
 
 private:
     void set_normals(const plan::PlannedQuery& planned, ContactResult& result, Timings& timings);

@@ -1,20 +1,12 @@
+#include <engine/base/unknown_shape.hpp>
 #include <engine/batch/shape_store.hpp>
 
-#include <string>
 #include <utility>
 
 namespace nearfield::batch {
-namespace {
-
-Status unknown(const char* call, ShapeHandle handle) {
-    return {StatusCode::unknown_shape, std::string(call) + ": no shape of this context has index " +
-                                           std::to_string(handle.index) + " and that generation"};
-}
-
-}  // namespace
 
 ShapeStore::Shape* ShapeStore::find_shape(ShapeHandle handle) {
-    if (handle.index >= shapes_.size()) {
+    if (handle.context != context_ || handle.index >= shapes_.size()) {
         return nullptr;
     }
     Shape& shape = shapes_[handle.index];
@@ -67,13 +59,13 @@ Expected<ShapeHandle> ShapeStore::add(std::span<const Ring> rings, double deviat
         return status;
     }
     free_shapes_.pop_back();
-    return ShapeHandle{index, shapes_[index].generation};
+    return ShapeHandle{index, shapes_[index].generation, context_};
 }
 
 Status ShapeStore::update(ShapeHandle handle, std::span<const Ring> rings, double deviation) {
     Shape* const shape = find_shape(handle);
     if (shape == nullptr) {
-        return unknown("update_shape", handle);
+        return unknown_shape("update_shape", handle, context_);
     }
     ++revision_;
     return shape->current->holders == 0 ? shape->current->polygon.assign(rings, deviation)
@@ -83,7 +75,7 @@ Status ShapeStore::update(ShapeHandle handle, std::span<const Ring> rings, doubl
 Status ShapeStore::remove(ShapeHandle handle) {
     Shape* const shape = find_shape(handle);
     if (shape == nullptr) {
-        return unknown("remove_shape", handle);
+        return unknown_shape("remove_shape", handle, context_);
     }
     ++revision_;
     free_shapes_.push_back(handle.index);

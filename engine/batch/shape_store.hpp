@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/unique_numbers.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -20,6 +21,9 @@ class ShapeStore {
 public:
     /// The shapes that one holder holds.
     class Held;
+
+    /// Of the context, in the handles of its shapes.
+    [[nodiscard]] std::uint32_t context() const { return context_; }
 
     [[nodiscard]] Expected<ShapeHandle> add(std::span<const Ring> rings, double deviation);
     Status update(ShapeHandle handle, std::span<const Ring> rings, double deviation);
@@ -56,6 +60,7 @@ private:
     void retire(Version& version);
     void make_spare(Version& version);
 
+    std::uint32_t context_ = next_owner_number();
     std::vector<std::unique_ptr<Version>> versions_;
     std::vector<Shape> shapes_;
     std::vector<std::uint32_t> free_shapes_;

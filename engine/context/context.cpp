@@ -62,6 +62,21 @@ Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, dou
     return status.ok() ? result : status;
 }
 
+Expected<ShapeHandle> Context::add_shape(std::span<const RingView> rings, double deviation) {
+    Expected<ShapeHandle> handle = ShapeHandle{};
+    Status status = implementation_->unless_lost(
+        [&] { handle = implementation_->shapes().add(implementation_->gather(rings), deviation); });
+    return status.ok() ? handle : Expected<ShapeHandle>(status);
+}
+
+Status Context::update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation) {
+    Status result;
+    Status status = implementation_->unless_lost([&] {
+        result = implementation_->shapes().update(shape, implementation_->gather(rings), deviation);
+    });
+    return status.ok() ? result : status;
+}
+
 Status Context::remove_shape(ShapeHandle shape) {
     Status result;
     Status status =
@@ -116,6 +131,30 @@ Expected<ResidentRecords> Context::resident(Ticket ticket, QueryHandle<ContactQu
 
 Expected<ResidentSamples> Context::resident(Ticket ticket, QueryHandle<IntersectionQuery> query) {
     return implementation_->resident<ResidentSamples>(ticket, query);
+}
+
+Expected<std::vector<ResidentField>> Context::resident_layout(
+    const Batch& batch, QueryHandle<DistanceFieldQuery> query) {
+    return implementation_->resident_layout<ResidentField>(batch, query);
+}
+
+Expected<std::vector<ResidentRecords>> Context::resident_layout(
+    const Batch& batch, QueryHandle<PenetrationQuery> query) {
+    return implementation_->resident_layout<ResidentRecords>(batch, query);
+}
+
+Expected<std::vector<ResidentRecords>> Context::resident_layout(const Batch& batch,
+                                                                QueryHandle<ContactQuery> query) {
+    return implementation_->resident_layout<ResidentRecords>(batch, query);
+}
+
+Expected<std::vector<ResidentSamples>> Context::resident_layout(
+    const Batch& batch, QueryHandle<IntersectionQuery> query) {
+    return implementation_->resident_layout<ResidentSamples>(batch, query);
+}
+
+void Context::trim() noexcept {
+    implementation_->trim();
 }
 
 const CostModel& Context::costs() const noexcept {

@@ -1,3 +1,4 @@
+#include <engine/base/unknown_shape.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/read_structures.hpp>
 #include <engine/gpu/submission.hpp>
@@ -5,6 +6,7 @@
 #include <engine/select/default_costs.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -16,8 +18,10 @@ geometry::SubpixelGrid subpixel_grid(const gpu::Device& device) {
 }
 
 /// `device` is null for a context without one.
-plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings) {
+plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings,
+                             std::uint32_t context) {
     plan::PlanLimits limits;
+    limits.context = context;
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     limits.bounding_volume = settings.bounding_volume;
@@ -62,11 +66,11 @@ Status lost_device() {
 
 Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
                                               const CostModel& costs, batch::ShapeStore& shapes)
-    : renderer(device == nullptr
-                   ? nullptr
-                   : std::make_unique<render::Renderer>(*device, settings.techniques)),
-      ring(settings.batches_in_flight, plan_limits(device, settings), costs, settings.jobs,
-           renderer.get(), shapes) {}
+    : renderer(device == nullptr ? nullptr
+                                 : std::make_unique<render::Renderer>(*device, settings.techniques,
+                                                                      settings.timestamps)),
+      ring(settings.batches_in_flight, plan_limits(device, settings, shapes.context()), costs,
+           settings.jobs, renderer.get(), shapes) {}
 
 Context::Implementation::Implementation(const Settings& settings)
     : settings_(without_device(settings)),
@@ -91,11 +95,26 @@ Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own
 
 Context::Implementation::~Implementation() {
     if (device_ != nullptr) {
+        report_open_frames();
         device_->log(LogLevel::information, [&] {
             return "context on '" + device_->name() + "' goes; it took at most " +
                    std::to_string(device_->memory_count().peak()) + " bytes of device memory";
         });
     }
+}
+
+/// A batch that the device may still run would use what the destructor frees.
+void Context::Implementation::report_open_frames() const noexcept {
+    if (lost_ || machinery_->ring.open_frames().empty()) {
+        return;
+    }
+    device_->log(LogLevel::error, [&] {
+        return "the context goes while batches recorded for these frames may still run: " +
+               machinery_->ring.open_frames() +
+               "; the device has to finish them, or never begin, and Context::frame_completed() "
+               "says so";
+    });
+    assert(!"a context was destroyed before its frames were complete: see its log");
 }
 
 std::unique_ptr<Context::Implementation::Machinery> Context::Implementation::make_machinery() {
@@ -111,7 +130,7 @@ Expected<std::span<const InstancePair>> Context::Implementation::find_pairs(
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const geometry::Polygon* const polygon = shapes_.find(instances[i].shape);
         Status status = polygon == nullptr
-                            ? Status(StatusCode::unknown_shape, "its shape is none of this context")
+                            ? unknown_shape("its shape", instances[i].shape, shapes_.context())
                             : plan::check_pose(instances[i].pose, "the instance");
         if (!status.ok()) {
             return Status(status.code(),
@@ -145,7 +164,7 @@ Expected<Ticket> Context::Implementation::submit(const Batch& batch, const Submi
         } else if (!order.waits.empty() || !order.signals.empty()) {
             throw StatusException(no_device("submit with semaphores"));
         }
-        ticket = machinery_->ring.submit(batch.queries(), order, memory);
+        ticket = machinery_->ring.submit(batch, order, memory);
     });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
@@ -155,8 +174,8 @@ Expected<Ticket> Context::Implementation::record(const Batch& batch, const Recor
         return no_device("record");
     }
     Ticket ticket;
-    Status status = unless_lost(
-        [&] { ticket = machinery_->ring.record(batch.queries(), read_versioned(recording)); });
+    Status status =
+        unless_lost([&] { ticket = machinery_->ring.record(batch, read_versioned(recording)); });
     return status.ok() ? Expected<Ticket>(ticket) : status;
 }
 
@@ -166,6 +185,14 @@ Status Context::Implementation::collect(Ticket ticket, Results& results) {
         return status.ok() ? lost_device_ : status;
     }
     return unless_lost([&] { machinery_->ring.collect(ticket, results); });
+}
+
+void Context::Implementation::trim() noexcept {
+    if (device_ == nullptr || lost_) {
+        return;
+    }
+    machinery_->ring.trim();
+    machinery_->renderer->trim();
 }
 
 #ifdef NEARFIELD_SHADER_RELOAD

@@ -4,6 +4,7 @@
 #include <engine/base/stopwatch.hpp>
 #include <engine/batch/batch_ring.hpp>
 #include <engine/batch/shape_store.hpp>
+#include <engine/geometry/gathered_rings.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/headless.hpp>
 #include <engine/localize/broad_phase.hpp>
@@ -18,6 +19,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield {
@@ -67,9 +69,23 @@ public:
         return status.ok() ? Expected<Resident>(result) : status;
     }
 
+    template <class Resident, class Query>
+    Expected<std::vector<Resident>> resident_layout(const Batch& batch, QueryHandle<Query> query) {
+        std::vector<Resident> layout;
+        Status status =
+            unless_lost([&] { layout = machinery_->ring.resident_layout(batch, query); });
+        return status.ok() ? Expected<std::vector<Resident>>(std::move(layout)) : status;
+    }
+
+    void trim() noexcept;
+
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
 
     [[nodiscard]] batch::ShapeStore& shapes() { return shapes_; }
+    /// Rings of the caller's numbers, until the next call.
+    [[nodiscard]] std::span<const Ring> gather(std::span<const RingView> rings) {
+        return gathered_rings_.gather(rings);
+    }
     /// Null without a device, as the renderer is.
     [[nodiscard]] const gpu::Device* device() const { return device_.get(); }
     [[nodiscard]] const CostModel& costs() const { return costs_; }
@@ -98,6 +114,7 @@ public:
 
 private:
     [[nodiscard]] std::unique_ptr<Machinery> make_machinery();
+    void report_open_frames() const noexcept;
 
     Stopwatch making_;
     std::unique_ptr<gpu::HeadlessDevice> own_device_;  // null where the host's is used
@@ -105,6 +122,7 @@ private:
     const Settings settings_;
     CostModel costs_;
     batch::ShapeStore shapes_;
+    geometry::GatheredRings gathered_rings_;
     localize::BroadPhase broad_phase_;
     // Of the instances of find_pairs(), by position; they stay while their origins do.
     std::vector<geometry::Box> boxes_;

@@ -49,10 +49,24 @@ void check_jobs(const JobSystem& jobs) {
 }  // namespace
 
 HostDevice read_versioned(const HostDevice& given) {
-    return read_versioned(given, "HostDevice",
-                          {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
-                           offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
-                           offsetof(HostDevice, log)});
+    const HostDevice host =
+        read_versioned(given, "HostDevice",
+                       {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
+                        offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
+                        offsetof(HostDevice, log), offsetof(HostDevice, completion_by_timeline)});
+    const QueueAccess& access = host.queue_access;
+    if ((access.lock == nullptr) != (access.unlock == nullptr)) {
+        const bool locks = access.lock != nullptr;
+        refuse_setting(std::string("HostDevice::queue_access.") + (locks ? "unlock" : "lock") +
+                       " is null, and " + (locks ? "lock" : "unlock") +
+                       " is set; give both or neither");
+    }
+    if (host.completion_by_timeline && !host.timeline_semaphore) {
+        refuse_setting(
+            "HostDevice::completion_by_timeline is set, and timeline_semaphore is not: the host "
+            "has to enable the feature");
+    }
+    return host;
 }
 
 HeadlessOptions read_versioned(const HeadlessOptions& given) {
@@ -71,10 +85,11 @@ Recording read_versioned(const Recording& given) {
 }
 
 Settings read_versioned(const Settings& given) {
-    const Settings settings = read_versioned(
-        given, "Settings",
-        {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
-         offsetof(Settings, costs), offsetof(Settings, jobs), offsetof(Settings, techniques)});
+    const Settings settings =
+        read_versioned(given, "Settings",
+                       {offsetof(Settings, memory_limit), offsetof(Settings, hierarchy_height),
+                        offsetof(Settings, costs), offsetof(Settings, jobs),
+                        offsetof(Settings, techniques), offsetof(Settings, timestamps)});
     if (settings.batches_in_flight < 1 || settings.batches_in_flight > max_batches_in_flight) {
         refuse_setting("batches_in_flight is " + std::to_string(settings.batches_in_flight) +
                        "; it must be at least 1 and at most " +

@@ -112,7 +112,7 @@ void World::Implementation::cast_shape(const ShapeCastQuery& query, std::span<co
         refuse("cast_shape", "the contact distance is " + number(query.contact_distance) +
                                  "; it must be a finite number of at least 0");
     }
-    prepare();
+    prepare(query.filter, "cast_shape");
     constexpr std::size_t queries_at_a_time = 1024;
     batch_.clear();
     candidates_.clear();

@@ -1,3 +1,4 @@
+#include <engine/base/unknown_shape.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
 
@@ -64,12 +65,15 @@ void World::Implementation::prepare() {
     instances_.prepare({find_shape, &context_->shapes()}, context_->shapes().revision());
 }
 
+void World::Implementation::prepare(const WorldFilter& filter, const char* call) {
+    instances_.require_own(filter.ignored, call);
+    prepare();
+}
+
 const geometry::Polygon& World::Implementation::shape(ShapeHandle handle, const char* call) const {
     const geometry::Polygon* const polygon = context_->shapes().find(handle);
     if (polygon == nullptr) {
-        throw StatusException({StatusCode::unknown_shape,
-                               std::string(call) + ": no shape of this context has index " +
-                                   std::to_string(handle.index) + " and that generation"});
+        throw StatusException(unknown_shape(call, handle, context_->shapes().context()));
     }
     return *polygon;
 }
@@ -79,7 +83,7 @@ void World::Implementation::test_poses(const PoseTestQuery& query, std::span<con
     require_lengths("test_poses", "poses", poses.size(), intersects.size());
     const geometry::Polygon& polygon = shape(query.shape, "test_poses");
     require_poses("test_poses", poses);
-    prepare();
+    prepare(query.filter, "test_poses");
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
         queries.begin(instances_, polygon, query.filter);
@@ -100,7 +104,7 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
                                       " are no range that ends at 0 or above");
     }
     require_poses("find_clearances", poses);
-    prepare();
+    prepare(query.filter, "find_clearances");
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
         queries.begin(instances_, polygon, query.filter);
@@ -126,7 +130,7 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
         refuse("find_nearest", "the kind is no enumerator");
     }
     require_points("find_nearest", points);
-    prepare();
+    prepare(query.filter, "find_nearest");
     for (std::size_t block = 0; block < points.size(); block += sorted_at_a_time) {
         const auto some = points.subspan(block, std::min(sorted_at_a_time, points.size() - block));
         const auto order = hilbert_order_.sort(some);
@@ -146,7 +150,7 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
                                       const WorldFilter& filter) {
     require_lengths("cast_rays", "segments", segments.size(), hits.size());
     require_segments("cast_rays", segments);
-    prepare();
+    prepare(filter, "cast_rays");
     jobs_.divide(segments.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::RayQueries& queries = scratch_[job].rays;
         queries.begin(instances_, filter);
@@ -159,7 +163,7 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
 void World::Implementation::cast_rays(std::span<const Segment> segments, RayHits& hits,
                                       const WorldFilter& filter) {
     require_segments("cast_rays", segments);
-    prepare();
+    prepare(filter, "cast_rays");
     hits.offsets.assign(1, 0);
     hits.hits.clear();
     world::RayQueries& queries = scratch_.front().rays;
@@ -199,7 +203,7 @@ void World::Implementation::find_overlaps(std::span<const Rectangle> rectangles,
                                         " is below its low corner");
         }
     }
-    prepare();
+    prepare(filter, "find_overlaps");
     world::OverlapQueries& queries = scratch_.front().overlaps;
     queries.begin(instances_, filter);
     write_lists(rectangles.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
@@ -210,7 +214,7 @@ void World::Implementation::find_overlaps(std::span<const Rectangle> rectangles,
 void World::Implementation::find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
                                           const WorldFilter& filter) {
     require_points("find_overlaps", points);
-    prepare();
+    prepare(filter, "find_overlaps");
     world::OverlapQueries& queries = scratch_.front().overlaps;
     queries.begin(instances_, filter);
     write_lists(points.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
@@ -222,7 +226,7 @@ void World::Implementation::find_overlaps(const PoseTestQuery& query, std::span<
                                           InstanceLists& lists) {
     const geometry::Polygon& polygon = shape(query.shape, "find_overlaps");
     require_poses("find_overlaps", poses);
-    prepare();
+    prepare(query.filter, "find_overlaps");
     world::PoseQueries& queries = scratch_.front().poses;
     queries.begin(instances_, polygon, query.filter);
     write_lists(poses.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {

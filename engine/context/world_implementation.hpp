@@ -83,6 +83,8 @@ private:
     void run_batch();
     /// Takes in what has changed in the world.
     void prepare();
+    /// The same for a query, whose filter has to be one of this world.
+    void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
     /// Writes one list per entry; `find(i, found)` appends the instances of entry i, in any order.
     template <class Find>

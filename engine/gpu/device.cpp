@@ -19,10 +19,6 @@ std::vector<std::string> null_handles(const HostDevice& host) {
     require(host.device != VK_NULL_HANDLE, "device");
     require(host.queue != VK_NULL_HANDLE || host.queue_access.submit != nullptr, "queue");
     require(host.get_instance_proc_addr != nullptr, "get_instance_proc_addr");
-    require(host.queue_access.lock != nullptr || host.queue_access.unlock == nullptr,
-            "queue_access.lock");
-    require(host.queue_access.unlock != nullptr || host.queue_access.lock == nullptr,
-            "queue_access.unlock");
     if (const VkAllocationCallbacks* const allocator = host.allocator) {
         require(allocator->pfnAllocation != nullptr, "allocator->pfnAllocation");
         require(allocator->pfnReallocation != nullptr, "allocator->pfnReallocation");
@@ -101,8 +97,13 @@ void Device::load_instance_functions(std::vector<std::string>& missing) {
 
 void Device::load_device_functions(std::vector<std::string>& missing) {
     const auto load = [&](auto& function, const char* name) {
-        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
-            functions_.vkGetDeviceProcAddr(host_.device, name));
+        using Function = std::remove_reference_t<decltype(function)>;
+        function = reinterpret_cast<Function>(functions_.vkGetDeviceProcAddr(host_.device, name));
+        if (function == nullptr) {  // of an extension that became part of the core
+            const std::string alias = std::string(name) + "KHR";
+            function = reinterpret_cast<Function>(
+                functions_.vkGetDeviceProcAddr(host_.device, alias.c_str()));
+        }
         if (function == nullptr) {
             missing.push_back(std::string("entry point ") + name +
                               ": vkGetDeviceProcAddr does not know it");
@@ -110,6 +111,9 @@ void Device::load_device_functions(std::vector<std::string>& missing) {
     };
 #define NEARFIELD_LOAD(name) load(functions_.name, #name);
     NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_LOAD)
+    if (host_.completion_by_timeline) {
+        NEARFIELD_SEMAPHORE_FUNCTIONS(NEARFIELD_LOAD)
+    }
 #undef NEARFIELD_LOAD
 }
 

@@ -52,6 +52,8 @@ public:
     /// For every pipeline; the host's cache, or none.
     [[nodiscard]] VkPipelineCache pipeline_cache() const { return host_.pipeline_cache; }
     [[nodiscard]] bool timeline_semaphore() const { return host_.timeline_semaphore; }
+    /// Submissions signal a timeline semaphore and no fence.
+    [[nodiscard]] bool completion_by_timeline() const { return host_.completion_by_timeline; }
     /// vkQueueSubmit, or the host's replacement for it.
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info, VkFence fence) const;
     [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }

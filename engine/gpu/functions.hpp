@@ -91,6 +91,13 @@
     X(vkCmdBeginDebugUtilsLabelEXT)  \
     X(vkCmdEndDebugUtilsLabelEXT)
 
+/// Looked up if submissions signal a timeline semaphore in place of a fence.
+#define NEARFIELD_SEMAPHORE_FUNCTIONS(X) \
+    X(vkCreateSemaphore)                 \
+    X(vkDestroySemaphore)                \
+    X(vkGetSemaphoreCounterValue)        \
+    X(vkWaitSemaphores)
+
 namespace nearfield::gpu {
 
 struct Functions {
@@ -98,6 +105,7 @@ struct Functions {
     NEARFIELD_INSTANCE_FUNCTIONS(NEARFIELD_MEMBER)
     NEARFIELD_DEVICE_FUNCTIONS(NEARFIELD_MEMBER)
     NEARFIELD_DEBUG_FUNCTIONS(NEARFIELD_MEMBER)
+    NEARFIELD_SEMAPHORE_FUNCTIONS(NEARFIELD_MEMBER)
 #undef NEARFIELD_MEMBER
 };
 

@@ -8,10 +8,10 @@ namespace nearfield::gpu {
 KeptImage::KeptImage(const Device& device, VkFormat format, std::string name)
     : device_(&device), format_(format), name_(std::move(name)) {}
 
-void KeptImage::reserve(VkExtent2D extent) {
+bool KeptImage::reserve(VkExtent2D extent) {
     extent = {std::max(extent.width, extent_.width), std::max(extent.height, extent_.height)};
     if (extent.width == extent_.width && extent.height == extent_.height) {
-        return;
+        return false;
     }
     // Free the former image first, so that both never occupy memory at the same time.
     extent_ = {};
@@ -22,6 +22,7 @@ void KeptImage::reserve(VkExtent2D extent) {
     allocate_memory();
     create_view();
     extent_ = extent;
+    return true;
 }
 
 void KeptImage::create_image(VkExtent2D extent) {

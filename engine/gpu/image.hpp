@@ -15,9 +15,9 @@ public:
     KeptImage(const Device& device, VkFormat format, std::string name);
 
     /// Grows the image to at least this size along both sides. Growing discards content and handles
-    /// and must not happen while the device uses the image. Throws StatusException; the image is
-    /// then empty.
-    void reserve(VkExtent2D extent);
+    /// and must not happen while the device uses the image. Returns true if the image was replaced.
+    /// Throws StatusException; the image is then empty.
+    bool reserve(VkExtent2D extent);
 
     [[nodiscard]] VkImage handle() const { return image_.get(); }
     [[nodiscard]] VkImageView view() const { return view_.get(); }

@@ -21,6 +21,7 @@ NEARFIELD_DESTROY(VkPipelineLayout, vkDestroyPipelineLayout)
 NEARFIELD_DESTROY(VkQueryPool, vkDestroyQueryPool)
 NEARFIELD_DESTROY(VkRenderPass, vkDestroyRenderPass)
 NEARFIELD_DESTROY(VkSampler, vkDestroySampler)
+NEARFIELD_DESTROY(VkSemaphore, vkDestroySemaphore)
 NEARFIELD_DESTROY(VkShaderModule, vkDestroyShaderModule)
 
 #undef NEARFIELD_DESTROY

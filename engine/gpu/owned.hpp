@@ -21,6 +21,7 @@ void destroy(const Device& device, VkPipelineLayout object);
 void destroy(const Device& device, VkQueryPool object);
 void destroy(const Device& device, VkRenderPass object);
 void destroy(const Device& device, VkSampler object);
+void destroy(const Device& device, VkSemaphore object);
 void destroy(const Device& device, VkShaderModule object);
 
 /// Unique owner of a Vulkan object; destroys it with its device, which must outlive it.

@@ -33,7 +33,7 @@ void check_semaphores(const Device& device, const nearfield::Submission& order) 
     }
 }
 
-Submission::Submission(const Device& device) : device_(&device) {
+Submission::Submission(const Device& device) : device_(&device), completion_(device) {
     const Functions& functions = device.functions();
     VkCommandPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -52,16 +52,6 @@ Submission::Submission(const Device& device) : device_(&device) {
     check(functions.vkAllocateCommandBuffers(device.handle(), &commands_info, &commands_),
           "vkAllocateCommandBuffers", "a submission");
     device.name_object(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "nearfield commands");
-
-    // Signalled, so that waiting before the first submission returns at once.
-    VkFenceCreateInfo fence_info{};
-    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-    VkFence fence = VK_NULL_HANDLE;
-    check(functions.vkCreateFence(device.handle(), &fence_info, device.allocator(), &fence),
-          "vkCreateFence", "a submission");
-    fence_ = Owned<VkFence>(device, fence);
-    device.name_object(VK_OBJECT_TYPE_FENCE, fence, "nearfield fence");
 }
 
 VkCommandBuffer Submission::begin() {
@@ -78,19 +68,23 @@ VkCommandBuffer Submission::begin() {
 void Submission::submit(const nearfield::Submission& order) {
     const Functions& functions = device_->functions();
     check(functions.vkEndCommandBuffer(commands_), "vkEndCommandBuffer", "a submission");
-    const VkFence fence = fence_.get();
-    check(functions.vkResetFences(device_->handle(), 1, &fence), "vkResetFences", "a submission");
-    send(order, 1, fence);
+    completion_.begin();
+    take(order);
+    if (const VkSemaphore semaphore = completion_.semaphore(); semaphore != VK_NULL_HANDLE) {
+        signals_.push_back(semaphore);
+        signal_values_.push_back(completion_.value());
+    }
+    send(1, completion_.fence());
 }
 
 void Submission::submit_semaphores(const nearfield::Submission& order) {
     if (!order.waits.empty() || !order.signals.empty()) {
-        send(order, 0, VK_NULL_HANDLE);
+        take(order);
+        send(0, VK_NULL_HANDLE);
     }
 }
 
-void Submission::send(const nearfield::Submission& order, std::uint32_t command_buffers,
-                      VkFence fence) {
+void Submission::take(const nearfield::Submission& order) {
     waits_.clear();
     wait_stages_.clear();
     wait_values_.clear();
@@ -105,6 +99,9 @@ void Submission::send(const nearfield::Submission& order, std::uint32_t command_
         signals_.push_back(signal.semaphore);
         signal_values_.push_back(signal.value);
     }
+}
+
+void Submission::send(std::uint32_t command_buffers, VkFence fence) {
     VkTimelineSemaphoreSubmitInfo values{};
     values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
     values.waitSemaphoreValueCount = static_cast<std::uint32_t>(wait_values_.size());
@@ -125,18 +122,14 @@ void Submission::send(const nearfield::Submission& order, std::uint32_t command_
 }
 
 bool Submission::is_done() const {
-    return device_->functions().vkGetFenceStatus(device_->handle(), fence_.get()) != VK_NOT_READY;
+    return completion_.status() != VK_NOT_READY;
 }
 
 void Submission::wait() {
-    const VkFence fence = fence_.get();
-    check(device_->functions().vkWaitForFences(device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX),
-          "vkWaitForFences", "a submission");
+    check(completion_.wait(), completion_.wait_call(), "a submission");
 }
 
 void Submission::wait_to_the_end() noexcept {
-    const Functions& functions = device_->functions();
-    const VkFence fence = fence_.get();
     const auto out_of_memory = [](VkResult result) {
         return result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     };
@@ -144,9 +137,8 @@ void Submission::wait_to_the_end() noexcept {
     // times, later attempts will fail, too.
     constexpr int max_refusals = 1000;
     int refusals = 0;
-    while (refusals < max_refusals && out_of_memory(functions.vkWaitForFences(
-                                          device_->handle(), 1, &fence, VK_TRUE, UINT64_MAX))) {
-        const VkResult status = functions.vkGetFenceStatus(device_->handle(), fence);
+    while (refusals < max_refusals && out_of_memory(completion_.wait())) {
+        const VkResult status = completion_.status();
         if (out_of_memory(status)) {
             ++refusals;
         } else if (status != VK_NOT_READY) {

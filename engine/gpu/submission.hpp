@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/gpu/completion.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 #include <nearfield/submission.hpp>
@@ -13,7 +14,7 @@ namespace nearfield::gpu {
 /// value is given for a timeline semaphore although the host did not declare the feature enabled.
 void check_semaphores(const Device& device, const nearfield::Submission& order);
 
-/// A reusable command buffer and the fence of its submission.
+/// A reusable command buffer and the completion of its submission.
 class Submission {
 public:
     explicit Submission(const Device& device);
@@ -34,12 +35,14 @@ public:
     void wait_to_the_end() noexcept;
 
 private:
-    void send(const nearfield::Submission& order, std::uint32_t command_buffers, VkFence fence);
+    /// Takes the semaphores of the next submission.
+    void take(const nearfield::Submission& order);
+    void send(std::uint32_t command_buffers, VkFence fence);
 
     const Device* device_;
     Owned<VkCommandPool> pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  // owned by the pool
-    Owned<VkFence> fence_;
+    Completion completion_;
 
     // Semaphores of the submission in progress, in Vulkan's form.
     std::vector<VkSemaphore> waits_;

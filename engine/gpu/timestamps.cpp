@@ -19,9 +19,9 @@ void add(std::vector<PassTime>& times, const char* name, double milliseconds) {
 
 }  // namespace
 
-Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
-    : device_(&device), capacity_(capacity) {
-    if (device.timestamp_bits() == 0 || capacity == 0) {
+Timestamps::Timestamps(const Device& device, std::uint32_t capacity, bool on)
+    : device_(&device), on_(on && device.timestamp_bits() > 0), capacity_(capacity) {
+    if (!on_ || capacity == 0) {
         return;
     }
     names_.reserve(capacity);
@@ -38,7 +38,7 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity)
 
 void Timestamps::reserve(std::uint32_t capacity) {
     if (capacity > capacity_) {
-        *this = Timestamps(*device_, capacity);
+        *this = Timestamps(*device_, capacity, on_);
     }
 }
 
@@ -50,7 +50,7 @@ void Timestamps::reset(VkCommandBuffer commands) {
 }
 
 void Timestamps::begin(VkCommandBuffer commands, const char* name) {
-    if (device_->timestamp_bits() == 0) {
+    if (!on_) {
         return;
     }
     if (names_.size() == capacity_) {

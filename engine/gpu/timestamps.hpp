@@ -11,11 +11,11 @@
 namespace nearfield::gpu {
 
 /// Times the passes of one submission with a pair of timestamps each. Does nothing if the queue
-/// family has no timestamps.
+/// family has no timestamps, or if they are turned off.
 class Timestamps {
 public:
-    /// Reserves timestamps for `capacity` passes.
-    Timestamps(const Device& device, std::uint32_t capacity);
+    /// Reserves timestamps for `capacity` passes, unless they are turned off (`on`).
+    Timestamps(const Device& device, std::uint32_t capacity, bool on = true);
 
     /// Grows to at least `capacity` passes. Must not be called while the device uses the
     /// timestamps.
@@ -32,6 +32,7 @@ public:
 
 private:
     const Device* device_;
+    bool on_;
     Owned<VkQueryPool> pool_;
     std::uint32_t capacity_;
     std::vector<const char*> names_;

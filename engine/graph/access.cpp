@@ -82,8 +82,10 @@ constexpr std::array<AccessTraits, 13> accesses = {{
      .read_access = VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
      .pass_kind = PassKind::compute},
     {.name = "exported_buffer",
-     .stages = shaders_of_users,
-     .read_access = VK_ACCESS_SHADER_READ_BIT},
+     .stages = shaders_of_users | VK_PIPELINE_STAGE_VERTEX_INPUT_BIT |
+               VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+     .read_access = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT |
+                    VK_ACCESS_INDIRECT_COMMAND_READ_BIT},
     {.name = "exported_image",
      .stages = shaders_of_users,
      .read_access = VK_ACCESS_SHADER_READ_BIT,

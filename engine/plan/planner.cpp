@@ -1,5 +1,6 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
+#include <engine/base/unknown_shape.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/gpu_layout.hpp>
@@ -24,12 +25,6 @@ constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0
 // Memory per sample while all samples of a boundary are kept at once and none is planned: its
 // position, the nearest feature, the potential contact.
 constexpr double bytes_of_kept_sample = 256.0;
-
-Status unknown_shape(const char* which, ShapeHandle handle) {
-    return {StatusCode::unknown_shape, std::string("shape ") + which + " (index " +
-                                           std::to_string(handle.index) +
-                                           ") is not a shape of this context, or was removed"};
-}
 
 /// Returns an empty result of the right kind that keeps the memory of the last one.
 template <class Result>
@@ -151,10 +146,10 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                 const bool a_left_out =
                     std::is_same_v<Query, DistanceFieldQuery> && query.a.shape == ShapeHandle{};
                 if (result.status.ok() && planned.a == nullptr && !a_left_out) {
-                    result.status = unknown_shape("A", query.a.shape);
+                    result.status = unknown_shape("shape A", query.a.shape, limits_.context);
                 }
                 if (result.status.ok() && planned.b == nullptr) {
-                    result.status = unknown_shape("B", query.b.shape);
+                    result.status = unknown_shape("shape B", query.b.shape, limits_.context);
                 }
                 if (result.status.ok()) {
                     // Only the box of a distance field's A is used.

@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t max_passes = 16 + 3 * intersection_strategies;
 
 // Passes beyond those of the tile batches: the copy to the read-back; one per resident field; three
-// per query with resident records or samples.
+// per query with resident records or samples; that of all headers.
 std::uint32_t export_passes(const plan::ResidentOutputs& resident) {
-    return static_cast<std::uint32_t>(1 + resident.fields.size() + 3 * resident.records.size() +
+    return static_cast<std::uint32_t>(2 + resident.fields.size() + 3 * resident.records.size() +
                                       3 * resident.samples.size());
 }
 
@@ -33,11 +33,12 @@ std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint6
 
 }  // namespace
 
-BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout)
+BatchResources::BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
+                               bool timestamps)
     : device_(&device),
       layout_(&layout),
       submission_(device),
-      timestamps_(device, max_passes),
+      timestamps_(device, max_passes, timestamps),
       mesh_(device, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, gpu::Direction::upload, "nearfield mesh"),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload, "nearfield input"),
       read_back_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -204,9 +205,8 @@ void BatchResources::require_stamp() {
     if (found != stamp_) {
         throw StatusException(
             {StatusCode::not_executed,
-             "the host says that the frame of this batch is complete, but the device "
-             "did not execute the commands recorded for it; was the command buffer "
-             "submitted?"});
+             "the frame of this batch counts as complete, but the device did not execute the "
+             "commands recorded for it; was the command buffer submitted?"});
     }
 }
 

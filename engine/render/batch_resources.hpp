@@ -55,7 +55,8 @@ struct TileBatchOnDevice {
 /// is created.
 class BatchResources {
 public:
-    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout);
+    /// `timestamps`: the passes are timed.
+    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout, bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
     ~BatchResources();

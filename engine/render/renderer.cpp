@@ -52,13 +52,15 @@ GraphKey key_of(const plan::TileBatch& round) {
 
 }  // namespace
 
-Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques)
+Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques, bool timestamps)
     : device_(&device),
+      timestamps_(timestamps),
       layout_(device),
       copy_back_(device),
       export_field_(device, layout_),
       export_records_(device, layout_),
-      export_samples_(device, layout_) {
+      export_samples_(device, layout_),
+      export_headers_(device, layout_) {
     if (techniques.raster) {
         passes_.raster.emplace(device, layout_, context_);
     }
@@ -73,7 +75,7 @@ const char* Renderer::gradient_format() const {
 }
 
 std::unique_ptr<BatchResources> Renderer::make_resources() const {
-    return std::make_unique<BatchResources>(*device_, layout_);
+    return std::make_unique<BatchResources>(*device_, layout_, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.
@@ -214,7 +216,13 @@ void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
         for (std::size_t i = 0; i < resident.resident().samples.size(); ++i) {
             export_samples_.record(commands, slot.timestamps(), resident.samples_item(i));
         }
+        export_headers_.record(commands, slot.timestamps(), resident.headers_item());
     }
+}
+
+void Renderer::trim() noexcept {
+    last_graph_ = nullptr;
+    graphs_.clear();
 }
 
 void Renderer::wait(BatchResources& slot, Timings& timings) {
@@ -245,6 +253,9 @@ std::string Renderer::print(GraphFormat format) const {
     }
     if (last_had_samples_) {
         text += export_samples_.print(format);
+    }
+    if (last_had_fields_ || last_had_records_ || last_had_samples_) {
+        text += export_headers_.print(format);
     }
     return text;
 }

@@ -7,6 +7,7 @@
 #include <nearfield/result.hpp>
 #include <passes/copy_back.hpp>
 #include <passes/export_field.hpp>
+#include <passes/export_headers.hpp>
 #include <passes/export_records.hpp>
 #include <passes/export_samples.hpp>
 #include <passes/point_search.hpp>
@@ -33,7 +34,7 @@ enum class SampleRoom { likely, all };
 class Renderer {
 public:
     /// Makes the pipelines of these techniques; makes none later.
-    Renderer(const gpu::Device& device, const DeviceTechniques& techniques);
+    Renderer(const gpu::Device& device, const DeviceTechniques& techniques, bool timestamps);
 
     /// The name of the format that gradients are blended in.
     [[nodiscard]] const char* gradient_format() const;
@@ -66,6 +67,9 @@ public:
     /// the others. Returns false if there are none.
     [[nodiscard]] bool submit_those_without_room(BatchResources& slot, Timings& timings);
 
+    /// Drops the compiled graphs, except those of batches in flight, until the next batch.
+    void trim() noexcept;
+
     /// Prints the graph of the last submitted tile batch and the export graphs; empty before the
     /// first.
     [[nodiscard]] std::string print(GraphFormat format) const;
@@ -78,6 +82,7 @@ private:
     void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
+    bool timestamps_;
     passes::RecordContext context_;  // of the tile batch that is being recorded
     passes::ComputeLayout layout_;
     PipelineSet passes_;
@@ -86,6 +91,7 @@ private:
     passes::ExportField export_field_;
     passes::ExportRecords export_records_;
     passes::ExportSamples export_samples_;
+    passes::ExportHeaders export_headers_;
     std::vector<std::shared_ptr<CompiledGraph>> graphs_;
     std::shared_ptr<const CompiledGraph> last_graph_;
     bool last_had_fields_ = false;  // among the resident outputs of the last batch

@@ -1,3 +1,4 @@
+#include <engine/base/unique_numbers.hpp>
 #include <engine/graph/access.hpp>
 #include <engine/render/resident_buffers.hpp>
 
@@ -5,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace nearfield::render {
 namespace {
@@ -20,6 +22,10 @@ std::uint64_t bytes_of_records(const plan::RecordsOutput& records) {
 std::uint64_t bytes_of_samples(const plan::SamplesOutput& samples) {
     return sizeof(IntersectionSummaryData) +
            std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
+}
+
+std::uint64_t bytes_of_blocks(const plan::RecordsOutput& records) {
+    return std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData);
 }
 
 std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
@@ -41,12 +47,21 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
       layout_(&layout),
       tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
               "nearfield export tables"),
-      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+      records_(device,
+               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                   VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                gpu::Direction::none, "nearfield resident records") {}
 
 void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
     resident_ = &resident;
-    for (std::size_t i = 0; i < resident.fields.size(); ++i) {
+    reserve_images();
+    lay_out_buffer();
+    upload_tables();
+    make_sets();
+}
+
+void ResidentBuffers::reserve_images() {
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         if (i == images_.size()) {
             const std::string number = std::to_string(i);
             images_.push_back({gpu::KeptImage(*device_, VK_FORMAT_R32_SFLOAT,
@@ -54,48 +69,68 @@ void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
                                gpu::KeptImage(*device_, VK_FORMAT_R32_UINT,
                                               "nearfield resident feature id " + number)});
         }
-        const VkExtent2D extent{resident.fields[i].width, resident.fields[i].height};
-        images_[i].signed_distance.reserve(extent);
-        images_[i].feature.reserve(extent);
+        const VkExtent2D extent{resident_->fields[i].width, resident_->fields[i].height};
+        const bool grown = images_[i].signed_distance.reserve(extent);
+        if (images_[i].feature.reserve(extent) || grown) {
+            revision_ = next_revision();
+        }
     }
-    lay_out_buffer();
-    upload_tables();
-    make_sets();
+}
+
+bool ResidentBuffers::grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
+                           std::uint64_t blocks) {
+    const bool is_new = i == places.size();
+    if (is_new) {
+        places.emplace_back();
+    }
+    Place& place = places[i];
+    const bool fits = records <= place.record_bytes && blocks <= place.block_bytes;
+    if (!fits) {
+        // Half as much again: the number of points varies from frame to frame.
+        place.record_bytes = std::max(place.record_bytes, records + records / 2);
+        place.block_bytes = std::max(place.block_bytes, blocks + blocks / 2);
+    }
+    return is_new || !fits;
 }
 
 void ResidentBuffers::lay_out_buffer() {
-    places_.clear();
-    sample_places_.clear();
-    std::uint64_t end = 0;
-    for (const plan::RecordsOutput& records : resident_->records) {
+    bool moves = false;
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
+        moves = grow(field_places_, i, 0, 0) || moves;
+    }
+    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
+        const plan::RecordsOutput& records = resident_->records[i];
         require_range(*device_, bytes_of_records(records), "the records");
-        places_.push_back(
-            place_at(end, bytes_of_records(records),
-                     std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData)));
-        end = places_.back().end;
+        moves = grow(places_, i, bytes_of_records(records), bytes_of_blocks(records)) || moves;
     }
-    for (const plan::SamplesOutput& samples : resident_->samples) {
+    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
+        const plan::SamplesOutput& samples = resident_->samples[i];
         require_range(*device_, bytes_of_samples(samples), "the samples that stay");
-        sample_places_.push_back(
-            place_at(end, bytes_of_samples(samples), bytes_of_blocks(samples)));
-        end = sample_places_.back().end;
+        moves =
+            grow(sample_places_, i, bytes_of_samples(samples), bytes_of_blocks(samples)) || moves;
     }
-    if (end > 0) {
-        records_.reserve(end);
+    if (moves) {
+        move_places();
     }
 }
 
-/// Places records and blocks of these sizes, in bytes, behind `end`.
-ResidentBuffers::Place ResidentBuffers::place_at(std::uint64_t end, std::uint64_t records,
-                                                 std::uint64_t blocks) const {
+/// Lays out all places anew.
+void ResidentBuffers::move_places() {
     const std::uint64_t step =
         std::max<std::uint64_t>(device_->limits().minStorageBufferOffsetAlignment, smallest_part);
-    const auto align = [step](std::uint64_t offset) { return (offset + step - 1) / step * step; };
-    Place place;
-    place.records = align(end);
-    place.blocks = align(place.records + records);
-    place.end = place.blocks + std::max(blocks, smallest_part);
-    return place;
+    std::uint64_t end = 0;
+    const auto place = [&end, step](std::uint64_t bytes) {
+        return std::exchange(end, (end + bytes + step - 1) / step * step);
+    };
+    for (std::vector<Place>* const places : {&field_places_, &places_, &sample_places_}) {
+        for (Place& each : *places) {
+            each.header = place(sizeof(ResidentHeaderData));
+            each.records = place(each.record_bytes);
+            each.blocks = place(std::max(each.block_bytes, smallest_part));
+        }
+    }
+    records_.reserve(end);
+    revision_ = next_revision();
 }
 
 void ResidentBuffers::upload_tables() {
@@ -114,6 +149,8 @@ void ResidentBuffers::make_sets() {
     append_sets(resident_->point_runs.size() + resident_->records.size() +
                     2 * resident_->sample_runs.size() + resident_->samples.size(),
                 sets_of_buffers_);
+    append_sets(resident_->fields.size() + resident_->records.size() + resident_->samples.size(),
+                sets_of_headers_);
 }
 
 void ResidentBuffers::append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own) {
@@ -132,11 +169,42 @@ void ResidentBuffers::bind_words(VkDescriptorSet set, const BufferPart& words) c
                           std::max(bytes_of(resident_->tables), smallest_part));
 }
 
-void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place) const {
-    layout_->write_buffer(set, Layout::records, records_.handle(), place.records,
-                          place.blocks - place.records);
+/// `bytes`: of the summary and what follows it.
+void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place,
+                                   std::uint64_t bytes) const {
+    layout_->write_buffer(set, Layout::records, records_.handle(), place.records, bytes);
     layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.blocks,
-                          place.end - place.blocks);
+                          std::max(place.block_bytes, smallest_part));
+}
+
+void ResidentBuffers::bind_headers() {
+    headers_.clear();
+    std::span<const VkDescriptorSet> sets = std::span(sets_).last(
+        resident_->fields.size() + resident_->records.size() + resident_->samples.size());
+    const auto add = [&](const geometry::Vector& origin, double cell, const Place& place,
+                         std::uint64_t summary) -> passes::ExportHeaders::Header& {
+        const VkDescriptorSet set = take(sets, 1).front();
+        layout_->write_buffer(set, Layout::records, records_.handle(), summary, smallest_part);
+        layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.header,
+                              sizeof(ResidentHeaderData));
+        return headers_.emplace_back(passes::ExportHeaders::Header{
+            {static_cast<float>(origin.x()), static_cast<float>(origin.y())},
+            static_cast<float>(cell)});
+    };
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
+        const plan::FieldOutputs& field = resident_->fields[i];
+        auto& header = add(field.origin, field.cell, field_places_[i], field_places_[i].blocks);
+        header.width = field.width;
+        header.height = field.height;
+    }
+    for (std::size_t i = 0; i < resident_->records.size(); ++i) {
+        const plan::RecordsOutput& records = resident_->records[i];
+        add(records.origin, records.cell, places_[i], places_[i].records);
+    }
+    for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
+        const plan::SamplesOutput& samples = resident_->samples[i];
+        add(samples.origin, samples.cell, sample_places_[i], sample_places_[i].records);
+    }
 }
 
 void ResidentBuffers::bind(std::span<const Words> words, const BufferPart& none,
@@ -147,6 +215,7 @@ void ResidentBuffers::bind(std::span<const Words> words, const BufferPart& none,
     bind_fields(words, sets);
     bind_points(words, none, sets);
     bind_samples(words, none, sets);
+    bind_headers();
 }
 
 void ResidentBuffers::bind_fields(std::span<const Words> words,
@@ -172,14 +241,14 @@ void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart
         for (const VkDescriptorSet set : take(sets, records.run_count)) {
             const plan::PointRunOutput& run = resident_->point_runs[number++];
             bind_words(set, words[run.round].points);
-            bind_records(set, places_[i]);
+            bind_records(set, places_[i], bytes_of_records(records));
             constexpr std::uint32_t words_of_details =
                 sizeof(plan::PointDetails) / sizeof(std::uint32_t);
             details_.push_back(words[run.round].point_count + words_of_details * run.first);
         }
         const VkDescriptorSet last = take(sets, 1).front();
         bind_words(last, none);
-        bind_records(last, places_[i]);
+        bind_records(last, places_[i], bytes_of_records(records));
     }
 }
 
@@ -190,7 +259,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const BufferPar
         const auto bind = [&](const BufferPart& part) {
             const VkDescriptorSet set = take(sets, 1).front();
             bind_words(set, part);
-            bind_records(set, sample_places_[i]);
+            bind_records(set, sample_places_[i], bytes_of_samples(samples));
         };
         for (std::uint32_t number = 0; number < samples.run_count; ++number) {
             const Words& round = words[resident_->sample_runs[samples.first_run + number].round];
@@ -235,6 +304,10 @@ passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
             records_.handle()};
 }
 
+passes::ExportHeaders::Item ResidentBuffers::headers_item() const {
+    return {headers_, std::span(sets_).last(headers_.size()), records_.handle()};
+}
+
 ResidentState ResidentBuffers::state(graph::Access access) const {
     const graph::AccessTraits& traits = graph::traits(access);
     return {traits.stages, traits.access(), traits.layout, device_->queue_family()};
@@ -254,7 +327,9 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
             geometry::to_public(field.origin),
             field.cell,
             field.error_bound,
-            state(graph::Access::exported_image)};
+            state(graph::Access::exported_image),
+            header_at(field_places_[i]),
+            slot()};
 }
 
 ResidentRecords ResidentBuffers::records(std::size_t i) const {
@@ -265,7 +340,9 @@ ResidentRecords ResidentBuffers::records(std::size_t i) const {
             records.capacity,
             geometry::to_public(records.origin),
             records.error_bound,
-            state(graph::Access::exported_buffer)};
+            state(graph::Access::exported_buffer),
+            header_at(places_[i]),
+            slot()};
 }
 
 ResidentSamples ResidentBuffers::samples(std::size_t i) const {
@@ -277,7 +354,9 @@ ResidentSamples ResidentBuffers::samples(std::size_t i) const {
             geometry::to_public(samples.origin),
             samples.cell,
             samples.error_bound,
-            state(graph::Access::exported_buffer)};
+            state(graph::Access::exported_buffer),
+            header_at(sample_places_[i]),
+            slot()};
 }
 
 }  // namespace nearfield::render

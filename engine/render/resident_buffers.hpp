@@ -12,6 +12,7 @@
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
 #include <passes/export_field.hpp>
+#include <passes/export_headers.hpp>
 #include <passes/export_records.hpp>
 #include <passes/export_samples.hpp>
 
@@ -48,6 +49,7 @@ public:
     [[nodiscard]] passes::ExportField::Item field_item(std::size_t i) const;
     [[nodiscard]] passes::ExportRecords::Item records_item(std::size_t i) const;
     [[nodiscard]] passes::ExportSamples::Item samples_item(std::size_t i) const;
+    [[nodiscard]] passes::ExportHeaders::Item headers_item() const;
 
     /// The resident output of the i-th field, records or samples of the batch.
     [[nodiscard]] ResidentField field(std::size_t i) const;
@@ -59,15 +61,27 @@ private:
         gpu::KeptImage signed_distance;
         gpu::KeptImage feature;
     };
+    /// Where an output lies in the buffer: its header, and what the device writes beside it. A
+    /// field has a header alone.
     struct Place {
-        std::uint64_t records = 0;  ///< in the buffer: the summary, followed by records or samples
+        std::uint64_t header = 0;
+        std::uint64_t records = 0;  ///< the summary, followed by records or samples
         std::uint64_t blocks = 0;
-        std::uint64_t end = 0;
+        std::uint64_t record_bytes = 0;  ///< reserved
+        std::uint64_t block_bytes = 0;   ///< reserved
     };
 
+    void reserve_images();
     void lay_out_buffer();
-    [[nodiscard]] Place place_at(std::uint64_t end, std::uint64_t records,
-                                 std::uint64_t blocks) const;
+    void move_places();
+    /// Notes how much an output takes; returns whether its place is too small.
+    static bool grow(std::vector<Place>& places, std::size_t i, std::uint64_t records,
+                     std::uint64_t blocks);
+    void bind_headers();
+    [[nodiscard]] ResidentHeader header_at(const Place& place) const {
+        return {records_.handle(), place.header};
+    }
+    [[nodiscard]] ResidentSlot slot() const { return {0, revision_}; }
     void upload_tables();
     void make_sets();
     void append_sets(std::size_t count, std::vector<passes::DescriptorSets>& own);
@@ -77,7 +91,7 @@ private:
     void bind_samples(std::span<const Words> words, const BufferPart& none,
                       std::span<const VkDescriptorSet>& sets) const;
     void bind_words(VkDescriptorSet set, const BufferPart& words) const;
-    void bind_records(VkDescriptorSet set, const Place& place) const;
+    void bind_records(VkDescriptorSet set, const Place& place, std::uint64_t bytes) const;
     [[nodiscard]] ResidentState state(graph::Access access) const;
 
     const gpu::Device* device_;
@@ -85,17 +99,22 @@ private:
     const plan::ResidentOutputs* resident_ = nullptr;
     gpu::MappedBuffer tables_;
     gpu::MappedBuffer records_;
-    std::vector<Images> images_;          // by field
-    std::vector<Place> places_;           // by records
-    std::vector<Place> sample_places_;    // by samples
-    std::vector<std::uint32_t> details_;  // by run of points
+    std::vector<Images> images_;  // by field
+    // What was reserved stays, so that handles and offsets do: a batch uses the first ones of each.
+    std::vector<Place> field_places_;
+    std::vector<Place> places_;                           // by records
+    std::vector<Place> sample_places_;                    // by samples
+    std::uint64_t revision_ = 0;                          // see ResidentSlot
+    std::vector<std::uint32_t> details_;                  // by run of points
+    std::vector<passes::ExportHeaders::Header> headers_;  // of fields, records, samples
     // Fields, records and samples each have their own, so that everything that a set was ever bound
     // to is bound anew with every use: lavapipe reads bindings that no shader uses, and the objects
     // they refer to may be gone.
     std::vector<passes::DescriptorSets> sets_of_images_;
     std::vector<passes::DescriptorSets> sets_of_buffers_;
+    std::vector<passes::DescriptorSets> sets_of_headers_;
     /// By part of a field; then, for each records output, one per run and one more; then, for each
-    /// samples output, two per run and one more.
+    /// samples output, two per run and one more; then one per header.
     std::vector<VkDescriptorSet> sets_;
     VkBuffer words_ = VK_NULL_HANDLE;
     VkBuffer summaries_ = VK_NULL_HANDLE;

@@ -10,16 +10,28 @@ namespace nearfield::world {
 
 using geometry::TransformedPolygon;
 
+void Instances::require_own(InstanceHandle handle, const char* call) const {
+    if (handle.world != world_ && !(handle == InstanceHandle{})) {
+        throw StatusException({StatusCode::unknown_instance,
+                               std::string(call) + ": the instance of index " +
+                                   std::to_string(handle.index) + " is of another world (number " +
+                                   std::to_string(handle.world) + "; this one is number " +
+                                   std::to_string(world_) + ")"});
+    }
+}
+
 std::uint32_t Instances::find(InstanceHandle handle, const char* call) const {
+    require_own(handle, call);
     if (handle.index < entries_.size()) {
         const Entry& entry = entries_[handle.index];
         if (entry.present && entry.generation == handle.generation) {
             return handle.index;
         }
     }
-    throw StatusException({StatusCode::unknown_instance,
-                           std::string(call) + ": no instance of this world has index " +
-                               std::to_string(handle.index) + " and that generation"});
+    throw StatusException(
+        {StatusCode::unknown_instance, std::string(call) + ": the instance of index " +
+                                           std::to_string(handle.index) +
+                                           " was removed from this world, or never added to it"});
 }
 
 InstanceHandle Instances::add(const WorldInstance& instance) {
@@ -41,7 +53,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     entry.number = next_number_++;
     entry.polygon = nullptr;
     ++count_;
-    return {index, entry.generation};
+    return {index, entry.generation, world_};
 }
 
 void Instances::note_change(std::uint32_t index) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/unique_numbers.hpp>
 #include <engine/geometry/polygon.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/world/box_hierarchy.hpp>
@@ -32,6 +33,8 @@ struct FindShape {
 /// Between prepare() and the next change, any number of threads may read at the same time.
 class Instances {
 public:
+    /// Fails (unknown_instance) if the handle is of another world. `call`: for the message.
+    void require_own(InstanceHandle handle, const char* call) const;
     /// Fails (unknown_instance) if there is no such instance. `call`: for the message.
     [[nodiscard]] std::uint32_t find(InstanceHandle handle, const char* call) const;
     [[nodiscard]] InstanceHandle add(const WorldInstance& instance);
@@ -43,7 +46,7 @@ public:
         return entries_[index].instance;
     }
     [[nodiscard]] InstanceHandle handle(std::uint32_t index) const {
-        return {index, entries_[index].generation};
+        return {index, entries_[index].generation, world_};
     }
     [[nodiscard]] std::uint32_t count() const { return count_; }
     /// Indices are below this; some of them may be unused.
@@ -135,6 +138,7 @@ private:
     void note_change(std::uint32_t index);
     void place(std::uint32_t index);
 
+    std::uint32_t world_ = next_owner_number();
     std::deque<Entry> entries_;  // which stay where they are
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> changes_;

@@ -65,11 +65,15 @@ struct Settings {
     /// selects a technique that is left out, and a query that names one fails with
     /// StatusCode::unsupported_technique in its own result. Ignored by a context without a device.
     DeviceTechniques techniques = {};
+    /// False: no timestamps are written and no query pool is made, so Timings::passes is empty.
+    alignas(std::uint64_t) bool timestamps = true;  // begins a word: see read_versioned()
 };
 
-/// Names a batch in flight of one context. The default value names none.
+/// Names a batch in flight of one context. The default value names none. A ticket of another
+/// context is refused (unknown_ticket).
 struct Ticket {
-    std::uint64_t number = 0;  ///< counts the batches of a context from 1; 0: no batch
+    std::uint64_t number = 0;   ///< counts the batches of a context from 1; 0: no batch
+    std::uint32_t context = 0;  ///< number of the context, unique in the process
 
     /// True if both name the same batch of one context.
     friend bool operator==(const Ticket&, const Ticket&) = default;
@@ -89,8 +93,10 @@ struct MemoryUse {
 ///
 /// Lifetime: the destructor waits for the batches that the context submitted, and for nothing else
 /// on the device, then frees everything the context created. It does not wait for recorded batches:
-/// the device must have finished them, or never start them. A command buffer that holds a batch of
-/// a destroyed context must not be submitted; it can only be reset or freed.
+/// the device must have finished them, or never start them, and the host says so by
+/// frame_completed() first. Otherwise the destructor logs an error that names the open frames, and
+/// debug builds of the library end the program (assert). A command buffer that holds a batch of a
+/// destroyed context must not be submitted; it can only be reset or freed.
 ///
 /// Errors: after any error except device_lost the context remains usable. After device_lost, calls
 /// that can fail return device_lost and no more work goes to Vulkan. Destroy the context, which
@@ -139,12 +145,17 @@ public:
     /// `max_vertices` vertices, or the deviation is out of range.
     [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings,
                                                   double deviation = 0.0);
+    /// The same from the caller's own numbers.
+    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const RingView> rings,
+                                                  double deviation = 0.0);
 
     /// Replaces all rings of a shape; its handle stays valid. Nothing is rebuilt, so deforming a
     /// shape every frame costs one copy. Batches in flight are answered for the rings they were
     /// submitted with. Fails with unknown_shape and as add_shape() does; the shape then keeps its
     /// rings.
     Status update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation = 0.0);
+    /// The same from the caller's own numbers.
+    Status update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation = 0.0);
 
     /// Removes a shape. Its handle stays invalid from then on (unknown_shape). Batches in flight
     /// are answered as if the shape were still there.
@@ -275,6 +286,25 @@ public:
     [[nodiscard]] Expected<ResidentSamples> resident(Ticket ticket,
                                                      QueryHandle<IntersectionQuery> query);
 
+    /// What resident() will return for a query of a batch like this one: one entry for each of
+    /// Settings::batches_in_flight, at the position ResidentSlot::index. Makes room in all of them,
+    /// so that a host can write its descriptor sets before the first frame; they stay valid as long
+    /// as ResidentSlot::revision stays the same. Plans the batch once for each entry, and records
+    /// nothing.
+    ///
+    /// Fails with not_ready if a batch is in flight, and as submit() and resident() do.
+    [[nodiscard]] Expected<std::vector<ResidentField>> resident_layout(
+        const Batch& batch, QueryHandle<DistanceFieldQuery> query);
+    /// The same for the records of a penetration query.
+    [[nodiscard]] Expected<std::vector<ResidentRecords>> resident_layout(
+        const Batch& batch, QueryHandle<PenetrationQuery> query);
+    /// The same for contacts.
+    [[nodiscard]] Expected<std::vector<ResidentRecords>> resident_layout(
+        const Batch& batch, QueryHandle<ContactQuery> query);
+    /// The same for the samples of an intersection.
+    [[nodiscard]] Expected<std::vector<ResidentSamples>> resident_layout(
+        const Batch& batch, QueryHandle<IntersectionQuery> query);
+
     /// The costs by which Technique::automatic selects in this context.
     [[nodiscard]] const CostModel& costs() const noexcept;
 
@@ -283,6 +313,12 @@ public:
 
     /// The device memory of this context, now and at its peak.
     [[nodiscard]] MemoryUse memory_use() const noexcept;
+
+    /// Gives back the device memory that no batch in flight uses: buffers and images of the others,
+    /// which later batches make again at the size that they need. For after a spike, or a change of
+    /// scene. Handles of resident results of collected batches and from resident_layout() become
+    /// invalid. Never waits.
+    void trim() noexcept;
 
 private:
     class NEARFIELD_HIDDEN Implementation;

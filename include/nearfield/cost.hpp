@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
 /// \file
 /// The cost model of Technique::automatic: measured times of each technique for each kind of query.
 

@@ -1,7 +1,12 @@
 #pragma once
 
 /// \file
-/// Symbol visibility: which functions and classes the shared library exports.
+/// What every header needs: the language version, and symbol visibility (which functions and
+/// classes the shared library exports).
+
+#if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "nearfield needs C++20: compile with -std=c++20 (CMake: target_compile_features cxx_std_20)"
+#endif
 
 /// Marks the functions and classes of the public API that have code in the library. All other
 /// symbols are hidden; plain structures and templates need no mark. The static and the shared

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -94,6 +96,11 @@ struct HostDevice {
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     QueueAccess queue_access = {};  ///< default: only this context uses the queue
     Log log = {};                   ///< receives messages
+    /// True: submissions have no fence (VK_NULL_HANDLE) and signal a timeline semaphore of the
+    /// library's own instead, the last of VkSubmitInfo::pSignalSemaphores. For a host whose
+    /// `queue_access.submit` has a fence of its own for every submission. Needs
+    /// `timeline_semaphore` (StatusCode::invalid_settings otherwise).
+    bool completion_by_timeline = false;
 };
 
 /// Selects the device of a headless context.

@@ -19,6 +19,20 @@ const uint nearfield_touching_flag = 2u;    // too near the boundary to tell ins
 
 const uint nearfield_no_record = 0xffffffffu;
 
+// What there is of a resident output, and arguments that draw or dispatch as much (ResidentHeader in
+// resident.hpp). Of a field: its cells.
+struct NearfieldHeader {
+    uvec4 points;    // VkDrawIndirectCommand: one vertex for each record, sample or cell
+    uvec4 quads;     // VkDrawIndirectCommand: six vertices and one instance for each; a field: one
+    uint groups[3];  // VkDispatchIndirectCommand: 64 threads, one for each; a field: 8 x 8
+    uint count;      // stored records, samples or cells
+    vec2 origin;     // of the positions, or the low corner of a field's first cell
+    float cell;      // side of a cell
+    uint overflow;   // 1: more were found than there is space for; otherwise 0
+    uint width;      // of a field, in cells; otherwise 0
+    uint height;
+};
+
 struct NearfieldSummary {
     uint count;     // number of records
     uint capacity;  // reserved number of records; never less than count

@@ -324,10 +324,13 @@ struct ContainmentQuery {
     Technique technique = Technique::automatic;  ///< automatic or cpu
 };
 
-/// Names a query of a batch. Its result is a Query::Result.
+/// Names a query of a batch. Its result is a Query::Result. A handle from Batch::add() is refused
+/// (invalid_query) by results and tickets of any other batch, and of the same batch cleared and
+/// filled again.
 template <class Query>
 struct QueryHandle {
     std::uint32_t index = UINT32_MAX;  ///< position in the batch; UINT32_MAX: no query
+    std::uint64_t batch = 0;           ///< Batch::number(); 0: the position in any batch
 };
 
 /// One query of any kind.
@@ -343,17 +346,26 @@ public:
     /// of the batch (Results::operator[]).
     template <class Query>
     QueryHandle<Query> add(const Query& query) {
+        if (queries_.empty()) {
+            number_ = next_number();
+        }
         queries_.emplace_back(query);
-        return {static_cast<std::uint32_t>(queries_.size() - 1)};
+        return {static_cast<std::uint32_t>(queries_.size() - 1), number_};
     }
 
     /// Removes all queries.
     void clear() noexcept { queries_.clear(); }
     /// All queries in order. Borrowed until the batch changes.
     [[nodiscard]] std::span<const AnyQuery> queries() const noexcept { return queries_; }
+    /// Tells this filling of the batch from all others in the process: another one after clear(). 0
+    /// if nothing was ever added. A copy has the same number.
+    [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
 
 private:
+    NEARFIELD_EXPORT static std::uint64_t next_number() noexcept;
+
     std::vector<AnyQuery> queries_;
+    std::uint64_t number_ = 0;
 };
 
 }  // namespace nearfield

@@ -24,10 +24,32 @@ namespace nearfield {
 
 /// The synchronisation state in which the host's commands find a resident output.
 struct ResidentState {
-    VkPipelineStageFlags stages = 0;                   ///< vertex, fragment and compute shader
-    VkAccessFlags access = 0;                          ///< VK_ACCESS_SHADER_READ_BIT
+    /// Vertex, fragment and compute shader; of buffers also vertex input and indirect commands.
+    VkPipelineStageFlags stages = 0;
+    /// VK_ACCESS_SHADER_READ_BIT; of buffers also the reading of vertex attributes and of indirect
+    /// commands.
+    VkAccessFlags access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
     std::uint32_t queue_family = 0;                    ///< the owner; sharing is exclusive
+};
+
+/// Where the header of a resident output lies (ResidentHeaderData): what there is, for shaders, and
+/// the arguments of vkCmdDrawIndirect and vkCmdDispatchIndirect, written by the device. The buffer
+/// may be bound as a storage, indirect or vertex buffer, and copied from.
+struct ResidentHeader {
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
+    VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
+};
+
+/// Which of a context's resident handles these are. A host that writes descriptor sets once keeps
+/// one set for each slot, and writes it again only if the revision is another one.
+struct ResidentSlot {
+    /// The batch in flight that owns them, below Settings::batches_in_flight: two batches in flight
+    /// at the same time have different ones.
+    std::uint32_t index = 0;
+    /// Changes whenever a handle or an offset of any resident output of the slot does: when one
+    /// grows beyond what was reserved, when there are more of them, and by Context::trim().
+    std::uint64_t revision = 0;
 };
 
 /// One image of a field, with a view of all of it.
@@ -59,13 +81,15 @@ struct ResidentField {
     /// known before the field is computed and so assumes the largest possible distance: slightly
     /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    ResidentState state;  ///< once the device has executed the batch
+    ResidentState state;    ///< once the device has executed the batch
+    ResidentHeader header;  ///< of all cells
+    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };
 
 /// The records of a penetration or contact query (PenetrationQuery::resident,
 /// ContactQuery::resident): a buffer range with a SummaryData, then space for `capacity` records
 /// (RecordData); the summary has their number. The buffer may be bound as a storage buffer at this
-/// offset, and copied from.
+/// offset, or as a vertex or indirect buffer, and copied from.
 ///
 /// Records are in the order of their points: along A's rings, then, for contacts, along B's. If the
 /// batch takes several tile batches (more tiles than one atlas holds), that order holds within
@@ -94,12 +118,15 @@ struct ResidentRecords {
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger.
     double error_bound = 0.0;
-    ResidentState state;  ///< once the device has executed the batch
+    ResidentState state;    ///< once the device has executed the batch
+    ResidentHeader header;  ///< of the records
+    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };
 
 /// The samples of an intersection query (IntersectionQuery::resident): a buffer range with an
 /// IntersectionSummaryData, then space for `capacity` samples (IntersectionSampleData); the summary
-/// has their number. The buffer may be bound as a storage buffer at this offset, and copied from.
+/// has their number. The buffer may be bound as a storage buffer at this offset, or as a vertex or
+/// indirect buffer, and copied from.
 ///
 /// The samples are those of IntersectionResult::samples, in the same order: by region, then row by
 /// row from the low corner. The CPU does not know their number before the batch is collected. There
@@ -118,8 +145,32 @@ struct ResidentSamples {
     /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
     /// one as near.
     double error_bound = 0.0;
-    ResidentState state;  ///< once the device has executed the batch
+    ResidentState state;    ///< once the device has executed the batch
+    ResidentHeader header;  ///< of the samples
+    ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };
+
+/// NearfieldHeader of the GLSL header (std430): the size of a resident output, where it lies, and
+/// what draws or dispatches as much as there is. `count` is the number of cells of a field, or of
+/// the records or samples stored.
+struct ResidentHeaderData {
+    VkDrawIndirectCommand points{};      ///< one vertex for each, in one instance
+    VkDrawIndirectCommand quads{};       ///< six vertices and one instance for each; a field: one
+    VkDispatchIndirectCommand groups{};  ///< of 64 threads, one thread for each; a field: 8 x 8
+    std::uint32_t count = 0;             ///< stored; at most the capacity
+    /// Origin of the positions, or the low corner of a field's cell (0, 0), rounded to single
+    /// precision.
+    float origin[2]{};
+    float cell = 0.0F;           ///< side of a cell, world units
+    std::uint32_t overflow = 0;  ///< 1: more were found than there is space for; otherwise 0
+    std::uint32_t width = 0;     ///< cells along x of a field; otherwise 0
+    std::uint32_t height = 0;    ///< cells along y of a field; otherwise 0
+};
+static_assert(sizeof(ResidentHeaderData) == 72 && offsetof(ResidentHeaderData, quads) == 16 &&
+              offsetof(ResidentHeaderData, groups) == 32 &&
+              offsetof(ResidentHeaderData, count) == 44 &&
+              offsetof(ResidentHeaderData, origin) == 48 &&
+              offsetof(ResidentHeaderData, overflow) == 60);
 
 /// A feature id: a word that names the nearest part of a boundary, with two flags.
 namespace resident_feature {

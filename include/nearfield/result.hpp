@@ -405,14 +405,19 @@ using AnyResult =
 struct Results {
     std::vector<AnyResult> results;  ///< one per query, in order
     Timings timings;                 ///< of the batch as a whole
+    std::uint64_t batch = 0;         ///< Batch::number() of the batch
 
-    /// The result of a query. If the handle names none of these results, because its position is
-    /// out of range or its query is of another kind, a result whose status is invalid_query and
-    /// says so. Borrowed from the results.
+    /// The result of a query. If the handle names none of these results, because it is of another
+    /// batch, its position is out of range or its query is of another kind, a result whose status
+    /// is invalid_query and says so. Borrowed from the results.
     template <class Query>
     [[nodiscard]] const typename Query::Result& operator[](
         QueryHandle<Query> handle) const noexcept {
         using Result = typename Query::Result;
+        if (handle.batch != batch && handle.batch != 0) {
+            static const Result other_batch = no_result<Result>(NoResult::other_batch);
+            return other_batch;
+        }
         if (handle.index >= results.size()) {
             static const Result out_of_range = no_result<Result>(NoResult::out_of_range);
             return out_of_range;
@@ -425,7 +430,7 @@ struct Results {
     }
 
 private:
-    enum class NoResult : std::uint8_t { out_of_range /**< index */, other_kind /**< type */ };
+    enum class NoResult : std::uint8_t { other_batch, out_of_range, other_kind };
     NEARFIELD_EXPORT static Status status_of(NoResult fault) noexcept;
     template <class Result>
     static Result no_result(NoResult fault) noexcept {

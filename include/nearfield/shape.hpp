@@ -1,6 +1,10 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 /// \file
@@ -27,6 +31,37 @@ struct Vector2 {
 /// kept, so indices stay the caller's. Orientation does not matter.
 using Ring = std::vector<Vector2>;
 
+/// A ring in the caller's own numbers, which are read where they lie: vertex i is the pair
+/// numbers[i * stride], numbers[i * stride + 1]. What else lies between the pairs is ignored, so
+/// the vertices may be those of a mesh. Otherwise as Ring; numbers in single precision are exact in
+/// double precision. Borrowed, as a span is.
+///
+/// A stride below 2, or numbers that end within a pair, are invalid_shape where the ring is used.
+class RingView {
+public:
+    /// In double precision. `stride`: in numbers, from one vertex to the next.
+    explicit RingView(std::span<const double> numbers, std::size_t stride = 2) noexcept
+        : doubles_(numbers.data()), count_(numbers.size()), stride_(stride) {}
+    /// The same in single precision.
+    explicit RingView(std::span<const float> numbers, std::size_t stride = 2) noexcept
+        : floats_(numbers.data()), count_(numbers.size()), stride_(stride) {}
+
+    /// The numbers, from the first one to the last; null if they are in single precision.
+    [[nodiscard]] const double* doubles() const noexcept { return doubles_; }
+    /// The same in single precision; null if they are in double precision.
+    [[nodiscard]] const float* floats() const noexcept { return floats_; }
+    /// How many numbers there are.
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    /// From one vertex to the next, in numbers.
+    [[nodiscard]] std::size_t stride() const noexcept { return stride_; }
+
+private:
+    const double* doubles_ = nullptr;
+    const float* floats_ = nullptr;
+    std::size_t count_ = 0;
+    std::size_t stride_ = 2;
+};
+
 /// Maximum magnitude of a coordinate of a shape, pose, rectangle or point, and of a tolerance or
 /// distance.
 inline constexpr double largest_coordinate = 1e12;
@@ -38,10 +73,12 @@ inline constexpr double smallest_extent = 1e-20;
 /// Maximum number of vertices of all rings of a shape together.
 inline constexpr std::uint32_t max_vertices = 1U << 28U;
 
-/// Names a shape of one context. The default value names none.
+/// Names a shape of one context. The default value names none. A handle of another context, or of a
+/// shape that was removed, is refused (unknown_shape).
 struct ShapeHandle {
     std::uint32_t index = UINT32_MAX;  ///< assigned by the context; UINT32_MAX: no shape
     std::uint32_t generation = 0;      ///< distinguishes successive shapes with the same index
+    std::uint32_t context = 0;         ///< number of the context, unique in the process
 
     /// True if both name the same shape of one context.
     friend bool operator==(const ShapeHandle&, const ShapeHandle&) = default;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -40,8 +42,11 @@ struct Submission {
 /// The command buffer that Context::record() records a batch into.
 struct Recording {
     std::uint32_t structure_size = sizeof(Recording);  ///< leave unchanged
-    /// A primary command buffer of HostDevice::queue_family in the recording state, outside a
-    /// render pass, without an active occlusion query and without conditional rendering.
+    /// A command buffer of HostDevice::queue_family in the recording state, outside a render pass,
+    /// without an active occlusion query and without conditional rendering. A primary one; or a
+    /// secondary one, if no query is answered by Technique::raster, which begins render passes of
+    /// its own. Vulkan does not tell which it is: a host that records into secondary ones sets
+    /// Settings::techniques to {.raster = false}.
     VkCommandBuffer commands = VK_NULL_HANDLE;
     /// The host's number for the frame that the command buffer belongs to. Frames are numbered in
     /// the order of their submission.

@@ -24,10 +24,12 @@
 
 namespace nearfield {
 
-/// Names an instance of one world. The default value names none.
+/// Names an instance of one world. The default value names none. A handle of another world, or of
+/// an instance that was removed, is refused (unknown_instance).
 struct InstanceHandle {
     std::uint32_t index = UINT32_MAX;  ///< assigned by the world; UINT32_MAX: no instance
     std::uint32_t generation = 0;      ///< distinguishes successive instances with the same index
+    std::uint32_t world = 0;           ///< number of the world, unique in the process
 
     /// True if both name the same instance of one world.
     friend bool operator==(const InstanceHandle&, const InstanceHandle&) = default;
@@ -49,7 +51,8 @@ struct WorldInstance {
 struct WorldFilter {
     std::uint32_t category = UINT32_MAX;  ///< what the query stands for: a set of bits
     std::uint32_t mask = UINT32_MAX;      ///< the categories considered: a set of bits
-    InstanceHandle ignored = {};  ///< an instance to leave out, if it exists: the one dragged
+    /// An instance of this world to leave out, if it still exists: the one dragged.
+    InstanceHandle ignored = {};
 };
 
 /// One shape at many poses: World::test_poses().

@@ -69,8 +69,8 @@ void expect_lost(World& world, Ticket in_flight) {
               StatusCode::device_lost);
     context.frame_completed(recording.frame);
     EXPECT_TRUE(context.is_ready(in_flight));
-    EXPECT_EQ(context.add_shape({}).error().code(), StatusCode::device_lost);
-    EXPECT_EQ(context.update_shape({}, {}).code(), StatusCode::device_lost);
+    EXPECT_EQ(context.add_shape(std::span<const Ring>()).error().code(), StatusCode::device_lost);
+    EXPECT_EQ(context.update_shape({}, std::span<const Ring>()).code(), StatusCode::device_lost);
     EXPECT_EQ(context.remove_shape({}).code(), StatusCode::device_lost);
     EXPECT_EQ(context.find_pairs({}, 1.0).error().code(), StatusCode::device_lost);
     EXPECT_EQ(measure_costs(context).error().code(), StatusCode::device_lost);

@@ -21,3 +21,14 @@ for compiler in "$CXX" "$clang"; do
     printf '%s\0' "$compiler" -DVK_NO_PROTOTYPES nearfield.hpp
 done | xargs -0 -n 3 -P 2 bash -c 'compile "$@"' _
 printf '%s headers\n' "$(find . -name '*.hpp' | wc -l)"
+
+# An older language version: the first error of each header names the one that it takes.
+for compiler in "$CXX" "$clang"; do
+    for header in *.hpp; do
+        first=$(printf '#include <nearfield/%s>\n' "$header" |
+            "$compiler" -x c++ -std=c++17 -fsyntax-only "-I$prefix/include" - 2>&1 |
+            grep -m 1 'error:' || true)
+        [[ $first == *'nearfield needs C++20'* ]] ||
+            fail "$header under C++17: the first error is '$first'"
+    done
+done

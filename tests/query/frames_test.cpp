@@ -168,10 +168,13 @@ TEST_F(Frames, OfTwoContextsDoNotMeet) {
     settings.batches_in_flight = 1;
     Expected<Context> second = Context::create(host_device(), drawing(settings));
     ASSERT_TRUE(second.has_value()) << second.error().text();
-    ASSERT_TRUE(second->add_shape(rings_a_).has_value() && second->add_shape(rings_b_).has_value());
+    const Expected<ShapeHandle> a = second->add_shape(rings_a_);
+    const Expected<ShapeHandle> b = second->add_shape(rings_b_);
+    ASSERT_TRUE(a.has_value() && b.has_value());
     const std::vector<double> expected = run(batch(0));
-    // The handles of the first two shapes are equal in both contexts.
     const Ticket here = submit(batch(0));
+    a_ = *a;
+    b_ = *b;
     const Expected<Ticket> there = second->submit(batch(0));
     ASSERT_TRUE(there.has_value()) << there.error().text();
     Results results;

@@ -4,6 +4,9 @@
 #include <tests/support/host_frames.hpp>
 
 #include <array>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -260,8 +263,112 @@ TEST_F(Recorded, BatchesDoNotKeepAContextFromGoing) {
     host.wait(0);  // complete, but neither reported nor collected
     (void)record(batch(1), host.begin(1), 1);
     host.abandon(1);  // never begun
+    counted().frame_completed(1);
     destroy();
     EXPECT_EQ(calls.submissions + calls.waits, 0);
+}
+
+TEST_F(Recorded, OpenFramesAreNamedWhenTheContextGoes) {
+    std::vector<std::string> errors;
+    HostDevice device = host_device();
+    device.log = {&errors, [](void* user, LogLevel level, const char* message) {
+                      if (level == LogLevel::error) {
+                          static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+                      }
+                  }};
+    HostFrames host(host_device(), 3);
+    Settings settings;
+    settings.batches_in_flight = 4;
+    for (const bool told : {true, false}) {
+        auto going = std::make_optional(*Context::create(device, drawing(settings)));
+        a_ = *going->add_shape(regular(5));
+        b_ = *going->add_shape(regular(7));
+        const auto record = [&](std::uint64_t frame) {
+            return *going->record(small(), {.commands = host.begin(frame), .frame = frame});
+        };
+        const Ticket collected = record(7);
+        host.submit(7);
+        host.wait(7);
+        going->frame_completed(7);
+        Results results;
+        ASSERT_TRUE(going->collect(collected, results).ok());
+        for (const std::uint64_t frame : {8U, 9U}) {
+            (void)record(frame);
+            host.submit(frame);
+            host.wait(frame);
+        }
+        ASSERT_TRUE(going->submit(small()).has_value());  // waited for, not one of the host's
+        if (told) {
+            going->frame_completed(9);
+            going.reset();
+            EXPECT_EQ(errors, std::vector<std::string>{});
+            continue;
+        }
+#ifdef NDEBUG
+        going.reset();
+        ASSERT_EQ(errors.size(), 1U);
+        EXPECT_NE(errors[0].find("frames may still run: 8, 9;"), std::string::npos) << errors[0];
+#else
+        EXPECT_DEATH(going.reset(), "before its frames were complete");
+        going->frame_completed(9);
+#endif
+    }
+}
+
+TEST_F(Recorded, FramesThatCountAsCompleteSayWhy) {
+    make(3);
+    HostFrames host(host_device(), 1);
+    const VkCommandBuffer commands = host.begin(0);
+    const auto message = [&](std::uint64_t frame) {
+        return counted().record(small(), {.commands = commands, .frame = frame}).error().message();
+    };
+    (void)record(small(), commands, 11);
+    const std::string inferred = message(8);
+    EXPECT_NE(inferred.find("recorded for frame 11 and batches_in_flight is 3"), std::string::npos)
+        << inferred;
+    EXPECT_EQ(inferred.find("host said"), std::string::npos) << inferred;
+    counted().frame_completed(9);
+    const std::string said = message(9);
+    EXPECT_NE(said.find("host said"), std::string::npos) << said;
+    EXPECT_NE(said.find("frame 9 and all before"), std::string::npos) << said;
+    host.abandon(0);
+    counted().frame_completed(11);
+}
+
+TEST_F(Recorded, ComputeBatchesRunInSecondaryCommandBuffers) {
+    // A host that records into secondary command buffers leaves out the raster, so no technique
+    // begins a render pass.
+    Settings settings;
+    settings.techniques = {.raster = false};
+    make(settings);
+    Batch batch;
+    const Instance here{a_, {}};
+    const Instance there{b_, {{0.4, 0.1}, 0.3}};
+    for (const Technique technique : {Technique::compute, Technique::automatic}) {
+        PenetrationQuery depths{here, there, 0.03};
+        ContactQuery contacts{here, there, 0.03, 0.05};
+        IntersectionQuery overlap{here, there, 0.03};
+        DistanceFieldQuery field{here, there, 0.03};
+        depths.technique = contacts.technique = overlap.technique = field.technique = technique;
+        contacts.resident = overlap.resident = field.resident = true;
+        batch.add(depths);
+        batch.add(contacts);
+        batch.add(overlap);
+        batch.add(field);
+    }
+    const std::vector<double> expected = run(batch);
+    ASSERT_GT(expected.size(), 1000U);
+    calls = {};
+    HostFrames host(host_device(), 1);
+    const test_support::SecondaryCommands secondary(host_device());
+    const Ticket ticket = record(batch, secondary.begin(), 0);
+    secondary.execute_in(host.begin(0));
+    host.submit(0);
+    host.wait(0);
+    counted().frame_completed(0);
+    EXPECT_EQ(collect(ticket), expected);
+    EXPECT_EQ(calls.render_passes, 0);
+    EXPECT_GT(calls.recordings, 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace nearfield::test {
 namespace {
@@ -80,9 +81,87 @@ TEST_F(HostTable, Threads) {
     HostDevice half = locking;
     half.queue_access.unlock = nullptr;
     const Status status = Context::create(half).error();
-    EXPECT_EQ(status.code(), StatusCode::unsupported_device);
-    ASSERT_EQ(status.reasons().size(), 1U);
-    EXPECT_NE(status.reasons()[0].find("queue_access.unlock"), std::string::npos);
+    EXPECT_EQ(status.code(), StatusCode::invalid_settings);
+    EXPECT_NE(status.message().find("queue_access.unlock is null"), std::string::npos)
+        << status.text();
+    std::swap(half.queue_access.lock, half.queue_access.unlock);
+    EXPECT_NE(Context::create(half).error().message().find("queue_access.lock is null"),
+              std::string::npos);
+}
+
+/// A host whose submissions all have a fence of its own.
+struct FencedQueue {
+    HostDevice host;
+    VkFence fence = VK_NULL_HANDLE;
+    int submissions = 0;
+    int fences_given = 0;
+
+    explicit FencedQueue(const HostDevice& device) : host(device) {
+        VkFenceCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        EXPECT_EQ(test_support::host_function<PFN_vkCreateFence>(host, "vkCreateFence")(
+                      host.device, &info, nullptr, &fence),
+                  VK_SUCCESS);
+    }
+    ~FencedQueue() {
+        test_support::host_function<PFN_vkDestroyFence>(host, "vkDestroyFence")(host.device, fence,
+                                                                                nullptr);
+    }
+    FencedQueue(const FencedQueue&) = delete;
+    FencedQueue& operator=(const FencedQueue&) = delete;
+
+    VkResult submit(std::uint32_t count, const VkSubmitInfo* infos, VkFence given) {
+        ++submissions;
+        fences_given += given == VK_NULL_HANDLE ? 0 : 1;
+        const VkResult result = test_support::host_function<PFN_vkQueueSubmit>(
+            host, "vkQueueSubmit")(host.queue, count, infos, fence);
+        test_support::host_function<PFN_vkWaitForFences>(host, "vkWaitForFences")(
+            host.device, 1, &fence, VK_TRUE, UINT64_MAX);
+        test_support::host_function<PFN_vkResetFences>(host, "vkResetFences")(host.device, 1,
+                                                                              &fence);
+        return result;
+    }
+};
+
+TEST_F(HostTable, FencesOfTheHost) {
+    test_support::Enabled enabled;
+    enabled.timeline_semaphore = true;
+    HostDevice device = make_host(enabled);
+    const bool has_timelines = device.timeline_semaphore;
+    device.timeline_semaphore = false;
+    device.completion_by_timeline = true;
+    const Status status = Context::create(device).error();
+    EXPECT_EQ(status.code(), StatusCode::invalid_settings);
+    EXPECT_NE(status.message().find("completion_by_timeline"), std::string::npos) << status.text();
+    if (!has_timelines) {
+        return;
+    }
+    std::vector<double> expected;
+    {
+        Context context = make(host());
+        const Scene scene(context);
+        expected = scene.run(scene.every());
+    }
+    device.timeline_semaphore = true;
+    FencedQueue queue(device);
+    device.queue = VK_NULL_HANDLE;
+    device.queue_access.user = &queue;
+    device.queue_access.submit = [](void* user, std::uint32_t count, const VkSubmitInfo* infos,
+                                    VkFence fence) {
+        return static_cast<FencedQueue*>(user)->submit(count, infos, fence);
+    };
+    {
+        Context context = make(device);
+        const Scene scene(context);
+        for (int round = 0; round < 3; ++round) {
+            EXPECT_EQ(scene.run(scene.every()), expected);
+        }
+        const Expected<Ticket> in_flight = context.submit(scene.small());
+        ASSERT_TRUE(in_flight.has_value());
+        EXPECT_TRUE(context.is_ready(*in_flight));
+    }
+    EXPECT_GE(queue.submissions, 4);
+    EXPECT_EQ(queue.fences_given, 0);
 }
 
 }  // namespace

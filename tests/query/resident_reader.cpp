@@ -70,6 +70,11 @@ RecordsContents ResidentReader::read(const ResidentRecords& records) {
     return contents;
 }
 
+ResidentHeaderData ResidentReader::read(const ResidentHeader& header, const ResidentState& state) {
+    return structure_at<ResidentHeaderData>(
+        gpu_.read(header.buffer, header.offset, sizeof(ResidentHeaderData), state), 0);
+}
+
 SamplesContents ResidentReader::read(const ResidentSamples& samples) {
     const std::vector<std::uint32_t> words =
         gpu_.read(samples.buffer, samples.offset, samples.size, samples.state);

@@ -59,6 +59,8 @@ public:
     [[nodiscard]] FieldContents read(const ResidentField& field);
     [[nodiscard]] RecordsContents read(const ResidentRecords& records);
     [[nodiscard]] SamplesContents read(const ResidentSamples& samples);
+    /// The header of an output in this state of a buffer.
+    [[nodiscard]] ResidentHeaderData read(const ResidentHeader& header, const ResidentState& state);
 
 private:
     test_support::HostGpu gpu_;

@@ -283,7 +283,10 @@ void ResidentView::record(VkCommandBuffer commands, const Subject& subject,
         gpu_.vkCmdDraw(commands, vertices, instances, 0, 0);
     };
     draw(field_pipeline_, 3, 1);
-    draw(samples_pipeline_, 6, overlap.capacity);
+    gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, samples_pipeline_);
+    gpu_.vkCmdDrawIndirect(commands, overlap.header.buffer,
+                           overlap.header.offset + offsetof(ResidentHeaderData, quads), 1,
+                           sizeof(VkDrawIndirectCommand));
     draw(arrows_pipeline_, 9, contacts.capacity);
     gpu_.vkCmdEndRenderPass(commands);
 }

@@ -84,6 +84,43 @@ void HostFrames::wait(std::uint64_t frame) {
                     "vkWaitForFences");
 }
 
+SecondaryCommands::SecondaryCommands(const HostDevice& host) : host_(host) {
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.queueFamilyIndex = host.queue_family;
+    require_success(NEARFIELD_HOST_CALL(vkCreateCommandPool)(host_.device, &pool, nullptr, &pool_),
+                    "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo commands{};
+    commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    commands.commandPool = pool_;
+    commands.level = VK_COMMAND_BUFFER_LEVEL_SECONDARY;
+    commands.commandBufferCount = 1;
+    require_success(
+        NEARFIELD_HOST_CALL(vkAllocateCommandBuffers)(host_.device, &commands, &commands_),
+        "vkAllocateCommandBuffers");
+}
+
+SecondaryCommands::~SecondaryCommands() {
+    NEARFIELD_HOST_CALL(vkDestroyCommandPool)(host_.device, pool_, nullptr);
+}
+
+VkCommandBuffer SecondaryCommands::begin() const {
+    VkCommandBufferInheritanceInfo outside{};
+    outside.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_INHERITANCE_INFO;
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    info.pInheritanceInfo = &outside;
+    require_success(NEARFIELD_HOST_CALL(vkBeginCommandBuffer)(commands_, &info),
+                    "vkBeginCommandBuffer");
+    return commands_;
+}
+
+void SecondaryCommands::execute_in(VkCommandBuffer primary) const {
+    require_success(NEARFIELD_HOST_CALL(vkEndCommandBuffer)(commands_), "vkEndCommandBuffer");
+    NEARFIELD_HOST_CALL(vkCmdExecuteCommands)(primary, 1, &commands_);
+}
+
 #undef NEARFIELD_HOST_CALL
 
 }  // namespace nearfield::test_support

@@ -43,4 +43,23 @@ private:
     std::vector<Frame> frames_;
 };
 
+/// A secondary command buffer of a host, outside a render pass. Throws as HostFrames does.
+class SecondaryCommands {
+public:
+    explicit SecondaryCommands(const HostDevice& host);
+    ~SecondaryCommands();
+    SecondaryCommands(const SecondaryCommands&) = delete;
+    SecondaryCommands& operator=(const SecondaryCommands&) = delete;
+
+    /// Begins recording.
+    [[nodiscard]] VkCommandBuffer begin() const;
+    /// Ends recording and executes it in a primary command buffer.
+    void execute_in(VkCommandBuffer primary) const;
+
+private:
+    HostDevice host_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+};
+
 }  // namespace nearfield::test_support

@@ -20,6 +20,7 @@
     X(vkCmdCopyBuffer)               \
     X(vkCmdCopyImageToBuffer)        \
     X(vkCmdDraw)                     \
+    X(vkCmdDrawIndirect)             \
     X(vkCmdEndRenderPass)            \
     X(vkCmdPipelineBarrier)          \
     X(vkCmdPushConstants)            \

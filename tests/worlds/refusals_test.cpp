@@ -221,6 +221,47 @@ TEST_F(WorldRefusals, OfInstancesThatAreNotThere) {
     }
 }
 
+TEST_F(WorldRefusals, OfHandlesOfAnotherWorld) {
+    Scene other({{"square", rectangle({0, 0}, {1, 1}), {}}});
+    const InstanceHandle foreign = other.handle(0);
+    ASSERT_EQ(foreign.index, scene_.handle(0).index);
+    ASSERT_EQ(foreign.generation, scene_.handle(0).generation);
+    const std::string words = ": the instance of index 0 is of another world";
+    constexpr StatusCode code = StatusCode::unknown_instance;
+    expect(world().move(foreign, {}), code, "move" + words);
+    expect(world().set_filter(foreign, 2, 2), code, "set_filter" + words);
+    expect(world().remove(foreign), code, "remove" + words);
+    expect(world().instance(foreign).error(), code, "instance" + words);
+    // The shapes of another context, in a world of this one.
+    expect(world().add({other.add_shape(rectangle({0, 0}, {1, 1})), {}}).error(),
+           StatusCode::unknown_shape, "is of another context");
+    // An instance to ignore, which would otherwise be another one here.
+    const WorldFilter filter{.ignored = foreign};
+    const std::vector<Pose> poses(1);
+    const std::vector<Vector2> points(1);
+    const std::vector<Segment> segments(1);
+    const std::vector<Sweep> sweeps(1);
+    const std::vector<Rectangle> rectangles(1);
+    std::vector<std::uint8_t> intersects(1);
+    std::vector<Clearance> clearances(1);
+    std::vector<NearestHit> nearest(1);
+    std::vector<RayHit> rays(1);
+    std::vector<ShapeCastHit> casts(1);
+    RayHits all;
+    InstanceLists lists;
+    World& asked = world();
+    expect(asked.test_poses({item_, filter}, poses, intersects), code, "test_poses" + words);
+    expect(asked.find_clearances({item_, filter}, poses, clearances), code,
+           "find_clearances" + words);
+    expect(asked.find_nearest({.filter = filter}, points, nearest), code, "find_nearest" + words);
+    expect(asked.cast_rays(segments, rays, filter), code, "cast_rays" + words);
+    expect(asked.cast_rays(segments, all, filter), code, "cast_rays" + words);
+    expect(asked.cast_shape({item_, filter, 1e-3}, sweeps, casts), code, "cast_shape" + words);
+    expect(asked.find_overlaps(rectangles, lists, filter), code, "find_overlaps" + words);
+    expect(asked.find_overlaps(points, lists, filter), code, "find_overlaps" + words);
+    expect(asked.find_overlaps({item_, filter}, poses, lists), code, "find_overlaps" + words);
+}
+
 TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     RayHits rays;
     InstanceLists lists;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/execute.hpp>
+#include <engine/graph/graph.hpp>
+#include <nearfield/diagnostics.hpp>
+#include <passes/compute_layout.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace nearfield::passes {
+
+/// The last pass of a batch with resident outputs: the header of each (ResidentHeaderData), in a
+/// separate graph (see ExportField).
+class ExportHeaders {
+public:
+    ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
+    ExportHeaders(const ExportHeaders&) = delete;
+    ExportHeaders& operator=(const ExportHeaders&) = delete;
+
+    /// The push constants of one header; see the shader.
+    struct Header {
+        float origin[2]{};
+        float cell = 0.0F;
+        std::uint32_t width = 0;
+        std::uint32_t height = 0;
+    };
+    struct Item {
+        std::span<const Header> headers;
+        std::span<const VkDescriptorSet> sets;  ///< by header
+        VkBuffer buffer = VK_NULL_HANDLE;       ///< of headers and summaries
+    };
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+
+    [[nodiscard]] std::string print(GraphFormat format) const;
+
+private:
+    void dispatch(VkCommandBuffer commands) const;
+
+    const gpu::Device* device_;
+    VkPipelineLayout layout_;
+    gpu::Owned<VkPipeline> pipeline_;
+    graph::Graph graph_;
+    graph::Handle headers_;
+    std::unique_ptr<graph::Executor> executor_;
+    Item item_;
+};
+
+}  // namespace nearfield::passes

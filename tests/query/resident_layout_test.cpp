@@ -1,0 +1,268 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/resident_test.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 8700;
+
+/// A shape that may turn, in a context of its own, and one query of each kind of resident output.
+class ResidentLayout : public Resident {
+protected:
+    void SetUp() override {
+        Resident::SetUp();
+        Settings settings;
+        settings.batches_in_flight = frames;
+        Expected<Context> made = Context::create(host_device(), drawing(settings));
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        made_.emplace(std::move(*made));
+        Random random(seed);
+        shape_ = *made_->add_shape(coast(random, 120, 0.5));
+        other_ = *made_->add_shape(with_holes(random, 3));
+    }
+    void TearDown() override {
+        made_.reset();
+        Resident::TearDown();
+    }
+
+    struct Asked {
+        Batch batch;
+        QueryHandle<DistanceFieldQuery> field;
+        QueryHandle<PenetrationQuery> depths;
+        QueryHandle<ContactQuery> contacts;
+        QueryHandle<IntersectionQuery> overlap;
+        QueryHandle<IntersectionQuery> counted;
+    };
+    [[nodiscard]] Asked ask(double angle, double tolerance = 0.03) const {
+        Asked asked;
+        const Instance a{shape_, {{0.1, 0.0}, angle}};
+        const Instance b{other_, {}};
+        DistanceFieldQuery field;
+        field.b = b;
+        field.tolerance = tolerance;
+        field.rectangle = Rectangle{{-1.5, -1.25}, {1.0, 1.5}};
+        field.resident = true;
+        PenetrationQuery depths{a, b, tolerance};
+        ContactQuery contacts{a, b, tolerance, 0.05};
+        IntersectionQuery overlap{a, b, tolerance};
+        depths.resident = contacts.resident = overlap.resident = true;
+        IntersectionQuery counted = overlap;
+        counted.resident_samples = false;
+        asked.field = asked.batch.add(field);
+        asked.depths = asked.batch.add(depths);
+        asked.contacts = asked.batch.add(contacts);
+        asked.overlap = asked.batch.add(overlap);
+        asked.counted = asked.batch.add(counted);
+        return asked;
+    }
+
+    [[nodiscard]] Context& made() { return *made_; }
+
+    static constexpr std::uint32_t frames = 3;
+    ShapeHandle shape_;
+    ShapeHandle other_;
+
+private:
+    std::optional<Context> made_;
+};
+
+/// The arguments of a header for this many points.
+void expect_arguments(const ResidentHeaderData& header, std::uint32_t count) {
+    EXPECT_EQ(header.count, count);
+    EXPECT_EQ(header.points.vertexCount, count);
+    EXPECT_EQ(header.points.instanceCount, 1U);
+    EXPECT_EQ(header.quads.vertexCount, 6U);
+    EXPECT_EQ(header.quads.instanceCount, count);
+    EXPECT_EQ(header.groups.x, (count + 63) / 64);
+    EXPECT_EQ(header.groups.y, 1U);
+    EXPECT_EQ(header.groups.z, 1U);
+    EXPECT_EQ(header.points.firstVertex + header.points.firstInstance + header.quads.firstVertex +
+                  header.quads.firstInstance + header.width + header.height,
+              0U);
+}
+
+template <class Output>
+void expect_frame(const ResidentHeaderData& header, const Output& output) {
+    EXPECT_EQ(header.origin[0], static_cast<float>(output.origin.x));
+    EXPECT_EQ(header.origin[1], static_cast<float>(output.origin.y));
+}
+
+TEST_F(ResidentLayout, HeadersSayWhatThereIs) {
+    for (const double angle : {0.0, 0.4, 1.7}) {
+        const Asked asked = ask(angle);
+        const Expected<Ticket> ticket = made().submit(asked.batch);
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+        const auto field = made().resident(*ticket, asked.field);
+        const auto depths = made().resident(*ticket, asked.depths);
+        const auto contacts = made().resident(*ticket, asked.contacts);
+        const auto overlap = made().resident(*ticket, asked.overlap);
+        const auto counted = made().resident(*ticket, asked.counted);
+        ASSERT_TRUE(field && depths && contacts && overlap && counted);
+        const auto header = [&](const auto& output) {
+            return reader().read(output.header, depths->state);
+        };
+        const ResidentHeaderData of_depths = header(*depths);
+        const ResidentHeaderData of_contacts = header(*contacts);
+        const ResidentHeaderData of_overlap = header(*overlap);
+        const ResidentHeaderData of_counted = header(*counted);
+        const ResidentHeaderData of_field = header(*field);
+        const std::uint32_t records = contents_of(*depths).summary.count;
+        const std::uint32_t near = contents_of(*contacts).summary.count;
+        const std::uint32_t samples = contents_of(*overlap).summary.count;
+        Results results;
+        ASSERT_TRUE(made().collect(*ticket, results).ok());
+        ASSERT_GT(records, 10U);
+        ASSERT_GT(near, 10U);
+        EXPECT_EQ(samples, results[asked.overlap].count);
+        ASSERT_GT(samples, 100U);
+        expect_arguments(of_depths, records);
+        expect_arguments(of_contacts, near);
+        expect_arguments(of_overlap, samples);
+        expect_frame(of_depths, *depths);
+        expect_frame(of_contacts, *contacts);
+        expect_frame(of_overlap, *overlap);
+        expect_frame(of_field, *field);
+        EXPECT_EQ(of_overlap.cell, static_cast<float>(overlap->cell));
+        EXPECT_EQ(of_overlap.overflow + of_depths.overflow + of_contacts.overflow, 0U);
+        // Counted and not stored.
+        expect_arguments(of_counted, 0);
+        EXPECT_EQ(of_counted.overflow, 1U);
+        // A field: one quad over all cells, and a thread for each.
+        EXPECT_EQ(of_field.width, field->width);
+        EXPECT_EQ(of_field.height, field->height);
+        EXPECT_EQ(of_field.count, field->width * field->height);
+        EXPECT_EQ(of_field.points.vertexCount, of_field.count);
+        EXPECT_EQ(of_field.quads.vertexCount, 6U);
+        EXPECT_EQ(of_field.quads.instanceCount, 1U);
+        EXPECT_EQ(of_field.groups.x, (field->width + 7) / 8);
+        EXPECT_EQ(of_field.groups.y, (field->height + 7) / 8);
+        EXPECT_EQ(of_field.groups.z, 1U);
+        EXPECT_EQ(of_field.cell, static_cast<float>(field->cell));
+        EXPECT_EQ(of_field.overflow, 0U);
+    }
+}
+
+/// True if the descriptor sets of one serve the other.
+bool same_places(const ResidentRecords& a, const ResidentRecords& b) {
+    return a.buffer == b.buffer && a.offset == b.offset && a.header.buffer == b.header.buffer &&
+           a.header.offset == b.header.offset;
+}
+
+bool same_places(const ResidentField& a, const ResidentField& b) {
+    return a.signed_distance.view == b.signed_distance.view && a.feature.view == b.feature.view &&
+           a.header.buffer == b.header.buffer && a.header.offset == b.header.offset;
+}
+
+TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
+    const Asked first = ask(0.0);
+    const auto fields = made().resident_layout(first.batch, first.field);
+    const auto depths = made().resident_layout(first.batch, first.depths);
+    const auto contacts = made().resident_layout(first.batch, first.contacts);
+    const auto samples = made().resident_layout(first.batch, first.overlap);
+    ASSERT_TRUE(fields && depths && contacts && samples);
+    ASSERT_EQ(fields->size(), frames);
+    std::vector<std::vector<double>> numbers;
+    std::vector<Ticket> tickets(frames);
+    Results results;
+    for (std::uint32_t frame = 0; frame < 12; ++frame) {
+        Ticket& ticket = tickets[frame % frames];
+        if (frame >= frames) {
+            ASSERT_TRUE(made().collect(ticket, results).ok());
+        }
+        // The number of points varies with the pose, and the handles stay.
+        const Asked asked = ask(0.1 * frame);
+        const Expected<Ticket> submitted = made().submit(asked.batch);
+        ASSERT_TRUE(submitted.has_value()) << submitted.error().text();
+        ticket = *submitted;
+        const auto field = made().resident(ticket, asked.field);
+        const auto near = made().resident(ticket, asked.contacts);
+        ASSERT_TRUE(field && near);
+        const std::uint32_t slot = field->slot.index;
+        ASSERT_LT(slot, frames);
+        EXPECT_EQ(near->slot.index, slot);
+        EXPECT_EQ(field->slot.revision, (*fields)[slot].slot.revision) << frame;
+        EXPECT_TRUE(same_places(*field, (*fields)[slot])) << frame;
+        EXPECT_TRUE(same_places(*near, (*contacts)[slot])) << frame;
+    }
+    for (const Ticket ticket : tickets) {
+        ASSERT_TRUE(made().collect(ticket, results).ok());
+    }
+    // Growth moves what must move, and says so.
+    const Asked finer = ask(0.0, 0.01);
+    const Expected<Ticket> ticket = made().submit(finer.batch);
+    ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+    const auto grown = made().resident(*ticket, finer.field);
+    ASSERT_TRUE(grown.has_value());
+    EXPECT_NE(grown->slot.revision, (*fields)[grown->slot.index].slot.revision);
+    EXPECT_TRUE(made().collect(*ticket, results).ok());
+}
+
+TEST_F(ResidentLayout, IsRefusedByName) {
+    const Asked asked = ask(0.0);
+    const auto message = [](const auto& expected) { return expected.error().message(); };
+    Batch other;
+    const auto foreign = other.add(DistanceFieldQuery{});
+    EXPECT_EQ(made().resident_layout(asked.batch, foreign).error().code(),
+              StatusCode::invalid_query);
+    EXPECT_NE(message(made().resident_layout(asked.batch, foreign)).find("of another batch"),
+              std::string::npos);
+    const Expected<Ticket> ticket = made().submit(asked.batch);
+    ASSERT_TRUE(ticket.has_value());
+    EXPECT_EQ(made().resident_layout(asked.batch, asked.field).error().code(),
+              StatusCode::not_ready);
+    EXPECT_NE(message(made().resident(*ticket, foreign)).find("of another batch"),
+              std::string::npos);
+    Results results;
+    EXPECT_TRUE(made().collect(*ticket, results).ok());
+}
+
+TEST_F(ResidentLayout, TrimGivesBackWhatGrowthLeft) {
+    const Asked small = ask(0.3);
+    const auto answer = [&](const Asked& asked) {
+        Results results;
+        const Status status = made().run(asked.batch, results);
+        EXPECT_TRUE(status.ok()) << status.text();
+        return all_numbers(results);
+    };
+    const std::vector<double> expected = answer(small);
+    const std::uint64_t usual = made().memory_use().in_use;
+    (void)answer(ask(0.3, 0.004));
+    const std::uint64_t spike = made().memory_use().in_use;
+    ASSERT_GT(spike, 2 * usual);
+    // A batch in flight keeps what it uses.
+    const Expected<Ticket> in_flight = made().submit(small.batch);
+    ASSERT_TRUE(in_flight.has_value());
+    made().trim();
+    const auto field = made().resident(*in_flight, small.field);
+    ASSERT_TRUE(field.has_value());
+    EXPECT_GT(contents_of(*field).values.size(), 100U);
+    Results results;
+    ASSERT_TRUE(made().collect(*in_flight, results).ok());
+    EXPECT_EQ(all_numbers(results), expected);
+    made().trim();
+    EXPECT_LT(made().memory_use().in_use, usual / 2);
+    EXPECT_EQ(answer(small), expected);
+    EXPECT_LE(made().memory_use().in_use, usual + (usual >> 3U));
+    EXPECT_EQ(answer(small), expected);
+}
+
+TEST_F(ResidentLayout, TimestampsCanBeTurnedOff) {
+    Settings settings;
+    settings.timestamps = false;
+    Expected<Context> untimed = Context::create(host_device(), drawing(settings));
+    ASSERT_TRUE(untimed.has_value()) << untimed.error().text();
+    Random random(seed);
+    shape_ = *untimed->add_shape(coast(random, 120, 0.5));
+    other_ = *untimed->add_shape(with_holes(random, 3));
+    Results results;
+    ASSERT_TRUE(untimed->run(ask(0.0).batch, results).ok());
+    EXPECT_TRUE(results.timings.passes.empty());
+    EXPECT_GT(results.timings.device, 0.0);
+}
+
+}  // namespace
+}  // namespace nearfield::test
