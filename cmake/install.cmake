@@ -29,7 +29,8 @@ endif()
 
 configure_package_config_file(cmake/nearfield-config.cmake.in
     ${PROJECT_BINARY_DIR}/package/nearfield-config.cmake
-    INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
+    INSTALL_DESTINATION ${package_folder} PATH_VARS CMAKE_INSTALL_INCLUDEDIR
+    NO_SET_AND_CHECK_MACRO)
 # While the major version is 0, a new minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/nearfield-config-version.cmake
     COMPATIBILITY SameMinorVersion)

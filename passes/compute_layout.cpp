@@ -85,15 +85,7 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
 
 void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
                                  VkDeviceSize offset, VkDeviceSize bytes) const {
-    const VkDescriptorBufferInfo info{buffer, offset, bytes};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = &info;
-    device_->functions().vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+    updates_.push_back({set, binding, {buffer, offset, bytes}, {}});
 }
 
 void ComputeLayout::write_image(VkDescriptorSet set, Binding binding, VkImageView view) const {
@@ -107,15 +99,30 @@ void ComputeLayout::write_storage_image(VkDescriptorSet set, Binding binding,
 
 void ComputeLayout::write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
                                    VkImageView view) const {
-    const VkDescriptorImageInfo info{VK_NULL_HANDLE, view, layout};
-    VkWriteDescriptorSet write{};
-    write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    write.dstSet = set;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
-    write.descriptorType = type_of(binding);
-    write.pImageInfo = &info;
-    device_->functions().vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
+    updates_.push_back({set, binding, {}, {VK_NULL_HANDLE, view, layout}});
+}
+
+void ComputeLayout::begin_updates() const {
+    updates_.clear();
+}
+
+void ComputeLayout::end_updates() const {
+    writes_.clear();
+    for (const Update& update : updates_) {
+        VkWriteDescriptorSet& write = writes_.emplace_back();
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = update.set;
+        write.dstBinding = update.binding;
+        write.descriptorCount = 1;
+        write.descriptorType = type_of(update.binding);
+        if (write.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
+            write.pBufferInfo = &update.buffer;
+        } else {
+            write.pImageInfo = &update.image;
+        }
+    }
+    device_->functions().vkUpdateDescriptorSets(
+        device_->handle(), static_cast<std::uint32_t>(writes_.size()), writes_.data(), 0, nullptr);
 }
 
 void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,

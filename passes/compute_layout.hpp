@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace nearfield::passes {
 
@@ -45,7 +46,10 @@ public:
     [[nodiscard]] VkPipelineLayout pipeline_layout() const { return pipeline_layout_.get(); }
     [[nodiscard]] VkDescriptorSetLayout set_layout() const { return set_layout_.get(); }
 
-    /// Updates a binding. The device must not be using the set.
+    /// Bindings are updated in one call: those written between begin_updates() and end_updates().
+    /// The device must not be using the sets.
+    void begin_updates() const;
+    void end_updates() const;
     void write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer, VkDeviceSize offset,
                       VkDeviceSize bytes) const;
     void write_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
@@ -55,7 +59,18 @@ private:
     void write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
                         VkImageView view) const;
 
+    /// What a binding is to refer to.
+    struct Update {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        std::uint32_t binding = 0;
+        VkDescriptorBufferInfo buffer{};  // or
+        VkDescriptorImageInfo image{};
+    };
+
     const gpu::Device* device_;
+    // Scratch memory of the updates.
+    mutable std::vector<Update> updates_;
+    mutable std::vector<VkWriteDescriptorSet> writes_;
     gpu::Owned<VkSampler> sampler_;
     gpu::Owned<VkDescriptorSetLayout> set_layout_;
     gpu::Owned<VkPipelineLayout> pipeline_layout_;

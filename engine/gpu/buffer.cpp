@@ -41,7 +41,7 @@ bool MappedBuffer::reserve(std::uint64_t bytes) {
     capacity_ = 0;
     data_ = nullptr;
     buffer_.reset();
-    memory_ = {};
+    memory_.reset();
     create_buffer(capacity);
     allocate_memory();
     capacity_ = capacity;
@@ -78,36 +78,34 @@ void MappedBuffer::allocate_memory() {
 
     const VkMemoryPropertyFlags required =
         direction_ == Direction::none ? 0 : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
-    memory_ = gpu::allocate_memory(*device_, needs, {required, preferred_memory(direction_)}, what,
-                                   name_);
-    coherent_ = (memory_.flags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
-    const VkDeviceMemory memory = memory_.get();
-    check(functions.vkBindBufferMemory(device_->handle(), buffer_.get(), memory, 0),
+    const MemoryKind kind =
+        direction_ == Direction::none ? MemoryKind::buffer : MemoryKind::mapped_buffer;
+    memory_ =
+        device_->memory().allocate(needs, {required, preferred_memory(direction_)}, kind, what);
+    coherent_ = (memory_.flags() & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+    check(functions.vkBindBufferMemory(device_->handle(), buffer_.get(), memory_.get(),
+                                       memory_.offset()),
           "vkBindBufferMemory", what);
-    if (direction_ == Direction::none) {
-        return;
-    }
-    void* data = nullptr;
-    check(functions.vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &data),
-          "vkMapMemory", what);
-    data_ = static_cast<std::byte*>(data);
+    data_ = memory_.data();
+}
+
+VkMappedMemoryRange MappedBuffer::range() const {
+    return {VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr, memory_.get(), memory_.offset(),
+            memory_.size()};
 }
 
 void MappedBuffer::flush() const {
     if (!coherent_) {
-        // Flush the whole range, so that nonCoherentAtomSize needs no rounding.
-        const VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr,
-                                        memory_.get(), 0, VK_WHOLE_SIZE};
-        check(device_->functions().vkFlushMappedMemoryRanges(device_->handle(), 1, &range),
+        const VkMappedMemoryRange whole = range();
+        check(device_->functions().vkFlushMappedMemoryRanges(device_->handle(), 1, &whole),
               "vkFlushMappedMemoryRanges", name_);
     }
 }
 
 void MappedBuffer::invalidate() const {
     if (!coherent_) {
-        const VkMappedMemoryRange range{VK_STRUCTURE_TYPE_MAPPED_MEMORY_RANGE, nullptr,
-                                        memory_.get(), 0, VK_WHOLE_SIZE};
-        check(device_->functions().vkInvalidateMappedMemoryRanges(device_->handle(), 1, &range),
+        const VkMappedMemoryRange whole = range();
+        check(device_->functions().vkInvalidateMappedMemoryRanges(device_->handle(), 1, &whole),
               "vkInvalidateMappedMemoryRanges", name_);
     }
 }

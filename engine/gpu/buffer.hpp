@@ -41,6 +41,7 @@ private:
     [[nodiscard]] std::uint64_t grown(std::uint64_t bytes) const;
     void create_buffer(std::uint64_t bytes);
     void allocate_memory();
+    [[nodiscard]] VkMappedMemoryRange range() const;
 
     const Device* device_;
     VkBufferUsageFlags usage_;

@@ -1,5 +1,6 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/memory.hpp>
 #include <engine/gpu/requirements.hpp>
 
 #include <bit>
@@ -42,7 +43,10 @@ void refuse_if_any(std::vector<std::string> missing, const std::string& device) 
 
 }  // namespace
 
-Device::Device(const HostDevice& host) : host_(host) {
+Device::~Device() = default;
+
+Device::Device(const HostDevice& host)
+    : host_(host), memory_blocks_(std::make_unique<MemoryBlocks>(*this)) {
     require_vulkan_1(host.api_version, "HostDevice");
     refuse_if_any(null_handles(host), "the host's device");
     if (host.allocator != nullptr) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -33,6 +34,8 @@ private:
     std::uint64_t peak_ = 0;
 };
 
+class MemoryBlocks;
+
 /// A borrowed Vulkan device with its entry points and limits, and the host's callbacks. Immutable
 /// after construction, except for the count of memory and for reloaded shaders.
 class Device {
@@ -41,6 +44,10 @@ public:
     /// (unsupported_device) that lists each missing entry point, queue capability, limit and
     /// format.
     explicit Device(const HostDevice& host);
+    /// All memory must have been given back.
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
 
     [[nodiscard]] const Functions& functions() const { return functions_; }
     [[nodiscard]] VkDevice handle() const { return host_.device; }
@@ -57,6 +64,8 @@ public:
     /// vkQueueSubmit, or the host's replacement for it.
     [[nodiscard]] VkResult submit(const VkSubmitInfo& info, VkFence fence) const;
     [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }
+    /// The memory of all buffers and images.
+    [[nodiscard]] MemoryBlocks& memory() const { return *memory_blocks_; }
 #ifdef NEARFIELD_SHADER_RELOAD
     [[nodiscard]] ShaderWords& shader_words() const {
         return shader_words_;
@@ -137,6 +146,7 @@ private:
     HostDevice host_;
     std::optional<VkAllocationCallbacks> allocator_;
     mutable MemoryCount memory_count_;
+    std::unique_ptr<MemoryBlocks> memory_blocks_;
 #ifdef NEARFIELD_SHADER_RELOAD
     mutable ShaderWords shader_words_;
 #endif

@@ -17,7 +17,7 @@ bool KeptImage::reserve(VkExtent2D extent) {
     extent_ = {};
     view_.reset();
     image_.reset();
-    memory_ = {};
+    memory_.reset();
     create_image(extent);
     allocate_memory();
     create_view();
@@ -51,9 +51,10 @@ void KeptImage::allocate_memory() {
     const Functions& functions = device_->functions();
     VkMemoryRequirements needs{};
     functions.vkGetImageMemoryRequirements(device_->handle(), image_.get(), &needs);
-    memory_ = gpu::allocate_memory(*device_, needs, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, name_,
-                                   name_);
-    check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory_.get(), 0),
+    memory_ = device_->memory().allocate(needs, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
+                                         MemoryKind::image, name_);
+    check(functions.vkBindImageMemory(device_->handle(), image_.get(), memory_.get(),
+                                      memory_.offset()),
           "vkBindImageMemory", name_);
 }
 

@@ -1,32 +1,181 @@
 #include <engine/gpu/memory.hpp>
 
+#include <algorithm>
+
 namespace nearfield::gpu {
 
-DeviceMemory allocate_memory(const Device& device, const VkMemoryRequirements& needs,
-                             const MemoryWish& wish, const std::string& what,
-                             const std::string& name) {
-    VkMemoryAllocateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    info.allocationSize = needs.size;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+/// One allocation. Its pieces are in ascending order and do not overlap.
+struct MemoryBlock {
+    struct Piece {
+        std::uint64_t offset;
+        std::uint64_t size;
+    };
+
+    Owned<VkDeviceMemory> memory;
+    CountedBytes counted;
+    std::uint64_t bytes = 0;
+    std::uint32_t type = 0;
+    MemoryKind kind{};
+    VkMemoryPropertyFlags flags = 0;
+    std::byte* data = nullptr;  // mapped for as long as it lives
+    std::vector<Piece> pieces;
+};
+
+namespace {
+
+std::uint64_t rounded_up(std::uint64_t value, std::uint64_t step) {
+    return (value + step - 1) / step * step;
+}
+
+const char* name_of(MemoryKind kind) {
+    switch (kind) {
+        case MemoryKind::mapped_buffer:
+            return "nearfield mapped memory";
+        case MemoryKind::buffer:
+            return "nearfield memory of buffers";
+        case MemoryKind::image:
+            return "nearfield memory of images";
+    }
+    return "";
+}
+
+bool is_out_of_memory(VkResult result) {
+    return result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+}
+
+}  // namespace
+
+VkDeviceMemory DeviceMemory::get() const {
+    return block_ == nullptr ? VK_NULL_HANDLE : block_->memory.get();
+}
+
+std::byte* DeviceMemory::data() const {
+    return block_ == nullptr || block_->data == nullptr ? nullptr : block_->data + offset_;
+}
+
+VkMemoryPropertyFlags DeviceMemory::flags() const {
+    return block_ == nullptr ? 0 : block_->flags;
+}
+
+void DeviceMemory::reset() noexcept {
+    if (block_ != nullptr) {
+        blocks_->give_back(*std::exchange(block_, nullptr), offset_);
+    }
+}
+
+MemoryBlocks::MemoryBlocks(const Device& device) : device_(&device) {}
+MemoryBlocks::~MemoryBlocks() = default;
+
+DeviceMemory MemoryBlocks::allocate(const VkMemoryRequirements& needs, const MemoryWish& wish,
+                                    MemoryKind kind, const std::string& what) {
+    VkMemoryRequirements piece = needs;
+    if (kind == MemoryKind::mapped_buffer) {
+        // Flushing must not touch a neighbour, and kernels want aligned data.
+        const std::uint64_t atom =
+            std::max<std::uint64_t>(64, device_->limits().nonCoherentAtomSize);
+        piece.size = rounded_up(needs.size, atom);
+        piece.alignment = std::max(needs.alignment, atom);
+    }
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     // Device-local memory is limited, and its host-visible part is often small; the next best type
     // is slower but still correct.
     std::uint32_t untried = needs.memoryTypeBits;
     do {
-        info.memoryTypeIndex = device.memory_type(untried, wish.required, wish.preferred);
-        untried &= ~(1U << info.memoryTypeIndex);
-        result = device.functions().vkAllocateMemory(device.handle(), &info, device.allocator(),
-                                                     &memory);
-    } while (result == VK_ERROR_OUT_OF_DEVICE_MEMORY &&
-             device.has_memory_type(untried, wish.required));
+        const std::uint32_t type = device_->memory_type(untried, wish.required, wish.preferred);
+        untried &= ~(1U << type);
+        if (DeviceMemory found = take_from_any(type, kind, piece); found.block_ != nullptr) {
+            return found;
+        }
+        const std::uint64_t bytes = block_size(type, kind, piece.size);
+        result = add_block(type, kind, bytes, what);
+        if (is_out_of_memory(result) && bytes > piece.size) {
+            result = add_block(type, kind, piece.size, what);
+        }
+    } while (is_out_of_memory(result) && device_->has_memory_type(untried, wish.required));
     check(result, "vkAllocateMemory", what);
-    DeviceMemory owned;
-    owned.memory = Owned<VkDeviceMemory>(device, memory);
-    owned.bytes = CountedBytes(device, needs.size);
-    owned.flags = device.memory_flags(info.memoryTypeIndex);
-    device.name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
-    return owned;
+    return take(*blocks_.back(), piece);
+}
+
+/// As much as there is of the kind already, so that blocks stay few, between the limits.
+std::uint64_t MemoryBlocks::block_size(std::uint32_t type, MemoryKind kind,
+                                       std::uint64_t needed) const {
+    std::uint64_t held = 0;
+    for (const auto& block : blocks_) {
+        held += block->type == type && block->kind == kind ? block->bytes : 0;
+    }
+    return std::max(needed, std::clamp(held, smallest_block, largest_block));
+}
+
+VkResult MemoryBlocks::add_block(std::uint32_t type, MemoryKind kind, std::uint64_t bytes,
+                                 const std::string& what) {
+    // Allocated first: if that fails, no memory may leak.
+    auto block = std::make_unique<MemoryBlock>();
+    blocks_.reserve(blocks_.size() + 1);
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = bytes;
+    info.memoryTypeIndex = type;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    const Functions& functions = device_->functions();
+    const VkResult result =
+        functions.vkAllocateMemory(device_->handle(), &info, device_->allocator(), &memory);
+    if (result != VK_SUCCESS) {
+        return result;
+    }
+    block->memory = Owned<VkDeviceMemory>(*device_, memory);
+    block->counted = CountedBytes(*device_, bytes);
+    block->bytes = bytes;
+    block->type = type;
+    block->kind = kind;
+    block->flags = device_->memory_flags(type);
+    device_->name_object(VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name_of(kind));
+    if (kind == MemoryKind::mapped_buffer) {
+        void* data = nullptr;
+        check(functions.vkMapMemory(device_->handle(), memory, 0, VK_WHOLE_SIZE, 0, &data),
+              "vkMapMemory", what);
+        block->data = static_cast<std::byte*>(data);
+    }
+    blocks_.push_back(std::move(block));
+    return VK_SUCCESS;
+}
+
+DeviceMemory MemoryBlocks::take_from_any(std::uint32_t type, MemoryKind kind,
+                                         const VkMemoryRequirements& needs) {
+    for (const auto& block : blocks_) {
+        if (block->type == type && block->kind == kind) {
+            if (DeviceMemory found = take(*block, needs); found.block_ != nullptr) {
+                return found;
+            }
+        }
+    }
+    return {};
+}
+
+/// The first gap that is large enough; nothing if there is none.
+DeviceMemory MemoryBlocks::take(MemoryBlock& block, const VkMemoryRequirements& needs) {
+    std::uint64_t start = 0;
+    auto next = block.pieces.begin();
+    while (next != block.pieces.end() && start + needs.size > next->offset) {
+        start = rounded_up(next->offset + next->size, needs.alignment);
+        ++next;
+    }
+    DeviceMemory taken;
+    if (start + needs.size <= block.bytes) {
+        block.pieces.insert(next, {start, needs.size});
+        taken.blocks_ = this;
+        taken.block_ = &block;
+        taken.offset_ = start;
+        taken.size_ = needs.size;
+    }
+    return taken;
+}
+
+void MemoryBlocks::give_back(MemoryBlock& block, std::uint64_t offset) noexcept {
+    std::erase_if(block.pieces,
+                  [offset](const MemoryBlock::Piece& piece) { return piece.offset == offset; });
+    if (block.pieces.empty()) {
+        std::erase_if(blocks_, [&block](const auto& each) { return each.get() == &block; });
+    }
 }
 
 }  // namespace nearfield::gpu

@@ -112,9 +112,9 @@ void Executor::create_images(const Graph& graph) {
     }
 }
 
-/// One allocation per slot, as large as its largest image; every image starts at offset 0.
+/// One piece of memory per slot, as large as its largest image; every image starts there.
 void Executor::allocate_memory(const Graph& graph) {
-    std::vector<VkMemoryRequirements> slots(baked_.memory_slots, {0, 0, ~0U});
+    std::vector<VkMemoryRequirements> slots(baked_.memory_slots, {0, 1, ~0U});
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i].image) {
             VkMemoryRequirements wanted{};
@@ -122,21 +122,23 @@ void Executor::allocate_memory(const Graph& graph) {
                                                               images_[i].image.get(), &wanted);
             VkMemoryRequirements& slot = slots[baked_.lifetimes[i].memory_slot];
             slot.size = std::max(slot.size, wanted.size);
+            slot.alignment = std::max(slot.alignment, wanted.alignment);
             slot.memoryTypeBits &= wanted.memoryTypeBits;
         }
     }
     for (const VkMemoryRequirements& slot : slots) {
         const std::string name = "nearfield image memory " + std::to_string(memory_.size());
-        memory_.push_back(gpu::allocate_memory(
-            *device_, slot, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, name, name));
+        memory_.push_back(device_->memory().allocate(slot, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
+                                                     gpu::MemoryKind::image, name));
         image_bytes_ += slot.size;
     }
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i].image) {
-            gpu::check(device_->functions().vkBindImageMemory(
-                           device_->handle(), images_[i].image.get(),
-                           memory_[baked_.lifetimes[i].memory_slot].get(), 0),
-                       "vkBindImageMemory", "nearfield image " + graph.resources()[i].name());
+            const gpu::DeviceMemory& memory = memory_[baked_.lifetimes[i].memory_slot];
+            gpu::check(
+                device_->functions().vkBindImageMemory(device_->handle(), images_[i].image.get(),
+                                                       memory.get(), memory.offset()),
+                "vkBindImageMemory", "nearfield image " + graph.resources()[i].name());
         }
     }
 }

@@ -34,6 +34,7 @@ void BatchResources::lay_out_output() {
     std::memset(read_back_.data() + stamp_offset_, 0, sizeof(stamp_));
     copies_.clear();
     lay_out_words(end);
+    layout_->begin_updates();
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         find_copies(on_device);
@@ -51,6 +52,7 @@ void BatchResources::lay_out_output() {
     if (has_resident_outputs_) {
         bind_export();
     }
+    layout_->end_updates();
 }
 
 /// `end`: of the tile batches' parts of the read-back.

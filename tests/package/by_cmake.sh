@@ -7,7 +7,7 @@ mkdir "$work"
 cp -r "$SOURCE/tests/package/consumer" "$work/host"
 version=$(PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name nearfield.pc)") pkg-config --modversion nearfield)
 cmake -S "$work/host" -B "$work/build" -G Ninja "-DCMAKE_CXX_COMPILER=$CXX" -DCMAKE_BUILD_TYPE=Debug \
-    "-DCMAKE_PREFIX_PATH=$prefix" "-DEXPECTED_VERSION=$version"
+    "-DCMAKE_PREFIX_PATH=$prefix" "-DEXPECTED_VERSION=$version" "-DGLSLANG=$GLSLANG"
 cmake --build "$work/build"
 names_nothing_of_the_project "$work"
 

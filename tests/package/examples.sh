@@ -24,6 +24,7 @@ build_and_run() {
 
 build_and_run hello '^\(8\.5, 0\.5\) is 0\.5 deep; out along \(-1, 0\)$'
 build_and_run host '[0-9]+ points inside, the deepest by (1|0\.9)'
+build_and_run vulkan_hpp 'frame 5: [1-9][0-9]* contacts, [1-9][0-9]* inside.device and CPU agree$'
 # An example that needs no device opens no Vulkan loader.
 ! LD_DEBUG=files "$place/example hello ON/build/hello" 2>&1 | grep libvulkan ||
     fail "hello opens a Vulkan loader"

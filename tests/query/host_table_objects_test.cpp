@@ -7,6 +7,9 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -75,6 +78,49 @@ private:
         std::free(memory);
     }
 };
+
+/// The messages about device memory that is allocated in too small or too many pieces.
+std::vector<std::string> about_allocations(const std::vector<std::string>& messages) {
+    std::vector<std::string> found;
+    for (const std::string& message : messages) {
+        for (const char* const rule :
+             {"small-allocation", "small-dedicated-allocation", "too-many-objects"}) {
+            if (message.find(rule) != std::string::npos) {
+                found.push_back(message);
+            }
+        }
+    }
+    return found;
+}
+
+TEST_F(HostTable, MemoryIsTakenFromFewBlocks) {
+    make_host();
+    std::set<std::uint64_t> blocks;
+    std::size_t most = 0;
+    test_support::Enabled enabled;
+    enabled.best_practices = true;
+    test_support::VulkanHost strict(enabled);
+    {
+        const test_support::FakeLoader loader(
+            strict.device(), test_support::watched(strict.device(), [&](const WatchedCall& call) {
+                if (call.name == "vkAllocateMemory") {
+                    blocks.insert(call.made);
+                    most = std::max(most, blocks.size());
+                }
+            }));
+        Context context = make(loader.host());
+        const Scene scene(context);
+        HostFrames frames(strict.device(), 1);
+        (void)scene.run(scene.every());
+        (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.run(scene.small(0.004));
+    }
+    EXPECT_EQ(about_allocations(strict.messages()), std::vector<std::string>{});
+    EXPECT_FALSE(strict.messages().empty()) << "best practices are not checked";
+    EXPECT_GT(most, 0U);
+    EXPECT_LT(most, 24U);
+    strict.close();
+}
 
 TEST_F(HostTable, Memory) {
     make_host();

@@ -173,7 +173,7 @@ void MockDriver::State::write_results(Number commands, const std::set<Number>& u
         if (!buffer.written || !buffer.bound) {
             continue;
         }
-        for (std::uint32_t& word : objects[buffer.needs.at(0)].words) {
+        for (std::uint32_t& word : words_of(number_used)) {
             word = word == 0 ? 0 : MockDriver::device_word;
         }
     }
@@ -213,7 +213,8 @@ std::span<std::uint32_t> MockDriver::State::words_of(Number buffer) {
                         memory.bytes / sizeof(std::uint32_t)};
         std::fill(memory.words.begin(), memory.words.end(), MockDriver::resident_word);
     }
-    return memory.words;
+    return memory.words.subspan(found->second.offset / sizeof(std::uint32_t),
+                                found->second.bytes / sizeof(std::uint32_t));
 }
 
 void MockDriver::State::write(const MockWrite& write) {

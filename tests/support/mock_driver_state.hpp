@@ -58,6 +58,7 @@ struct MockObject {
 
     // For memory, and buffers bound to it.
     std::uint64_t bytes = 0;
+    std::uint64_t offset = 0;  // of a bound object in its memory
     std::uint32_t memory_type = 0;
     std::vector<std::byte> content;  // if mapped
     std::span<std::uint32_t> words;  // the same, aligned

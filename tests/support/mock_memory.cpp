@@ -4,6 +4,11 @@
 #include <memory>
 
 namespace nearfield::test_support::mock {
+namespace {
+
+constexpr VkDeviceSize bound_alignment = 256;  // of buffers and images in memory
+
+}  // namespace
 
 VkResult perform(Tag_vkAllocateMemory tag, VkDevice device, const VkMemoryAllocateInfo* info,
                  const VkAllocationCallbacks*, VkDeviceMemory* memory) {
@@ -81,9 +86,8 @@ VkResult perform(Tag_vkCreateImage tag, VkDevice device, const VkImageCreateInfo
 template <class Handle>
 void get_requirements(std::string_view call, Handle wanted, VkMemoryRequirements* requirements) {
     const MockObject& object = *driver().find(call, wanted);
-    constexpr VkDeviceSize alignment = 256;
-    *requirements = {(object.bytes + alignment - 1) / alignment * alignment, alignment,
-                     (1U << memory_types) - 1};
+    *requirements = {(object.bytes + bound_alignment - 1) / bound_alignment * bound_alignment,
+                     bound_alignment, (1U << memory_types) - 1};
 }
 
 void perform(Tag_vkGetBufferMemoryRequirements tag, VkDevice, VkBuffer buffer,
@@ -109,7 +113,11 @@ VkResult bind(std::string_view call, Handle wanted, VkDeviceMemory memory, VkDev
     if (offset + object->bytes > found->bytes) {
         driver().breach(call, "memory that is too small");
     }
+    if (offset % bound_alignment != 0) {
+        driver().breach(call, "an offset that is not aligned");
+    }
     object->bound = true;
+    object->offset = offset;
     object->needs[0] = number(memory);
     return VK_SUCCESS;
 }

@@ -55,7 +55,7 @@ VulkanHost::VulkanHost(const Enabled& wanted) {
     try {
         open_loader();
         require_layer();
-        create_instance();
+        create_instance(wanted.best_practices);
         choose_physical_device();
         const Enabled there = offered();
         create_device({common(wanted.features, there.features),
@@ -121,7 +121,7 @@ void VulkanHost::require_layer() const {
     }
 }
 
-void VulkanHost::create_instance() {
+void VulkanHost::create_instance(bool best_practices) {
     // General messages come from the loader, about drivers that this machine cannot use.
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
     messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
@@ -132,13 +132,14 @@ void VulkanHost::create_instance() {
     messenger.pfnUserCallback = &VulkanHost::collect;
     messenger.pUserData = this;
 
-    constexpr VkValidationFeatureEnableEXT synchronization =
-        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    constexpr std::array<VkValidationFeatureEnableEXT, 2> enabled{
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+        VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
     features.pNext = &messenger;  // covers creation and destruction of the instance too
-    features.enabledValidationFeatureCount = 1;
-    features.pEnabledValidationFeatures = &synchronization;
+    features.enabledValidationFeatureCount = best_practices ? 2 : 1;
+    features.pEnabledValidationFeatures = enabled.data();
 
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;

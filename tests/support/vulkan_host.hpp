@@ -13,6 +13,8 @@ namespace nearfield::test_support {
 struct Enabled {
     VkPhysicalDeviceFeatures features{};
     bool timeline_semaphore = false;  ///< through VK_KHR_timeline_semaphore
+    /// The validation layer reports best practices too, which is no error.
+    bool best_practices = false;
 };
 
 /// A minimal renderer: a Vulkan 1.1 device with no extension and, by default, no feature enabled,
@@ -56,7 +58,7 @@ private:
 
     void open_loader();
     void require_layer() const;
-    void create_instance();
+    void create_instance(bool best_practices);
     void choose_physical_device();
     [[nodiscard]] bool has_extension(const char* name) const;
     void create_device(const Enabled& enabled);
