@@ -91,6 +91,7 @@ public:
     /// How long an entry point fails.
     enum class Failing {
         once,
+        twice,         ///< a block of memory, and the smaller one that would do
         from_then_on,  ///< until work_again()
     };
     /// From now on `call` succeeds a number of times and then fails. A lost device stays lost:

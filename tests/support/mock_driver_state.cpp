@@ -38,6 +38,8 @@ VkResult MockDriver::State::enter(std::string_view call) {
     lost = lost || (error == VK_ERROR_DEVICE_LOST && says_loss(call));
     if (how == Failing::once) {
         failing.clear();
+    } else if (how == Failing::twice) {
+        how = Failing::once;
     }
     return error;
 }
