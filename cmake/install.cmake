@@ -9,7 +9,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/nearfield)
 install(DIRECTORY include/nearfield DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl")
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "*.hlsl")
 foreach(linkage IN ITEMS static shared)
     install(TARGETS nearfield_${linkage} EXPORT nearfield_${linkage}
             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development

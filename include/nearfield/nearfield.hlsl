@@ -1,0 +1,86 @@
+// Resident outputs of nearfield, for HLSL shaders to read (compiled to SPIR-V): the same structures as
+// in nearfield.glsl, which describes them in full.
+//
+// Declare buffers as StructuredBuffer or ByteAddressBuffer at the offset that resident.hpp states: a
+// summary, followed by records or samples.
+#ifndef NEARFIELD_HLSL
+#define NEARFIELD_HLSL
+
+// A feature id, in a texel of the feature image and in a record.
+static const uint nearfield_index_mask = 0x0fffffffu;  // index of the edge or vertex
+static const uint nearfield_vertex_flag = 1u << 28;    // a vertex; otherwise an edge
+static const uint nearfield_unique_flag = 1u << 30;    // no other part of the boundary is as near
+static const uint nearfield_inside_flag = 1u << 31;    // the point lies inside the shape
+
+// NearfieldRecord::flags
+static const uint nearfield_on_b_flag = 1u;      // a contact on B's boundary; otherwise on A's
+static const uint nearfield_touching_flag = 2u;  // too near to tell inside from outside
+
+static const uint nearfield_no_record = 0xffffffffu;
+static const uint nearfield_no_edge = 0xffffffffu;
+
+struct NearfieldHeader {
+    uint4 points;    // VkDrawIndirectCommand
+    uint4 quads;     // VkDrawIndirectCommand
+    uint groups[3];  // VkDispatchIndirectCommand
+    uint count;
+    float2 origin;
+    float cell;
+    uint overflow;
+    uint width;
+    uint height;
+};
+
+struct NearfieldSummary {
+    uint count;
+    uint capacity;
+    uint deepest;  // nearfield_no_record if there is none
+    float depth;
+    float2 low;
+    float2 high;
+};
+
+struct NearfieldRecord {
+    float2 position;  // `point` in GLSL, a word of HLSL
+    float2 nearest;
+    float2 normal;
+    float distance;
+    uint feature;
+    uint flags;
+    uint place;
+};
+
+struct NearfieldIntersectionSummary {
+    uint count;
+    uint capacity;
+    float area;
+    float cell;
+    float2 low;
+    float2 high;
+};
+
+struct NearfieldIntersectionSample {
+    float2 position;  // `point` in GLSL, a word of HLSL
+    uint edge;        // nearfield_no_edge if A takes part by its volume
+    uint region;
+};
+
+uint nearfield_index(uint feature) {
+    return feature & nearfield_index_mask;
+}
+bool nearfield_is_vertex(uint feature) {
+    return (feature & nearfield_vertex_flag) != 0u;
+}
+bool nearfield_is_unique(uint feature) {
+    return (feature & nearfield_unique_flag) != 0u;
+}
+bool nearfield_is_inside(uint feature) {
+    return (feature & nearfield_inside_flag) != 0u;
+}
+
+// Depth of a record: its distance inside the other shape, negative outside.
+float nearfield_depth(NearfieldRecord record) {
+    return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
+}
+
+#endif

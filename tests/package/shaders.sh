@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Shaders include the installed declarations, GLSL and HLSL, which lay out all structures alike.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+work="$place/shaders"
+mkdir "$work"
+cat >"$work/reads.comp" <<'END'
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "nearfield/nearfield.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer B0 { NearfieldHeader headers[]; };
+layout(std430, binding = 1) readonly buffer B1 { NearfieldSummary summaries[]; };
+layout(std430, binding = 2) readonly buffer B2 { NearfieldRecord records[]; };
+layout(std430, binding = 3) readonly buffer B3 { NearfieldIntersectionSummary overlaps[]; };
+layout(std430, binding = 4) readonly buffer B4 { NearfieldIntersectionSample samples[]; };
+layout(std430, binding = 5) writeonly buffer B5 { float sums[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    sums[i] = nearfield_depth(records[i]) + summaries[0].depth + overlaps[0].area +
+              samples[i].point.x + float(headers[0].count);
+}
+END
+cat >"$work/reads.hlsl" <<'END'
+#include "nearfield/nearfield.hlsl"
+StructuredBuffer<NearfieldHeader> headers : register(t0);
+StructuredBuffer<NearfieldSummary> summaries : register(t1);
+StructuredBuffer<NearfieldRecord> records : register(t2);
+StructuredBuffer<NearfieldIntersectionSummary> overlaps : register(t3);
+StructuredBuffer<NearfieldIntersectionSample> samples : register(t4);
+RWStructuredBuffer<float> sums : register(u5);
+[numthreads(64, 1, 1)]
+void main(uint3 id : SV_DispatchThreadID) {
+    sums[id.x] = nearfield_depth(records[id.x]) + summaries[0].depth + overlaps[0].area +
+                 samples[id.x].position.x + float(headers[0].count);
+}
+END
+
+# layout_of FILE OPTION...: the offset of each member of nearfield's structures.
+layout_of() {
+    "$GLSLANG" -V "-I$prefix/include" -H -o "$work/words" "${@:2}" "$work/$1" >"$work/$1.txt" ||
+        fail "$1 does not compile: $(<"$work/$1.txt")"
+    sed -n 's/^ *MemberDecorate [0-9]*(\(Nearfield[A-Za-z]*\)) \([0-9]*\) *Offset \([0-9]*\)$/\1 \2 \3/p' \
+        "$work/$1.txt" | sort --unique
+}
+
+glsl=$(layout_of reads.comp)
+hlsl=$(layout_of reads.hlsl -D -S comp -e main)
+[[ $(wc -l <<<"$glsl") == 31 ]] || fail "GLSL has other members: $glsl"
+[[ $glsl == "$hlsl" ]] || fail "the layouts differ: $(diff <(echo "$glsl") <(echo "$hlsl"))"
+printf '%s members\n' "$(wc -l <<<"$glsl")"
