@@ -92,8 +92,8 @@ PlacedOutline place(const Outline& outline, double deviation, const OutlineTreat
 }
 
 /// "-" is the standard input. Says on the standard error what of a file was skipped.
-Outline read_input(const std::string& file) {
-    Outline outline = file == "-" ? read_outline(std::cin, "standard input") : read_outline(file);
+Outline read_and_note(const std::string& file, LengthUnit unit) {
+    Outline outline = read_outline(file, unit);
     if (!outline.skipped.empty()) {
         std::cerr << "nearfield: " << skipped_note(outline) << '\n';
     }
@@ -108,9 +108,6 @@ double choose_deviation(const QueryArguments& arguments, const QueryRequest& req
             throw InputError("--deviation: required for curves where there is no tolerance");
         }
         return usual_deviation * request.tolerance;
-    }
-    if (!a.curved() && !b.curved()) {
-        throw InputError("--deviation: neither A nor B has curves");
     }
     return *arguments.deviation;
 }
@@ -283,8 +280,8 @@ void run_query(const QueryArguments& arguments) {
     if (arguments.treatment.strict && arguments.treatment.clean_width) {
         throw InputError("--strict: drops nothing, so it cannot stand beside --clean-width");
     }
-    const Outline outline_a = read_input(arguments.file_a);
-    const Outline outline_b = read_input(arguments.file_b);
+    const Outline outline_a = read_and_note(arguments.file_a, arguments.unit);
+    const Outline outline_b = read_and_note(arguments.file_b, arguments.unit);
     const double deviation = choose_deviation(arguments, request, outline_a, outline_b);
     const PlacedOutline a = place(outline_a, deviation, arguments.treatment, arguments.pose_a);
     const PlacedOutline b = place(outline_b, deviation, arguments.treatment, arguments.pose_b);

@@ -17,6 +17,7 @@ struct QueryArguments {
     std::string file_a;
     std::string file_b;
     std::optional<double> deviation;
+    LengthUnit unit = LengthUnit::user;
     OutlineTreatment treatment;
     DegreesPose pose_a;
     DegreesPose pose_b;

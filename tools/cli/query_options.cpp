@@ -84,10 +84,16 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                       "0; A's and B's together at most a quarter of the tolerance; default a "
                       "sixteenth of it each")
         ->type_name("DEVIATION");
+    add_parsed_option(kind, "--units", arguments.unit, parse_length_unit,
+                      "The unit of coordinates read from SVG: user (user units as they are), or "
+                      "px, mm, cm, in, pt or pc, with viewBox, width and height applied; default "
+                      "user")
+        ->type_name("NAME");
     add_parsed_option(kind, "--fill-rule", arguments.treatment.fill_rule, parse_fill_rule,
                       "What the rings of A and B enclose: odd-even, nonzero, positive (a winding "
                       "number above 0), or union (of the polygons, each odd-even); edges inside "
-                      "are no boundary; default odd-even, and no edge is changed")
+                      "are no boundary; default odd-even, and no edge is changed; of SVG as each "
+                      "element says (nonzero unless it does), and one over the other")
         ->type_name("NAME");
     add_parsed_option(kind, "--clean-width", arguments.treatment.clean_width, parse_positive,
                       "Drop rings, spikes and vertices that are no wider than this, world units, > "

@@ -4,14 +4,20 @@
 #include <tools/cli/scene.hpp>
 #include <tools/cli/world_values_files.hpp>
 #include <tools/common/library_error.hpp>
+#include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
+#include <tools/io/input_error.hpp>
+#include <tools/io/layout.hpp>
 #include <tools/io/query_json.hpp>
 #include <tools/io/report_target.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/summary.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <iostream>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::tools {
@@ -32,6 +38,95 @@ int report_problems(const SceneRunner& runner) {
     return status;
 }
 
+/// Options that a scene states itself.
+void add_outline_options(CLI::App& command, SceneArguments& arguments) {
+    command
+        .add_option("--query", arguments.queries,
+                    "Of outlines: a kind of query that is asked of all pairs, once a kind; default "
+                    "containment and intersection-test")
+        ->type_name("KIND")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_parsed_option(command, "-d", arguments.tolerance, parse_positive,
+                      "Of outlines: the tolerance, world units, > 0; default none, which sampled "
+                      "kinds and separation-vector need")
+        ->type_name("TOLERANCE");
+    command.add_flag("--hits-only", arguments.hits_only,
+                     "Of outlines: leave out the results of pairs without a hit");
+    add_parsed_option(command, "--units", arguments.unit, parse_length_unit,
+                      "Of outlines: the unit of SVG, as nearfield query has it; default user")
+        ->type_name("NAME");
+    add_parsed_option(
+        command, "--deviation", arguments.deviation, parse_positive,
+        "Of outlines: how far edges may be off curves, world units, > 0; default a "
+        "sixteenth of the tolerance, without one a 100,000th of a shape's longer side")
+        ->type_name("DEVIATION");
+    add_parsed_option(command, "--fill-rule", arguments.fill_rule, parse_fill_rule,
+                      "Of outlines: odd-even, nonzero, positive or union; default as nearfield "
+                      "query")
+        ->type_name("NAME");
+    add_parsed_option(command, "--clean-width", arguments.clean_width, parse_positive,
+                      "Of outlines: drop rings, spikes and vertices that are no wider than this, "
+                      "world units, > 0; default only rings that enclose nothing")
+        ->type_name("W");
+}
+
+/// Refuses what a scene in JSON states itself.
+void require_no_outline_options(const SceneArguments& arguments, const std::string& file) {
+    for (const auto& [name, is_given] :
+         {std::pair{"--query", !arguments.queries.empty()},
+          std::pair{"-d", arguments.tolerance.has_value()},
+          std::pair{"--hits-only", arguments.hits_only},
+          std::pair{"--units", arguments.unit.has_value()},
+          std::pair{"--deviation", arguments.deviation.has_value()},
+          std::pair{"--fill-rule", arguments.fill_rule.has_value()},
+          std::pair{"--clean-width", arguments.clean_width.has_value()}}) {
+        if (is_given) {
+            throw InputError(std::string(name) + ": belongs to outlines; " + file +
+                             " is a scene, which states its own");
+        }
+    }
+}
+
+LayoutRequest layout_request(const SceneArguments& arguments) {
+    if (arguments.strict && arguments.clean_width) {
+        throw InputError("--strict: drops nothing, so it cannot stand beside --clean-width");
+    }
+    LayoutRequest request{
+        .hits_only = arguments.hits_only,
+        .treatment = {arguments.fill_rule, arguments.clean_width, arguments.strict},
+        .unit = arguments.unit.value_or(LengthUnit::user),
+        .deviation = arguments.deviation};
+    for (const std::string& kind :
+         arguments.queries.empty() ? std::vector<std::string>{"containment", "intersection-test"}
+                                   : arguments.queries) {
+        QueryRequest query;
+        query.type = parse_query_type(kind, "--query");
+        query.tolerance = arguments.tolerance.value_or(0.0);
+        request.queries.push_back(query);
+    }
+    return request;
+}
+
+Scene read_arguments(const SceneArguments& arguments) {
+    std::vector<InputFile> files;
+    for (const std::string& file : arguments.files) {
+        if (file == "-" && std::count(arguments.files.begin(), arguments.files.end(), "-") > 1) {
+            throw InputError("FILE: only one can be -, the standard input");
+        }
+        files.push_back(read_input(file));
+        if (holds_scene(files.back()) && arguments.files.size() > 1) {
+            throw InputError(files.back().name + ": a scene stands alone, without other files");
+        }
+    }
+    if (!holds_scene(files.front())) {
+        return read_layout(std::move(files), layout_request(arguments));
+    }
+    require_no_outline_options(arguments, files.front().name);
+    return read_scene(files.front(), BadEntries::recorded,
+                      arguments.strict ? EmptyRings::kept : EmptyRings::dropped);
+}
+
 }  // namespace
 
 CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
@@ -40,12 +135,15 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         "Answer the queries of a scene (shapes, instances, groups, queries) in one batch: of pairs "
         "of instances, and of all instances (poses, nearest, rays, cast, overlap). Bad shapes and "
         "queries are listed on the standard error and have their own status; the others are "
-        "answered");
+        "answered. Of outlines, all pairs are asked about: of an SVG file those of its items (use, "
+        "groups of outlines, other outlines), of any other file it as a whole");
     command
-        ->add_option("scene", arguments.scene,
-                     "Scene: shapes, instances (shape and pose), groups and queries")
+        ->add_option("scene", arguments.files,
+                     "A scene: shapes, instances (shape and pose), groups and queries, as JSON; or "
+                     "outlines: SVG, GeoJSON, WKT, WKB, SVG path data. - reads the standard input")
         ->required()
-        ->type_name("FILE.json");
+        ->type_name("FILE...");
+    add_outline_options(*command, arguments);
     command
         ->add_option("--technique", arguments.technique,
                      "raster, compute, cpu or automatic, of all queries; default as the scene says")
@@ -74,14 +172,13 @@ void print_notes(const Scene& scene) {
 int run_scene(const SceneArguments& arguments) {
     const std::optional<Technique> technique = parse_technique_option(arguments.technique);
     const Settings settings = parse_settings(arguments.settings);
-    Scene scene = read_scene(arguments.scene, BadEntries::recorded,
-                             arguments.strict ? EmptyRings::kept : EmptyRings::dropped);
+    Scene scene = read_arguments(arguments);
     print_notes(scene);
     set_technique(scene, technique);
     WorldValuesFiles values(scene, arguments.json);
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
-    SceneRunner runner(scene, arguments.scene, context, BadEntries::recorded);
+    SceneRunner runner(scene, scene.files.front(), context, BadEntries::recorded);
     runner.run_what_fits();
     const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {

@@ -2,10 +2,12 @@
 
 #include <nearfield/curve.hpp>
 
+#include <tools/io/length_unit.hpp>
 #include <tools/io/skipped_parts.hpp>
+#include <tools/io/svg.hpp>
+#include <tools/io/text_file.hpp>
 
 #include <cstdint>
-#include <istream>
 #include <string>
 #include <vector>
 
@@ -14,10 +16,12 @@ namespace nearfield::tools {
 /// The outline in a file: rings as given, or a path whose curves are still to be tessellated.
 struct Outline {
     std::string file;
-    std::vector<Ring> rings;  ///< empty if there is a path
+    std::vector<Ring> rings = {};  ///< empty if there is a path
     /// The number of rings of each polygon; empty if there is a path.
     std::vector<std::uint32_t> part_sizes = {};
-    CurvePath path;
+    CurvePath path = {};
+    /// Of SVG: the contours of the path that each element draws, with its fill rule.
+    std::vector<FilledPart> parts = {};
     SkippedParts skipped = {};  ///< what else the file holds
 
     /// True if tessellation deviates from the outline.
@@ -33,14 +37,21 @@ struct OutlineRings {
 /// The default deviation of tessellated curves, as a fraction of the tolerance.
 inline constexpr double usual_deviation = 1.0 / 16.0;
 
-/// The outline of a GeoJSON, WKT, WKB, SVG or SVG path data file. The extension (.geojson, .json,
-/// .wkt, .wkb, .svg, .path) says which it is; with any other the first characters do. Hexadecimal
-/// WKB may stand in place of WKT or WKB. Throws InputError.
-[[nodiscard]] Outline read_outline(const std::string& path);
-/// Likewise from a stream, whose first characters say what it is; `name` is for the messages.
-[[nodiscard]] Outline read_outline(std::istream& stream, const std::string& name);
+/// What a file holds.
+enum class OutlineFormat { geojson, wkt, hex_wkb, binary_wkb, svg, path };
 
-/// "FILE: skipped what holds no area: Point (2)"; precondition: something was skipped.
+/// The format of a file. The extension (.geojson, .json, .wkt, .wkb, .svg, .path) says which it is;
+/// with any other the first characters do. Hexadecimal WKB may stand in place of WKT or WKB. Throws
+/// InputError.
+[[nodiscard]] OutlineFormat format_of(const InputFile& file);
+
+/// The outline in a file. `unit` is for files that state what a length is. Throws InputError.
+[[nodiscard]] Outline parse_outline(InputFile file, LengthUnit unit = LengthUnit::user);
+/// Likewise; "-" reads the standard input.
+[[nodiscard]] Outline read_outline(const std::string& path, LengthUnit unit = LengthUnit::user);
+
+/// "FILE: skipped what holds no area: Point (2)", of SVG "what has no outline"; precondition:
+/// something was skipped.
 [[nodiscard]] std::string skipped_note(const Outline& outline);
 
 /// The rings of an outline, its curves off by at most `deviation`. Throws InputError.

@@ -3,6 +3,7 @@
 #include <nearfield/shape.hpp>
 
 #include <tools/io/query_request.hpp>
+#include <tools/io/text_file.hpp>
 #include <tools/io/world_request.hpp>
 
 #include <cstddef>
@@ -88,6 +89,9 @@ enum class EmptyRings {
     kept,     ///< the library refuses them
 };
 
+/// True of a file that is read as a scene in JSON, and not as an outline.
+[[nodiscard]] bool holds_scene(const InputFile& file);
+
 /// Reads a scene and the outlines it names, whose paths are relative to the scene's folder. Throws
 /// InputError with the file and the place in it. Curves are tessellated with the `deviation` a
 /// shape states, else with usual_deviation of the smallest tolerance among the queries that use it.
@@ -95,6 +99,9 @@ enum class EmptyRings {
 /// The scene as a whole is refused where it is not JSON, where `shapes`, `instances` or `queries`
 /// is not there, and where a shape, an instance or a query has a member that is not known: a
 /// misspelt one would change the answer silently.
+[[nodiscard]] Scene read_scene(const InputFile& file, BadEntries bad = BadEntries::refused,
+                               EmptyRings empty = EmptyRings::dropped);
+/// Likewise; "-" reads the standard input, and paths are relative to the current folder.
 [[nodiscard]] Scene read_scene(const std::string& path, BadEntries bad = BadEntries::refused,
                                EmptyRings empty = EmptyRings::dropped);
 

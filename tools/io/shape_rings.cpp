@@ -1,10 +1,15 @@
 #include <tools/io/input_error.hpp>
 #include <tools/io/query_request.hpp>
+#include <tools/io/same_rings.hpp>
 #include <tools/io/shape_rings.hpp>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace nearfield::tools {
 namespace {
@@ -55,7 +60,8 @@ public:
     Treatment(const Outline& outline, double deviation, const OutlineTreatment& asked)
         : outline_(outline), asked_(asked) {
         // Room for the deviation of the fill rule, so that the sum is what the caller allowed.
-        const double share = asked.fill_rule ? 1.0 - 0x1p-10 : 1.0;
+        const double share = asked.fill_rule || !outline.parts.empty() ? 1.0 - 0x1p-10 : 1.0;
+        allowed_ = outline.curved() ? deviation : 0.0;
         OutlineRings rings = tessellate_outline(outline, share * deviation);
         result_.rings = std::move(rings.rings);
         result_.deviation = rings.deviation;
@@ -65,10 +71,13 @@ public:
         if (asked_.fill_rule) {
             report_empty_rings();
             fill();
+        } else if (!outline_.parts.empty()) {
+            report_empty_rings();
+            fill_as_drawn();
         }
         if (asked_.clean_width) {
             clean_all(*asked_.clean_width);
-        } else if (!asked_.fill_rule && !asked_.strict) {
+        } else if (!asked_.fill_rule && outline_.parts.empty() && !asked_.strict) {
             drop_empty_rings();
         }
         return std::move(result_);
@@ -115,6 +124,51 @@ private:
         result_.deviation += fill->deviation;
     }
 
+    /// Each element of a drawing by its own rule, and one over the other. Where no edge is inside
+    /// of what they cover, the rings stay as they are.
+    void fill_as_drawn() {
+        std::vector<Ring> drawn;
+        std::vector<Ring> regions;
+        std::vector<std::uint32_t> sizes;
+        double deviation = 0.0;
+        auto first = result_.rings.begin();
+        for (const FilledPart& part : outline_.parts) {
+            const auto end = first + static_cast<std::ptrdiff_t>(part.contours);
+            std::vector<Ring> rings = checked(clean({first, end}, {.vertices = false})).rings;
+            first = end;
+            drawn.insert(drawn.end(), rings.begin(), rings.end());
+            if (part.rule != FillRule::odd_even && !rings.empty()) {
+                ResolvedFill fill = checked(resolve_fill(rings, part.rule));
+                deviation = std::max(deviation, fill.deviation);
+                rings = std::move(fill.rings);
+            }
+            if (!rings.empty()) {
+                sizes.push_back(static_cast<std::uint32_t>(rings.size()));
+                std::move(rings.begin(), rings.end(), std::back_inserter(regions));
+            }
+        }
+        if (sizes.empty()) {
+            fail("nothing that is drawn encloses an area");
+        }
+        if (sizes.size() > 1) {
+            ResolvedFill fill =
+                checked(resolve_fill(regions, FillRule::union_of_parts, {.part_sizes = sizes}));
+            deviation += fill.deviation;
+            regions = std::move(fill.rings);
+        }
+        const bool is_same = are_same_rings(drawn, regions, deviation);
+        result_.rings = std::move(is_same ? drawn : regions);
+        result_.deviation = std::max(result_.deviation + deviation, allowed_);
+    }
+
+    template <class Value>
+    Value checked(Expected<Value> value) {
+        if (!value) {
+            fail(value.error().message());
+        }
+        return std::move(*value);
+    }
+
     void drop_empty_rings() {
         Expected<CleanedRings> cleaned = clean(result_.rings, {.vertices = false});
         if (cleaned && !cleaned->rings.empty()) {
@@ -143,6 +197,7 @@ private:
 
     const Outline& outline_;
     const OutlineTreatment& asked_;
+    double allowed_ = 0.0;  ///< deviation, of outlines with curves
     ShapeRings result_;
 };
 

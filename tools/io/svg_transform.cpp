@@ -1,9 +1,12 @@
+#include <tools/io/length_unit.hpp>
 #include <tools/io/svg_transform.hpp>
 
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nearfield::tools {
@@ -27,6 +30,31 @@ AffineMap rotation(double degrees) {
     return {{cosine, sine}, {-sine, cosine}, {}};
 }
 
+/// What a unit behind a number, as CSS has it, makes of the number: pixels and degrees are what
+/// numbers alone are in.
+double unit_of(SvgText& text, const std::string& function) {
+    const std::size_t start = text.position();
+    const std::string unit = text.word();
+    if (unit.empty()) {
+        return 1.0;
+    }
+    if (function == "rotate" || function.starts_with("skew")) {
+        for (const auto& [name, degrees] :
+             {std::pair{"deg", 1.0}, std::pair{"grad", 0.9},
+              std::pair{"rad", 180.0 / std::numbers::pi}, std::pair{"turn", 360.0}}) {
+            if (unit == name) {
+                return degrees;
+            }
+        }
+        text.fail(start, "\"" + unit + "\" is none of deg, grad, rad, turn");
+    }
+    const std::optional<LengthUnit> length = find_length_unit(unit);
+    if (!function.starts_with("translate") || !length || length == LengthUnit::user) {
+        text.fail(start, "\"" + unit + "\" is no unit of " + function);
+    }
+    return pixels_per(*length);
+}
+
 /// The map for one function, from its name and arguments.
 AffineMap one_transform(const SvgText& text, std::size_t start, const std::string& name,
                         const std::vector<double>& n) {
@@ -46,6 +74,15 @@ AffineMap one_transform(const SvgText& text, std::size_t start, const std::strin
     if (name == "translate") {
         takes({1, 2}, "one or two numbers");
         return translation(n[0], n.size() > 1 ? n[1] : 0.0);
+    }
+    if (name == "translateX" || name == "translateY") {
+        takes({1}, "one number");
+        return name.back() == 'X' ? translation(n[0], 0.0) : translation(0.0, n[0]);
+    }
+    if (name == "scaleX" || name == "scaleY") {
+        takes({1}, "one number");
+        return name.back() == 'X' ? AffineMap{{n[0], 0.0}, {0.0, 1.0}, {}}
+                                  : AffineMap{{1.0, 0.0}, {0.0, n[0]}, {}};
     }
     if (name == "scale") {
         takes({1, 2}, "one or two numbers");
@@ -87,11 +124,16 @@ AffineMap parse_transform(SvgText& text) {
         if (name.empty()) {
             text.fail("expected the name of a transform");
         }
+        if (name == "none" && text.peek() != '(') {
+            text.skip_separator();
+            continue;
+        }
         text.expect('(');
         std::vector<double> numbers;
         text.skip_space();
         while (text.peek() != ')') {
-            numbers.push_back(text.number());
+            const double number = text.number();
+            numbers.push_back(number * unit_of(text, name));
             text.skip_separator();
         }
         text.expect(')');

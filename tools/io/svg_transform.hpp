@@ -6,7 +6,8 @@
 
 namespace nearfield::tools {
 
-/// Parses an SVG transform attribute: any number of matrix, translate, scale, rotate, skewX, skewY.
+/// Parses a transform, as an attribute or as CSS has it (with units): none, or any number of
+/// matrix, translate, scale, rotate, skewX, skewY, and of translate and scale along one axis.
 /// Throws InputError.
 [[nodiscard]] AffineMap parse_transform(SvgText& text);
 

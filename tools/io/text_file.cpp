@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 namespace nearfield::tools {
@@ -29,6 +30,22 @@ std::string read_bytes(const std::string& path) {
         throw InputError(path + ": cannot be opened: " + std::strerror(errno));
     }
     return read_bytes(file, path);
+}
+
+InputFile read_input(const std::string& path) {
+    if (path == "-") {
+        const std::string name = "standard input";
+        return {name, read_bytes(std::cin, name)};
+    }
+    return {path, read_bytes(path)};
+}
+
+std::string lower_case_extension(const std::string& path) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return extension;
 }
 
 std::string to_text(std::string bytes, const std::string& name) {

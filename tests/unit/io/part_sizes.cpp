@@ -5,7 +5,6 @@
 #include <tools/io/wkt.hpp>
 
 #include <cstdint>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,7 @@ TEST(ToolsPartSizes, OfWellKnownText) {
     Sizes sizes{9};
     EXPECT_EQ(parse_wkt(text, "f", skipped, &sizes).size(), 4U);
     EXPECT_EQ(sizes, (Sizes{2, 1, 1}));
-    std::istringstream stream(text);
-    EXPECT_EQ(read_outline(stream, "f").part_sizes, (Sizes{2, 1, 1}));
+    EXPECT_EQ(parse_outline({"f", text}).part_sizes, (Sizes{2, 1, 1}));
 }
 
 TEST(ToolsPartSizes, OfGeojson) {
@@ -62,8 +60,7 @@ TEST(ToolsPartSizes, OfWellKnownBinary) {
         two + none + one;
     EXPECT_EQ(parse_hex_wkb(text, "f", skipped, &sizes).size(), 3U);
     EXPECT_EQ(sizes, (Sizes{2, 1}));
-    std::istringstream stream(text);
-    EXPECT_EQ(read_outline(stream, "f").part_sizes, (Sizes{2, 1}));
+    EXPECT_EQ(parse_outline({"f", text}).part_sizes, (Sizes{2, 1}));
 }
 
 }  // namespace

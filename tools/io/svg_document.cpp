@@ -1,0 +1,147 @@
+#include <tools/io/input_error.hpp>
+#include <tools/io/svg_document.hpp>
+#include <tools/io/text_file.hpp>
+#include <tools/io/values.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace nearfield::tools {
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string_view local_name(const pugi::xml_node& node) {
+    std::string_view name = node.name();
+    if (name.starts_with("svg:")) {
+        name.remove_prefix(4);
+    }
+    return name;
+}
+
+SvgDocument::SvgDocument(const std::string& text, const std::string& file)
+    // Parses in place and without conversions, so that every name and value has the same offset in
+    // the buffer as in the file.
+    : text_(text), file_(file), buffer_(text) {
+    const pugi::xml_parse_result result = document_.load_buffer_inplace(
+        buffer_.data(), buffer_.size(), pugi::parse_minimal | pugi::parse_cdata);
+    if (!result) {
+        fail(static_cast<std::size_t>(result.offset),
+             std::string("not XML: ") + result.description());
+    }
+    if (local_name(root()) != "svg") {
+        fail(offset_of(root().name()),
+             "the outermost element is \"" + std::string(root().name()) + "\", not svg");
+    }
+    index();
+}
+
+void SvgDocument::fail(std::size_t offset, const std::string& reason) const {
+    throw InputError(text_position(file_, text_, offset) + ": " + reason);
+}
+
+void SvgDocument::fail(const pugi::xml_node& node, const std::string& reason) const {
+    fail(offset_of(node.name()), std::string(node.name()) + ": " + reason);
+}
+
+std::size_t SvgDocument::offset_of(const char* in_buffer) const {
+    return static_cast<std::size_t>(in_buffer - buffer_.data());
+}
+
+SvgText SvgDocument::text_at(std::string_view in_buffer) const {
+    return {in_buffer, offset_of(in_buffer.data()), text_, file_};
+}
+
+void SvgDocument::blank_comments(const char* in_buffer) {
+    if (std::strstr(in_buffer, "/*") != nullptr) {
+        blank_css_comments(buffer_.data() + offset_of(in_buffer), std::strlen(in_buffer));
+    }
+}
+
+void SvgDocument::index() {
+    for (pugi::xml_node node = root(); node;) {
+        if (const pugi::xml_attribute id = node.attribute("id")) {
+            ids_.try_emplace(id.value(), node);
+        }
+        if (const pugi::xml_attribute style = node.attribute("style")) {
+            blank_comments(style.value());
+        }
+        if (local_name(node) == "style") {
+            add_style_sheet(node);
+        }
+        if (node.first_child()) {
+            node = node.first_child();
+            continue;
+        }
+        while (node && node != root() && !node.next_sibling()) {
+            node = node.parent();
+        }
+        node = node == root() ? pugi::xml_node() : node.next_sibling();
+    }
+}
+
+void SvgDocument::add_style_sheet(const pugi::xml_node& style) {
+    for (const pugi::xml_node& part : style.children()) {
+        if (part.type() != pugi::node_pcdata && part.type() != pugi::node_cdata) {
+            continue;
+        }
+        blank_comments(part.value());
+        if (const auto unread = sheet_.add(part.value())) {
+            fail(offset_of(unread->selector.data()),
+                 "the rule \"" + std::string(unread->selector) +
+                     "\" matters to geometry; only those of elements, classes and ids are read");
+        }
+    }
+}
+
+pugi::xml_node SvgDocument::find(std::string_view id) const {
+    const auto found = ids_.find(id);
+    return found == ids_.end() ? pugi::xml_node() : found->second;
+}
+
+std::optional<SvgText> SvgDocument::attribute(const pugi::xml_node& node, const char* name) const {
+    const pugi::xml_attribute found = node.attribute(name);
+    if (!found) {
+        return std::nullopt;
+    }
+    const std::string_view value = found.value();
+    // An empty value may be outside the buffer.
+    return value.empty() ? SvgText(value, offset_of(found.name()), text_, file_) : text_at(value);
+}
+
+std::optional<std::string_view> SvgDocument::styled(const pugi::xml_node& node,
+                                                    const char* name) const {
+    const SvgDeclaration* found = sheet_.find(
+        {local_name(node), node.attribute("id").value(), node.attribute("class").value()}, name);
+    if (node != styled_node_) {
+        styled_node_ = node;
+        styles_ = parse_svg_declarations(node.attribute("style").value());
+    }
+    const SvgDeclaration* own = nullptr;
+    for (const SvgDeclaration& declaration : styles_) {
+        if (declaration.name == name &&
+            (own == nullptr || declaration.important >= own->important)) {
+            own = &declaration;
+        }
+    }
+    if (own != nullptr && (found == nullptr || own->important >= found->important)) {
+        return own->value;
+    }
+    return found != nullptr ? std::optional(found->value) : std::nullopt;
+}
+
+std::optional<SvgText> SvgDocument::property(const pugi::xml_node& node, const char* name) const {
+    const std::optional<std::string_view> value = styled(node, name);
+    if (!value) {
+        return attribute(node, name);
+    }
+    return value->empty() ? SvgText(*value, offset_of(node.name()), text_, file_) : text_at(*value);
+}
+
+std::string_view SvgDocument::word(const pugi::xml_node& node, const char* name) const {
+    const std::optional<std::string_view> value = styled(node, name);
+    return without_spaces(value ? *value : std::string_view(node.attribute(name).value()));
+}
+
+}  // namespace nearfield::tools

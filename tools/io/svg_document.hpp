@@ -1,0 +1,73 @@
+#pragma once
+
+#include <pugixml.hpp>
+#include <tools/io/svg_style.hpp>
+#include <tools/io/svg_text.hpp>
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace nearfield::tools {
+
+/// True of a name that a list holds.
+[[nodiscard]] bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names);
+
+/// The name of an element or attribute without the prefix "svg:".
+[[nodiscard]] std::string_view local_name(const pugi::xml_node& node);
+
+/// A parsed SVG file: elements, their ids and their properties by attributes and CSS. Every value
+/// knows its place in the file. Not thread-safe.
+class SvgDocument {
+public:
+    /// Both must outlive this. Throws InputError where the text is not XML, not SVG, or has a style
+    /// sheet that matters to geometry and is not read.
+    SvgDocument(const std::string& text, const std::string& file);
+    SvgDocument(const SvgDocument&) = delete;
+    SvgDocument& operator=(const SvgDocument&) = delete;
+
+    /// The outermost svg element.
+    [[nodiscard]] pugi::xml_node root() const { return document_.document_element(); }
+    /// The first element with an id; a null node if there is none.
+    [[nodiscard]] pugi::xml_node find(std::string_view id) const;
+
+    /// Throws InputError with the place and the name of an element.
+    [[noreturn]] void fail(const pugi::xml_node& node, const std::string& reason) const;
+
+    /// An attribute; nothing if it is not there.
+    [[nodiscard]] std::optional<SvgText> attribute(const pugi::xml_node& node,
+                                                   const char* name) const;
+    /// A property by the element's style, by a style sheet or as an attribute; nothing where it is
+    /// not set.
+    [[nodiscard]] std::optional<SvgText> property(const pugi::xml_node& node,
+                                                  const char* name) const;
+    /// Likewise, by the element's style or a style sheet alone.
+    [[nodiscard]] std::optional<std::string_view> styled(const pugi::xml_node& node,
+                                                         const char* name) const;
+    /// The text of a property, trimmed; empty where it is not set.
+    [[nodiscard]] std::string_view word(const pugi::xml_node& node, const char* name) const;
+
+private:
+    [[noreturn]] void fail(std::size_t offset, const std::string& reason) const;
+    [[nodiscard]] std::size_t offset_of(const char* in_buffer) const;
+    [[nodiscard]] SvgText text_at(std::string_view in_buffer) const;
+    void blank_comments(const char* in_buffer);
+    void index();
+    void add_style_sheet(const pugi::xml_node& style);
+
+    const std::string& text_;
+    const std::string& file_;
+    std::string buffer_;
+    pugi::xml_document document_;
+    std::unordered_map<std::string_view, pugi::xml_node> ids_;
+    SvgStyleSheet sheet_;
+    // Several properties of one element are asked for in a row.
+    mutable pugi::xml_node styled_node_;
+    mutable std::vector<SvgDeclaration> styles_;
+};
+
+}  // namespace nearfield::tools

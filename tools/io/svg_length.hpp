@@ -1,0 +1,44 @@
+#pragma once
+
+#include <nearfield/curve.hpp>
+
+#include <tools/io/length_unit.hpp>
+#include <tools/io/svg_document.hpp>
+
+#include <optional>
+
+namespace nearfield::tools {
+
+/// What percentages refer to: the size of the innermost viewport, in user units.
+struct SvgViewport {
+    double width = 0.0;
+    double height = 0.0;
+};
+
+/// The direction of a length, which decides what a percentage of it is.
+enum class SvgAxis { x, y, other };
+
+/// A whole value as a length: a number alone is in user units, and so is the result. The units are
+/// px, mm, cm, Q, in, pt, pc and, where there is a viewport, %.
+[[nodiscard]] double parse_length(SvgText text, SvgAxis axis,
+                                  const std::optional<SvgViewport>& viewport);
+
+/// A property that is a length; nothing where it is not set, or "auto".
+[[nodiscard]] std::optional<double> svg_length(const SvgDocument& document,
+                                               const pugi::xml_node& node, const char* name,
+                                               SvgAxis axis,
+                                               const std::optional<SvgViewport>& viewport);
+
+/// Where the content of an element with a viewBox goes.
+struct SvgViewBox {
+    AffineMap map = {};    ///< from the coordinates of its content to those around it
+    SvgViewport viewport;  ///< in the coordinates of its content
+};
+
+/// The viewBox of an svg or symbol element that is shown at (0, 0) in a size; nothing if it has
+/// none. Throws InputError for numbers that make no sense.
+[[nodiscard]] std::optional<SvgViewBox> svg_view_box(const SvgDocument& document,
+                                                     const pugi::xml_node& node,
+                                                     const std::optional<SvgViewport>& size);
+
+}  // namespace nearfield::tools

@@ -1,0 +1,332 @@
+#include <tools/io/svg_path.hpp>
+#include <tools/io/svg_shapes.hpp>
+#include <tools/io/svg_transform.hpp>
+#include <tools/io/svg_walk.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace nearfield::tools {
+namespace {
+
+constexpr int deepest = 1024;                 // untrusted input must not exhaust the stack
+constexpr std::size_t most_work = 2'000'000;  // uses of uses multiply
+
+AffineMap translation(double x, double y) {
+    return {{1.0, 0.0}, {0.0, 1.0}, {x, y}};
+}
+
+AffineMap scaling(double factor) {
+    return {{factor, 0.0}, {0.0, factor}, {}};
+}
+
+}  // namespace
+
+std::optional<SvgState> SvgWalk::enter_root(LengthUnit unit) const {
+    const pugi::xml_node root = document_.root();
+    if (!document_.word(root, "transform").empty()) {
+        document_.fail(root, "a transform of the outermost element is not read");
+    }
+    std::optional<SvgState> state = enter(root, SvgState());
+    if (!state) {
+        return std::nullopt;
+    }
+    // A size in percent is that of a window that is not there.
+    const auto size = [&](const char* name, SvgAxis axis) {
+        const bool is_part = document_.word(root, name).ends_with('%');
+        return is_part ? std::nullopt : svg_length(document_, root, name, axis, std::nullopt);
+    };
+    std::optional<SvgViewBox> box = svg_view_box(document_, root, std::nullopt);
+    std::optional<double> width = size("width", SvgAxis::x);
+    std::optional<double> height = size("height", SvgAxis::y);
+    if (box && width && !height) {
+        height = *width * (box->viewport.height / box->viewport.width);
+    } else if (box && height && !width) {
+        width = *height * (box->viewport.width / box->viewport.height);
+    }
+    std::optional<SvgViewport> window;
+    if (width && height) {
+        window = SvgViewport{*width, *height};
+    }
+    if (unit != LengthUnit::user) {
+        box = svg_view_box(document_, root, window);
+    }
+    state->viewport = box ? std::optional(box->viewport) : window;
+    if (unit != LengthUnit::user) {
+        const AffineMap in_pixels = box ? box->map : AffineMap();
+        state->map = combine(in_pixels, scaling(1.0 / pixels_per(unit)));
+    }
+    state->map = combine(state->map, svg_to_world);
+    return state;
+}
+
+SvgRole SvgWalk::role_of(const pugi::xml_node& node) const {
+    const std::string_view name = local_name(node);
+    if (is_svg_shape(name)) {
+        return SvgRole::shape;
+    }
+    if (name == "use") {
+        return SvgRole::use;
+    }
+    if (is_one_of(name, {"g", "a", "svg", "switch"})) {
+        return SvgRole::group;
+    }
+    if (is_one_of(name, {"text", "image", "line", "foreignObject", "video", "audio", "canvas",
+                         "iframe", "flowRoot"})) {
+        return SvgRole::skipped;
+    }
+    const bool is_definition = is_one_of(name, {"defs",
+                                                "symbol",
+                                                "title",
+                                                "desc",
+                                                "metadata",
+                                                "style",
+                                                "script",
+                                                "clipPath",
+                                                "mask",
+                                                "marker",
+                                                "pattern",
+                                                "linearGradient",
+                                                "radialGradient",
+                                                "meshgradient",
+                                                "hatch",
+                                                "solidcolor",
+                                                "filter",
+                                                "view",
+                                                "cursor",
+                                                "color-profile",
+                                                "font",
+                                                "font-face",
+                                                "animate",
+                                                "animateMotion",
+                                                "animateTransform",
+                                                "animateColor",
+                                                "set",
+                                                "discard"});
+    if (is_definition || name.find(':') != std::string_view::npos) {
+        return SvgRole::nothing;
+    }
+    document_.fail(node,
+                   "is no element that is read: path, polygon, polyline, rect, circle, "
+                   "ellipse, g, use, symbol, svg, switch and a are");
+}
+
+std::vector<pugi::xml_node> SvgWalk::children_of(const pugi::xml_node& group) {
+    const bool is_switch = local_name(group) == "switch";
+    std::vector<pugi::xml_node> children;
+    for (const pugi::xml_node& child : group.children()) {
+        if (child.type() != pugi::node_element ||
+            (is_switch && (!children.empty() || child.attribute("requiredExtensions")))) {
+            continue;
+        }
+        children.push_back(child);
+    }
+    return children;
+}
+
+void SvgWalk::require_read(const pugi::xml_node& node) const {
+    for (const char* const what : {"clip-path", "mask"}) {
+        if (const std::string_view value = document_.word(node, what);
+            !value.empty() && value != "none") {
+            document_.fail(node, std::string(what) + " is not read");
+        }
+    }
+    for (const char* const what : {"d", "translate", "rotate", "scale", "zoom", "offset-path"}) {
+        const std::optional<std::string_view> value = document_.styled(node, what);
+        if (value && *value != "none") {
+            document_.fail(node, std::string(what) + " in a style is not read");
+        }
+    }
+    if (document_.word(node, "transform").empty()) {
+        return;
+    }
+    if (const std::string_view origin = document_.word(node, "transform-origin");
+        !is_one_of(origin, {"", "0", "0 0", "0px 0px"})) {
+        document_.fail(node, "transform-origin is not read");
+    }
+    if (!is_one_of(document_.word(node, "transform-box"), {"", "view-box"})) {
+        document_.fail(node, "transform-box is not read");
+    }
+}
+
+std::optional<SvgState> SvgWalk::enter(const pugi::xml_node& node, const SvgState& outer) const {
+    if (document_.word(node, "display") == "none") {
+        return std::nullopt;
+    }
+    if (outer.depth > deepest) {
+        document_.fail(node, "elements nested too deep");
+    }
+    require_read(node);
+    SvgState state = outer;
+    ++state.depth;
+    if (std::optional<SvgText> transform = document_.property(node, "transform")) {
+        state.map = combine(parse_transform(*transform), outer.map);
+    }
+    const std::string_view rule = document_.word(node, "fill-rule");
+    if (rule == "evenodd") {
+        state.rule = FillRule::odd_even;
+    } else if (rule == "nonzero" || rule == "initial") {
+        state.rule = FillRule::nonzero;
+    } else if (!is_one_of(rule, {"", "inherit", "unset"})) {
+        document_.fail(
+            node, "the fill-rule \"" + std::string(rule) + "\" is neither nonzero nor evenodd");
+    }
+    const std::string_view visibility = document_.word(node, "visibility");
+    if (visibility == "visible" || visibility == "initial") {
+        state.is_visible = true;
+    } else if (is_one_of(visibility, {"hidden", "collapse"})) {
+        state.is_visible = false;
+    } else if (!is_one_of(visibility, {"", "inherit", "unset"})) {
+        document_.fail(node, "the visibility \"" + std::string(visibility) +
+                                 "\" is none of visible, hidden, collapse");
+    }
+    return state;
+}
+
+void SvgWalk::count_work(const pugi::xml_node& node, std::size_t segments) {
+    work_ += 1 + segments;
+    if (!in_use_.empty() && work_ > most_work) {
+        document_.fail(node, "is drawn too often: the file's uses draw more than " +
+                                 std::to_string(most_work) + " elements and segments");
+    }
+}
+
+void SvgWalk::draw(const pugi::xml_node& node, const SvgState& outer, SvgDrawing& drawing) {
+    const SvgRole role = role_of(node);
+    if (role == SvgRole::nothing) {
+        return;
+    }
+    const std::optional<SvgState> state = enter(node, outer);
+    if (!state) {
+        return;
+    }
+    const bool is_inner_svg = role == SvgRole::group && local_name(node) == "svg";
+    draw_inside(node, is_inner_svg ? inside_viewport(node, {}, *state) : *state, drawing);
+}
+
+void SvgWalk::draw_inside(const pugi::xml_node& node, const SvgState& state, SvgDrawing& drawing) {
+    count_work(node, 0);
+    switch (role_of(node)) {
+        case SvgRole::nothing:  // a symbol, which is drawn where it is used
+        case SvgRole::group:
+            for (const pugi::xml_node& child : children_of(node)) {
+                draw(child, state, drawing);
+            }
+            return;
+        case SvgRole::use:
+            if (const pugi::xml_node target = target_of(node)) {
+                draw_target(node, target, placed(node, state), drawing);
+            }
+            return;
+        case SvgRole::skipped:
+            skipped_.add(local_name(node));
+            return;
+        case SvgRole::shape:
+            break;
+    }
+    if (!state.is_visible) {
+        return;
+    }
+    CurvePath outline = read_svg_shape(document_, node, state.viewport);
+    FilledPart part{.rule = state.rule};
+    for (const CurveContour& contour : outline.contours()) {
+        part.contours += contour.segments.empty() ? 0U : 1U;
+        count_work(node, contour.segments.size());
+    }
+    if (part.contours == 0) {
+        return;
+    }
+    outline.transform(state.map);
+    if (!outline.problem().empty()) {
+        document_.fail(node, outline.problem());
+    }
+    drawing.path.append(outline);
+    drawing.parts.push_back(part);
+}
+
+pugi::xml_node SvgWalk::target_of(const pugi::xml_node& use) const {
+    std::string_view reference = document_.word(use, "href");
+    if (reference.empty()) {
+        for (const pugi::xml_attribute& attribute : use.attributes()) {
+            if (std::string_view(attribute.name()).ends_with(":href")) {
+                reference = attribute.value();
+            }
+        }
+    }
+    if (reference.empty()) {
+        document_.fail(use, "needs the attribute href");
+    }
+    if (!reference.starts_with('#')) {
+        document_.fail(use, "refers to \"" + std::string(reference) +
+                                "\"; only what is in the file, as #ID, is read");
+    }
+    const pugi::xml_node target = document_.find(reference.substr(1));
+    if (!target) {
+        document_.fail(
+            use, "there is no element with the id \"" + std::string(reference.substr(1)) + "\"");
+    }
+    const bool is_drawn = local_name(target) == "symbol" || role_of(target) != SvgRole::nothing;
+    return is_drawn ? target : pugi::xml_node();
+}
+
+SvgState SvgWalk::placed(const pugi::xml_node& use, const SvgState& state) const {
+    SvgState moved = state;
+    const double x = svg_length(document_, use, "x", SvgAxis::x, state.viewport).value_or(0.0);
+    const double y = svg_length(document_, use, "y", SvgAxis::y, state.viewport).value_or(0.0);
+    moved.map = combine(translation(x, y), state.map);
+    return moved;
+}
+
+void SvgWalk::draw_target(const pugi::xml_node& use, const pugi::xml_node& target,
+                          const SvgState& state, SvgDrawing& drawing) {
+    if (std::find(in_use_.begin(), in_use_.end(), target) != in_use_.end()) {
+        document_.fail(use, "uses itself");
+    }
+    in_use_.push_back(target);
+    if (is_one_of(local_name(target), {"symbol", "svg"})) {
+        if (const std::optional<SvgState> entered = enter(target, state)) {
+            draw_inside(target, inside_viewport(target, use, *entered), drawing);
+        }
+    } else {
+        draw(target, state, drawing);
+    }
+    in_use_.pop_back();
+}
+
+SvgState SvgWalk::inside_viewport(const pugi::xml_node& node, const pugi::xml_node& use,
+                                  const SvgState& state) const {
+    const auto length = [&](const char* name, SvgAxis axis) {
+        std::optional<double> value;
+        if (use) {
+            value = svg_length(document_, use, name, axis, state.viewport);
+        }
+        return value ? value : svg_length(document_, node, name, axis, state.viewport);
+    };
+    SvgState inner = state;
+    if (!use || local_name(node) == "svg") {
+        const double x = svg_length(document_, node, "x", SvgAxis::x, state.viewport).value_or(0.0);
+        const double y = svg_length(document_, node, "y", SvgAxis::y, state.viewport).value_or(0.0);
+        inner.map = combine(translation(x, y), state.map);
+    }
+    std::optional<SvgViewport> size = state.viewport;
+    const std::optional<double> width = length("width", SvgAxis::x);
+    const std::optional<double> height = length("height", SvgAxis::y);
+    if (width && height) {
+        size = SvgViewport{*width, *height};
+    } else if (size) {
+        size = SvgViewport{width.value_or(size->width), height.value_or(size->height)};
+    }
+    if (node.attribute("viewBox") && !size) {
+        document_.fail(node, "a viewBox needs width and height here");
+    }
+    if (const std::optional<SvgViewBox> box = svg_view_box(document_, node, size)) {
+        inner.map = combine(box->map, inner.map);
+        inner.viewport = box->viewport;
+    } else {
+        inner.viewport = size;
+    }
+    return inner;
+}
+
+}  // namespace nearfield::tools
