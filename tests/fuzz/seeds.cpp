@@ -1,0 +1,129 @@
+#include "seeds.hpp"
+
+namespace nearfield::test {
+namespace {
+
+/// The bytes of hexadecimal digits.
+std::string bytes_of(const std::string& digits) {
+    std::string bytes;
+    for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+        bytes.push_back(static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16)));
+    }
+    return bytes;
+}
+
+FuzzFormat geojson() {
+    return {"f.geojson",
+            {R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3]],[[1,1],[2,1],[2,2]]]})",
+             R"({"type":"FeatureCollection","features":[{"type":"Feature","geometry":null},
+                {"type":"Feature","geometry":{"type":"GeometryCollection","geometries":[
+                {"type":"Point","coordinates":[1,2]},{"type":"MultiPolygon","coordinates":[
+                [[[0,0],[4,0],[4,3]]],[],[[[5,5],[6,5],[6,6]]]]}]},"properties":{}}]})"},
+            {"[", "]", "{", "}", ",", ":", "null", "[]", "{}", "\"type\"", "\"Polygon\"",
+             "\"MultiPolygon\"", "\"LineString\"", "\"coordinates\"", "[1,2]", "1e5", "\\u0000"}};
+}
+
+FuzzFormat wkt() {
+    return {"f.wkt",
+            {"POLYGON Z((0 0 1,4 0 1,4 3 1),(1 1 0,2 1 0,2 2 0))",
+             "SRID=4326;GEOMETRYCOLLECTION(MULTIPOLYGON(((0 0,4 0,4 4),EMPTY),EMPTY,((5 5,6 5,6 "
+             "6))),POINT(1 1),LINESTRING EMPTY);"},
+            {"POLYGON", "MULTIPOLYGON", "EMPTY", "GEOMETRYCOLLECTION(", "((", "))", ",", " ZM ",
+             ";", "SRID=", "POINT", "MULTIPOINT((1 1),(2 2))", "1 1", "-"}};
+}
+
+const std::string polygon =
+    "010300000001000000030000000000000000000000000000000000000000000000000010400000000000000000"
+    "00000000000010400000000000000840";
+
+FuzzFormat wkb() {
+    const std::string collection =
+        "0107000000"
+        "02000000" +
+        polygon + "0101000000000000000000F03F000000000000F03F";
+    return {"f.wkb",
+            {bytes_of(polygon),
+             bytes_of("0106000000"
+                      "01000000" +
+                      polygon),
+             bytes_of(collection)},
+            {bytes_of("0103000000"), bytes_of("FFFFFFFF"), bytes_of("0107000000"),
+             bytes_of("000000F07F000000"), bytes_of("EB030000"), bytes_of("03000020E6100000")}};
+}
+
+FuzzFormat hex_wkb() {
+    return {"h.wkt",
+            {polygon,
+             "0106000000"
+             "01000000" +
+                 polygon},
+            {"0103000000", "FFFFFFFF", "0107000000", "\n", "0000000003", "EB030000"}};
+}
+
+FuzzFormat svg() {
+    return {
+        "f.svg",
+        {R"svg(<svg viewBox="0 0 40 30" width="40mm" height="30mm"><style>.a, #b{fill-rule:evenodd}
+path.c{display:none}</style><defs><g id="i"><path d="M0 0h4v3z M1 1a1 1 0 01.5.5z"/></g>
+<symbol id="s" viewBox="0 0 4 4"><circle class="a" r="3"/></symbol></defs>
+<use href="#i" transform="translate(1 2),rotate(30)"/><use xlink:href="#s" width="8" height="9"/>
+<text>t</text></svg>)svg",
+         R"svg(<?xml version="1.0"?><svg><g transform="matrix(1 0 0 -1 5 6)" style="fill-rule:nonzero">
+<path id="b" d="m1 1c1 2 3 2 4 0s3-2 4 0q1 2 2 0t2 0z"/><polygon points="0,0 4,0 4,3"/></g>
+<rect width="50" height="5" rx="1"/><svg x="1" viewBox="0 0 9 9" width="5" height="5">
+<ellipse rx="2" ry="1" visibility="hidden"/><polyline points="1 1 2 2 3 1"/></svg></svg>)svg"},
+        {"<g>",
+         "</g>",
+         "<use href='#i'/>",
+         "<use href='#b'/>",
+         "<path d='M0 0h1v1z'/>",
+         "/>",
+         "style='display:none'",
+         "transform='scale(0)'",
+         "/*",
+         "*/",
+         "{",
+         "}",
+         "@media a{",
+         "<![CDATA[",
+         "]]>",
+         "<!--",
+         "id='i'",
+         "id='b'",
+         "'",
+         "\"",
+         "%",
+         "mm",
+         "A1 1 0 1 1 2 2",
+         "C1 1 2 2 3 3",
+         "!important",
+         "evenodd",
+         "url(",
+         "skewX(30)",
+         "viewBox='0 0 1 1'"}};
+}
+
+FuzzFormat path() {
+    return {"f.path",
+            {"M0 0h4v3z M1 1a1 1 0 01.5.5z", "m1 1c1 2 3 2 4 0s3-2 4 0q1 2 2 0t2 0zM5 5H9V9L3 3"},
+            {"M", "z", "a1 1 0 11", "C", "1e5", "-.5", ",", "h", "T2 2", "S1 1 2 2"}};
+}
+
+FuzzFormat scene() {
+    return {"f.json",
+            {R"({"shapes":{"a":{"rings":[[[0,0],[2,0],[2,1]]],"fill_rule":"nonzero"}},
+"instances":{"x":{"shape":"a","pose":[1,2,30]},"y":{"shape":"a","end_pose":[1,1,1]}},
+"groups":{"g":["x","y"]},"queries":[{"query":"contacts","a":"x","b":"y","tolerance":0.1},
+{"query":"penetration","pairs":{"between":["g","x"]},"tolerance":0.1,"hits_only":true},
+{"query":"nearest","points":[[1,2]],"count":2,"against":"g"}]})"},
+            {"[", "]", "{", "}", ",", "null", "\"pairs\":\"all\"", "\"shapes\"", "\"deviation\":1",
+             "\"clean_width\":1", "\"query\":\"poses\"", "[1,2,3]", "\"x\"", "true", "-1"}};
+}
+
+}  // namespace
+
+std::vector<FuzzFormat> fuzz_formats() {
+    return {geojson(), wkt(), wkb(), hex_wkb(), svg(), path(), scene()};
+}
+
+}  // namespace nearfield::test
