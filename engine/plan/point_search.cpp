@@ -143,9 +143,14 @@ void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSea
     search.queries.push_back(searched.query);
 }
 
-/// Starts anew if most of what is kept was not used by the last batch.
+/// Starts anew if most of what is kept was not used by the last batch, or if it is large and a good
+/// part was not.
 void PointSearchBuilder::drop_unused() {
-    if (units_.size() > 4 * units_in_use_ + 4096) {
+    constexpr std::size_t few = 4096;
+    constexpr std::size_t many = std::size_t{1} << 22U;
+    const std::size_t most =
+        units_.size() > many ? units_in_use_ + units_in_use_ / 4 : 4 * units_in_use_;
+    if (units_.size() > most + few) {
         entries_.clear();
         units_.clear();
     }
@@ -187,35 +192,49 @@ std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
     return entry.first;
 }
 
+/// A header, the boxes of all levels, the edges, and the numbers of the edges of each chunk. The
+/// places in the header are relative to its own.
 void PointSearchBuilder::make_shape(const Polygon& polygon) {
-    const std::span<const Vector> vertices = polygon.vertices();
     const std::uint32_t chunks = chunks_of(polygon);
     made_.resize(header_units);
     std::uint32_t levels = 0;
-    std::uint32_t next = header_units;
-    std::uint32_t boxes = chunks;
-    for (;; boxes = (boxes + chunk_size - 1) / chunk_size) {
-        made_[2 + levels / 4][levels % 4] = next;
+    std::uint32_t end = header_units;
+    for (std::uint32_t boxes = chunks;; boxes = (boxes + chunk_size - 1) / chunk_size) {
+        made_[2 + levels / 4][levels % 4] = end;
         ++levels;
-        next += boxes;
+        end += boxes;
         if (boxes <= chunk_size) {
             break;
         }
     }
-    const std::uint32_t edges = next;
+    const std::uint32_t edges = end;
     const std::uint32_t infos = edges + chunk_size * chunks;
     made_[0] = {chunks, levels, edges, 4 * infos};
     made_.resize(infos + units_for(chunks));
     boxes_.assign(chunks, empty_box);
+    add_chunks(polygon, edges, infos);
+    for (std::uint32_t level = 0; level < levels; ++level) {
+        add_level(made_[2 + level / 4][level % 4]);
+    }
+    for (std::size_t i = 1; i < boxes_.size(); ++i) {
+        extend(boxes_.front(), boxes_[i]);
+    }
+    made_[1] = unit_of(boxes_.front());
+}
+
+void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,
+                                    std::uint32_t infos) {
+    const std::span<const Vector> vertices = polygon.vertices();
     std::uint32_t chunk = 0;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const std::uint32_t begin = polygon.ring_begin(ring);
         const std::uint32_t end = polygon.ring_end(ring);
-        for (std::uint32_t edge = polygon.ring_begin(ring); edge < end; ++chunk) {
+        for (std::uint32_t edge = begin; edge < end; ++chunk) {
             const std::uint32_t count = std::min(end - edge, chunk_size);
             made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
             for (std::uint32_t i = 0; i < count; ++i, ++edge) {
                 const Vector& a = vertices[edge];
-                const Vector& b = vertices[edge + 1 == end ? polygon.ring_begin(ring) : edge + 1];
+                const Vector& b = vertices[edge + 1 == end ? begin : edge + 1];
                 const FloatBox ends{static_cast<float>(a.x()), static_cast<float>(a.y()),
                                     static_cast<float>(b.x()), static_cast<float>(b.y())};
                 made_[edges + chunk_size * chunk + i] = unit_of(ends);
@@ -224,23 +243,18 @@ void PointSearchBuilder::make_shape(const Polygon& polygon) {
             }
         }
     }
-    for (std::uint32_t level = 0; level < levels; ++level) {
-        const std::uint32_t first = made_[2 + level / 4][level % 4];
-        for (std::size_t i = 0; i < boxes_.size(); ++i) {
-            made_[first + i] = unit_of(boxes_[i]);
-        }
-        for (std::size_t i = 0; i < boxes_.size(); ++i) {
-            FloatBox& group = boxes_[i / chunk_size];
-            const FloatBox own = boxes_[i];
-            group = i % chunk_size == 0 ? own : group;
-            extend(group, own);
-        }
-        boxes_.resize((boxes_.size() + chunk_size - 1) / chunk_size);
+}
+
+/// Writes the boxes of one level, and replaces them by those of the next.
+void PointSearchBuilder::add_level(std::uint32_t first) {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+        const FloatBox own = boxes_[i];
+        made_[first + i] = unit_of(own);
+        FloatBox& group = boxes_[i / chunk_size];
+        group = i % chunk_size == 0 ? own : group;
+        extend(group, own);
     }
-    for (std::size_t i = 1; i < boxes_.size(); ++i) {
-        extend(boxes_.front(), boxes_[i]);
-    }
-    made_[1] = unit_of(boxes_.front());
+    boxes_.resize((boxes_.size() + chunk_size - 1) / chunk_size);
 }
 
 void PointSearchBuilder::make_parts(const Polygon& polygon, double spacing) {

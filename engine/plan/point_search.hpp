@@ -109,6 +109,8 @@ private:
     void drop_unused();
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
     void make_shape(const geometry::Polygon& polygon);
+    void add_chunks(const geometry::Polygon& polygon, std::uint32_t edges, std::uint32_t infos);
+    void add_level(std::uint32_t first);
     void make_parts(const geometry::Polygon& polygon, double spacing);
     void add(Plan& plan, const SearchedQuery& searched, PointSearch& search);
 

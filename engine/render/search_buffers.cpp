@@ -13,7 +13,8 @@ constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
 
 // Of the arguments: by stage, three numbers of workgroups and the count.
 constexpr std::uint64_t argument_words = 4;
-constexpr std::uint64_t stages = SearchCounts{}.size();
+constexpr std::uint64_t argument_bytes =
+    SearchCounts{}.size() * argument_words * sizeof(std::uint32_t);
 
 // The shader keeps three counts at the start of its scratch memory.
 constexpr std::uint32_t header_words = 4;
@@ -39,7 +40,7 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield search arguments"),
       sets_(device, layout, names_of_sets) {
-    arguments_.reserve(stages * argument_words * sizeof(std::uint32_t));
+    arguments_.reserve(argument_bytes);
     item_.set = sets_[0];
 }
 
@@ -47,7 +48,8 @@ void SearchBuffers::upload(std::span<const plan::SearchUnit> shapes,
                            const plan::PointSearch& search, const SearchCounts& expected) {
     const auto blocks = std::as_bytes(std::span(search.first_directions));
     const auto directions = std::as_bytes(std::span(search.directions));
-    input_.reserve(shapes.size_bytes() + directions.size() + blocks.size());
+    input_bytes_ = shapes.size_bytes() + directions.size() + blocks.size();
+    input_.reserve(input_bytes_);
     std::byte* target = input_.data();
     for (const auto bytes : {std::as_bytes(shapes), directions, blocks}) {
         target = std::copy(bytes.begin(), bytes.end(), target);
@@ -83,17 +85,25 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     scratch_.reserve(layout.units * sizeof(plan::SearchUnit));
     records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
     // A device that is lost leaves no counts of an earlier search.
-    std::memset(arguments_.data(), 0, stages * argument_words * sizeof(std::uint32_t));
+    std::memset(arguments_.data(), 0, argument_bytes);
     arguments_.flush();
     item_.input = input_.handle();
     item_.scratch = scratch_.handle();
     item_.records = records_.handle();
     item_.arguments = arguments_.handle();
+    bind();
+}
+
+void SearchBuffers::bind() const {
     using Layout = passes::ComputeLayout;
-    layout_->write_buffer(item_.set, Layout::tiles, item_.input, 0, VK_WHOLE_SIZE);
-    layout_->write_buffer(item_.set, Layout::geometry, item_.scratch, 0, VK_WHOLE_SIZE);
-    layout_->write_buffer(item_.set, Layout::points, item_.records, 0, VK_WHOLE_SIZE);
-    layout_->write_buffer(item_.set, Layout::output, item_.arguments, 0, VK_WHOLE_SIZE);
+    const auto write = [this](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
+        layout_->write_buffer(item_.set, binding, buffer, 0, bytes);
+    };
+    write(Layout::tiles, item_.input, input_bytes_);
+    write(Layout::geometry, item_.scratch, item_.layout.units * sizeof(plan::SearchUnit));
+    write(Layout::points, item_.records,
+          std::max(item_.layout.capacities[2], 1U) * sizeof(plan::FoundPointData));
+    write(Layout::output, item_.arguments, argument_bytes);
 }
 
 void SearchBuffers::read_back() {

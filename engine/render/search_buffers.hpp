@@ -43,6 +43,7 @@ public:
 
 private:
     void lay_out(const SearchCounts& expected);
+    void bind() const;
 
     const passes::ComputeLayout* layout_;
     gpu::MappedBuffer input_;
@@ -51,6 +52,7 @@ private:
     gpu::MappedBuffer arguments_;
     passes::DescriptorSets sets_;
     passes::PointSearch::Item item_;
+    std::uint64_t input_bytes_ = 0;
     SearchCounts max_counts_{};
     SearchCounts counts_{};
 };

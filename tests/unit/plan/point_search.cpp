@@ -1,0 +1,133 @@
+#include <engine/plan/point_search.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using test::Random;
+using test::Rings;
+
+float as_float(std::uint32_t word) {
+    return std::bit_cast<float>(word);
+}
+
+/// Two shapes, and a plan of one searched query of them.
+class PointSearchInput : public testing::Test {
+protected:
+    PointSearchInput() {
+        query_ = PenetrationQuery{};
+        plan_.queries.resize(1);
+        PlannedQuery& planned = plan_.queries.front();
+        planned.query = &query_;
+        planned.a = &a_;
+        planned.b = &b_;
+        planned.budget.cell = 0.05;
+        plan_.searched.push_back({});
+    }
+
+    void build(const Rings& a, const Rings& b) {
+        ASSERT_TRUE(a_.assign(a).ok());
+        ASSERT_TRUE(b_.assign(b).ok());
+        ASSERT_EQ(builder_.build(plan_, searches_), 1U);
+        ASSERT_EQ(search().directions.size(), 1U);
+    }
+
+    [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().size(); }
+    [[nodiscard]] const PointSearch& search() const { return searches_.front(); }
+    [[nodiscard]] const SearchUnit& unit(std::size_t index) const {
+        return builder_.shapes()[index];
+    }
+    [[nodiscard]] std::uint32_t word(std::size_t index) const { return unit(index / 4)[index % 4]; }
+
+    /// The boxes of a level hold those below, and the lowest ones hold the edges of the polygon.
+    void check(std::uint32_t first, const geometry::Polygon& polygon) const {
+        const auto [chunks, levels, edges, infos] = unit(first);
+        std::uint32_t edge = 0;
+        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+            const std::uint32_t info = word(infos + chunk);
+            ASSERT_EQ(info >> 4U, edge);
+            for (std::uint32_t i = 0; i < (info & 15U); ++i, ++edge) {
+                const SearchUnit& ends = unit(edges + chunk_size * chunk + i);
+                const geometry::Vector& from = polygon.vertices()[edge];
+                const geometry::Vector& to = polygon.vertices()[polygon.next(edge)];
+                EXPECT_EQ(as_float(ends[0]), static_cast<float>(from.x()));
+                EXPECT_EQ(as_float(ends[1]), static_cast<float>(from.y()));
+                EXPECT_EQ(as_float(ends[2]), static_cast<float>(to.x()));
+                EXPECT_EQ(as_float(ends[3]), static_cast<float>(to.y()));
+                expect_holds(unit(first_box(first, 0) + chunk), ends);
+            }
+        }
+        EXPECT_EQ(edge, polygon.size());
+        std::uint32_t boxes = chunks;
+        for (std::uint32_t level = 1; level < levels; ++level) {
+            for (std::uint32_t i = 0; i < boxes; ++i) {
+                expect_holds(unit(first_box(first, level) + i / chunk_size),
+                             unit(first_box(first, level - 1) + i));
+            }
+            boxes = (boxes + chunk_size - 1) / chunk_size;
+        }
+        EXPECT_LE(boxes, chunk_size);
+        EXPECT_EQ(levels == 1, chunks <= chunk_size);
+        for (std::uint32_t i = 0; i < boxes; ++i) {
+            expect_holds(unit(first + 1), unit(first_box(first, levels - 1) + i));
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t first_box(std::uint32_t first, std::uint32_t level) const {
+        return unit(first + 2 + level / 4)[level % 4];
+    }
+    static void expect_holds(const SearchUnit& box, const SearchUnit& corners) {
+        for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+            for (const std::size_t corner : {axis, axis + 2}) {
+                EXPECT_LE(as_float(box[axis]), as_float(corners[corner]));
+                EXPECT_GE(as_float(box[axis + 2]), as_float(corners[corner]));
+            }
+        }
+    }
+
+    AnyQuery query_;
+    Plan plan_;
+    PointSearchBuilder builder_;
+    std::vector<PointSearch> searches_;
+
+protected:
+    geometry::Polygon a_;
+    geometry::Polygon b_;
+};
+
+TEST_F(PointSearchInput, HasAllEdgesInBoxesOnEveryLevel) {
+    Random random(18);
+    // One chunk, eight and nine of them (a second level), 65 (a third), and rings of few edges.
+    for (const int size : {3, 8, 64, 65, 72, 512, 513, 4000}) {
+        SCOPED_TRACE(size);
+        build(test::star(random, size, 0.3), test::several_parts(random, 1 + size % 50));
+        check(search().directions.front().shape_a, a_);
+        check(search().directions.front().shape_b, b_);
+        EXPECT_EQ(search().items, static_cast<std::uint32_t>(size + 7) / 8);
+    }
+}
+
+TEST_F(PointSearchInput, FollowsShapesThatGrowShrinkAndMove) {
+    Random random(19);
+    std::size_t largest = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+        SCOPED_TRACE(frame);
+        build(test::star(random, random.whole(3, 300), 0.3), test::regular(random.whole(3, 40)));
+        check(search().directions.front().shape_a, a_);
+        check(search().directions.front().shape_b, b_);
+        largest = std::max(largest, builder_size());
+    }
+    // No more is left behind than a few times what is in use.
+    EXPECT_LT(largest, 4096U + 4 * 2 * 2 * (300 + 40));
+}
+
+}  // namespace
+}  // namespace nearfield::plan
