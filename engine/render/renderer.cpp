@@ -223,6 +223,8 @@ void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
 void Renderer::trim() noexcept {
     last_graph_ = nullptr;
     graphs_.clear();
+    max_counts_ = {};
+    max_samples_ = 0;
 }
 
 void Renderer::wait(BatchResources& slot, Timings& timings) {
