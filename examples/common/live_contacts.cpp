@@ -29,6 +29,10 @@ LiveContacts::LiveContacts(const HostDevice& host, std::uint32_t frames_in_fligh
     }
 }
 
+LiveContacts::~LiveContacts() {
+    context_.frame_completed(last_frame_);
+}
+
 void LiveContacts::record(VkCommandBuffer commands, std::uint64_t frame, const Scene& scene) {
     if (frame >= frames_in_flight_) {
         context_.frame_completed(frame - frames_in_flight_);
@@ -45,17 +49,18 @@ void LiveContacts::record(VkCommandBuffer commands, std::uint64_t frame, const S
     query.contact_distance = contact_distance;
     query.technique = Technique::compute;
     batch_.clear();
-    query_ = batch_.add(query);
+    const QueryHandle<ContactQuery> handle = batch_.add(query);
     Recording recording;
     recording.commands = commands;
     recording.frame = frame;
     pending_.push_back(
-        {value_of(context_.record(batch_, recording)), {scene.version(), poses, {}}});
+        {value_of(context_.record(batch_, recording)), handle, {scene.version(), poses, {}}});
+    last_frame_ = frame;
 }
 
 void LiveContacts::take_over(const Pending& pending) {
     require_ok(context_.collect(pending.ticket, results_));
-    const ContactResult& result = results_[query_];
+    const ContactResult& result = results_[pending.query];
     require_ok(result.status);
     snapshot_ = pending.asked;
     snapshot_.contacts = result.records;

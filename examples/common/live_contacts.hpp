@@ -29,6 +29,10 @@ struct Snapshot {
 class LiveContacts {
 public:
     LiveContacts(const HostDevice& host, std::uint32_t frames_in_flight, const Scene& scene);
+    /// The device has finished all frames, or never begins them.
+    ~LiveContacts();
+    LiveContacts(const LiveContacts&) = delete;
+    LiveContacts& operator=(const LiveContacts&) = delete;
 
     /// Records the contact query for the current scene. The contacts of the frame
     /// `frames_in_flight` earlier, which the host knows to be complete, become the snapshot to
@@ -40,6 +44,7 @@ public:
 private:
     struct Pending {
         Ticket ticket;
+        QueryHandle<ContactQuery> query;
         Snapshot asked;  ///< without the contacts
     };
 
@@ -47,10 +52,10 @@ private:
 
     Context context_;
     std::uint32_t frames_in_flight_ = 0;
+    std::uint64_t last_frame_ = 0;
     std::array<ShapeHandle, 2> shapes_;
     // Kept from frame to frame to reuse the memory.
     Batch batch_;
-    QueryHandle<ContactQuery> query_;
     Results results_;
     std::deque<Pending> pending_;  ///< oldest first
     Snapshot snapshot_;

@@ -430,7 +430,11 @@ struct Results {
     }
 
 private:
-    enum class NoResult : std::uint8_t { other_batch, out_of_range, other_kind };
+    enum class NoResult : std::uint8_t {
+        other_batch,   ///< of the handle
+        out_of_range,  ///< the position
+        other_kind,    ///< of query
+    };
     NEARFIELD_EXPORT static Status status_of(NoResult fault) noexcept;
     template <class Result>
     static Result no_result(NoResult fault) noexcept {

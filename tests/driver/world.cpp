@@ -71,10 +71,21 @@ Status World::take(Step step) {
         case Step::collect_unexecuted:
             return collect_recorded(false);
         case Step::destroy:
-            context_.reset();
+            leave();
             return {};
     }
     return {};
+}
+
+World::~World() {
+    leave();
+}
+
+void World::leave() {
+    if (context_) {
+        context_->frame_completed(UINT64_MAX);  // nothing was submitted, and nothing will be
+        context_.reset();
+    }
 }
 
 void World::take_all_before(Step step) {

@@ -54,6 +54,9 @@ public:
         : technique_(technique),
           before_(driver_.make_semaphore(true)),
           after_(driver_.make_semaphore(false)) {}
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
 
     [[nodiscard]] test_support::MockDriver& driver() { return driver_; }
     [[nodiscard]] Context& context() { return *context_; }
@@ -89,6 +92,7 @@ private:
     Status submit(const Batch& queries, const Submission& submission);
     Status submit_for_device(double cells, const Submission& submission);
     Status record();
+    void leave();
     Status collect();
     /// The host has completed its frame.
     Status collect_recorded(bool executed);

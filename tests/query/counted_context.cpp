@@ -75,9 +75,16 @@ Ticket require(const Expected<Ticket>& ticket) {
 
 }  // namespace
 
-void CountedContext::make(const Settings& settings) {
-    counted_.reset();
+void CountedContext::leave() {
+    if (counted_) {
+        counted_->frame_completed(UINT64_MAX);  // the test has waited for the device
+        counted_.reset();
+    }
     loader_.reset();
+}
+
+void CountedContext::make(const Settings& settings) {
+    leave();
     loader_.emplace(host_device(), counting());
     Expected<Context> made = Context::create(loader_->host(), drawing(settings));
     ASSERT_TRUE(made.has_value()) << made.error().text();
@@ -100,8 +107,7 @@ void CountedContext::make(std::uint32_t frames) {
 }
 
 void CountedContext::TearDown() {
-    counted_.reset();
-    loader_.reset();
+    leave();
     QueryTest::TearDown();
 }
 

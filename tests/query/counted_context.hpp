@@ -41,6 +41,8 @@ protected:
     ShapeHandle b_;
 
 private:
+    void leave();
+
     std::optional<test_support::FakeLoader> loader_;
     std::optional<Context> counted_;
 };
