@@ -70,6 +70,25 @@ struct ResolvedFill {
 [[nodiscard]] NEARFIELD_EXPORT Expected<ResolvedFill> resolve_fill(
     std::span<const Ring> rings, FillRule rule, const FillSettings& settings = {});
 
+/// Grows the region that rings enclose by a rule, with round corners, or shrinks it: by `distance`,
+/// in the units of the rings, negative to shrink. For clearance: B grown by a distance meets what
+/// is no farther than that from B.
+///
+/// `deviation` (> 0) bounds that of the result, which states the actual one; arcs get as few edges
+/// as half of it allows. The law is one of distances to the region as resolve_fill() finds it: with
+/// the deviation D of the result, a point closer to it than `distance` - D is inside, and one
+/// farther than `distance` + D outside; for a negative distance likewise with depths below the
+/// boundary. Where a gap or a neck is within D of closing, it may be open or closed.
+///
+/// `settings` are those of resolve_fill(), which works twice. The rings of the result are as
+/// ResolvedFill says; none if nothing is left. Fails as resolve_fill(), and with invalid_shape for
+/// a distance that is not finite or exceeds `largest_coordinate`, or a deviation that is not above
+/// 0 or below that of the grids; with too_large if more than `settings.most` vertices would be
+/// needed. Thread-safe.
+[[nodiscard]] NEARFIELD_EXPORT Expected<ResolvedFill> offset_fill(
+    std::span<const Ring> rings, FillRule rule, double distance, double deviation,
+    const FillSettings& settings = {});
+
 /// What clean() drops.
 struct Cleaning {
     /// What is no wider than this vanishes, in the units of the rings, >= 0. At least 2^-47 of a
