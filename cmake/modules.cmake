@@ -24,6 +24,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86
     target_compile_options(nearfield_options INTERFACE
         -mmemset-strategy=${few_at_once} -mmemcpy-strategy=${few_at_once})
 endif()
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    # Kernels keep vectors in structures, which those of unknown length (SVE) cannot be in.
+    target_compile_definitions(nearfield_options INTERFACE
+        "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
+endif()
 if(NEARFIELD_WARNINGS_AS_ERRORS)
     target_compile_options(nearfield_options INTERFACE -Werror)
 endif()
