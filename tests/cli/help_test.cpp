@@ -121,7 +121,8 @@ protected:
 };
 
 TEST_F(Help, NamesCommandsAndTheirOptions) {
-    expect_names({}, {"query", "scene", "bench", "simulate", "calibrate", "info", "--version"});
+    expect_names({},
+                 {"query", "scene", "bench", "simulate", "calibrate", "hash", "info", "--version"});
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
     expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--keep", "--json"});

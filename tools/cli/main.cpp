@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <tools/cli/bench.hpp>
 #include <tools/cli/calibrate.hpp>
+#include <tools/cli/hash.hpp>
 #include <tools/cli/help_formatter.hpp>
 #include <tools/cli/info.hpp>
 #include <tools/cli/query.hpp>
@@ -46,11 +47,13 @@ int run(int count, char** arguments) {
     tools::BenchArguments bench_arguments;
     tools::CalibrateArguments calibrate_arguments;
     tools::SimulateArguments simulate_arguments;
+    tools::HashArguments hash_arguments;
     const CLI::App* const query = tools::add_query_command(program, query_arguments);
     const CLI::App* const scene = tools::add_scene_command(program, scene_arguments);
     const CLI::App* const bench = tools::add_bench_command(program, bench_arguments);
     const CLI::App* const calibrate = tools::add_calibrate_command(program, calibrate_arguments);
     const CLI::App* const simulate = tools::add_simulate_command(program, simulate_arguments);
+    const CLI::App* const hash = tools::add_hash_command(program, hash_arguments);
     tools::add_info_command(program);
     std::vector<std::string> words =
         tools::with_kind_first(*query, {arguments + std::min(count, 1), arguments + count});
@@ -63,7 +66,8 @@ int run(int count, char** arguments) {
         }
         if (count > 1 && arguments[1][0] != '-' && program.get_subcommands().empty()) {
             throw tools::InputError(std::string("\"") + arguments[1] +
-                                    "\" is none of query, scene, simulate, bench, calibrate, info");
+                                    "\" is none of query, scene, simulate, bench, calibrate, hash, "
+                                    "info");
         }
         if (query->parsed()) {
             tools::explain_refusal(*query);
@@ -87,6 +91,10 @@ int run(int count, char** arguments) {
     }
     if (calibrate->parsed()) {
         tools::run_calibrate(calibrate_arguments);
+        return exit_status::done;
+    }
+    if (hash->parsed()) {
+        tools::run_hash(hash_arguments);
         return exit_status::done;
     }
     return tools::run_info();

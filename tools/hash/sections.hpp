@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nearfield/context.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <span>
+#include <string>
+
+namespace nearfield::hash {
+
+/// Makes a context. Whatever its device and its jobs, Technique::cpu answers with the same bits.
+using MakeContext = std::function<Context(const Settings&)>;
+
+/// A part of the answers.
+struct Section {
+    std::string name;
+    /// The hash of all answers. Throws tools::LibraryError if a call fails.
+    std::function<std::uint64_t(const MakeContext&)> hash;
+    bool quick = true;  ///< takes seconds at most, also on an emulated processor
+};
+
+/// All sections, in the order in which they are printed.
+[[nodiscard]] std::span<const Section> sections();
+
+/// Prints the hash of each section, a line each. `quick`: of the quick sections alone.
+void print_hashes(const MakeContext& make_context, bool quick, std::ostream& stream);
+
+/// A context without a device.
+[[nodiscard]] Context cpu_context(const Settings& settings);
+
+// What the sections hash.
+
+/// `count` random pairs from pair `first` on, by all queries.
+[[nodiscard]] std::uint64_t hash_pairs(const MakeContext& make_context, std::uint32_t first,
+                                       std::uint32_t count);
+/// The outlines of tests/data with each other, their fills and tessellated curves.
+[[nodiscard]] std::uint64_t hash_outlines(const MakeContext& make_context);
+/// A world that changes, by all its queries.
+[[nodiscard]] std::uint64_t hash_world(const MakeContext& make_context);
+/// A simulation of the paper, by both responses if its bodies are rigid.
+[[nodiscard]] std::uint64_t hash_simulation(const MakeContext& make_context, std::size_t scene);
+
+}  // namespace nearfield::hash
