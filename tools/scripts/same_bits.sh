@@ -2,8 +2,8 @@
 # Compares the hashes of the answers of technique cpu with the committed ones, for other compilers,
 # other optimisation and another processor. Builds the library and the hashes alone, for each.
 #   same_bits.sh [--quick] [NAME...]     default all: gcc-O1 gcc-O3 clang-O1 clang-O3 aarch64-O2
-# aarch64 needs the Debian packages g++-aarch64-linux-gnu and qemu-user; its Highway is downloaded
-# by apt. It takes the quick sections alone.
+# Needs what setup.sh bits installs. Highway for aarch64 is downloaded by apt and not installed; the
+# emulated program takes the quick sections alone.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 

@@ -4,6 +4,7 @@
 #   setup.sh view   to build and run the live viewer, and for videos of simulations
 #   setup.sh test   all of these, and for the tests and checks
 #   setup.sh bench  to build and run the benchmark against other libraries
+#   setup.sh bits   to compare answers by other compilers and on aarch64 (same_bits.sh)
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -26,13 +27,15 @@ test_packages+=(
 bench_packages=(
     libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
 )
+bits_packages=(clang g++-aarch64-linux-gnu qemu-user)
 
 case "$*" in
     run) wanted=("${run_packages[@]}") ;;
     view) wanted=("${run_packages[@]}" "${viewer_packages[@]}") ;;
     test) wanted=("${run_packages[@]}" "${test_packages[@]}") ;;
     bench) wanted=("${run_packages[@]}" "${bench_packages[@]}") ;;
-    *) die "usage: setup.sh run|view|test|bench" ;;
+    bits) wanted=("${run_packages[@]}" "${bits_packages[@]}") ;;
+    *) die "usage: setup.sh run|view|test|bench|bits" ;;
 esac
 
 for tool in apt-get dpkg-query; do
