@@ -55,9 +55,11 @@ hash_program() {
         cmake -DINPUT="$file" -DOUTPUT="$folder/generated/embedded/$stem.hpp" -DSYMBOL="$stem" \
             -P "$root/cmake/embed_text.cmake"
     done
+    # As nearfield_same_bits in cmake/modules.cmake.
     local same=(-ffp-contract=off)
-    [[ $compiler != *g++ || $("$compiler" -dumpversion) -ge 13 ]] || same+=(-fno-tree-slp-vectorize)
-    # nlohmann-json3-dev has headers alone, which do not depend on the processor.
+    if [[ $name != clang-* ]] && (($("$compiler" -dumpversion) < 13)); then
+        same+=(-fno-tree-slp-vectorize)
+    fi
     find "$root"/tools/{hash,simulation} "$root"/tools/benchmark/outlines.cpp \
         "$root"/tools/common/library_error.cpp "$root"/tools/io/{geojson,json_document,skipped_parts,text_file}.cpp \
         -name '*.cpp' ! -name simulation_choice.cpp -print0 |
