@@ -60,4 +60,32 @@ void require_angle(const JsonPlace& pose, double degrees) {
     }
 }
 
+bool append_row(const nlohmann::json& row, std::size_t columns, std::vector<double>& numbers) {
+    if (!row.is_array() || row.size() != columns) {
+        return false;
+    }
+    for (const nlohmann::json& number : row) {
+        if (!number.is_number()) {
+            return false;
+        }
+        numbers.push_back(number.get<double>());
+        if (!std::isfinite(numbers.back())) {
+            return false;
+        }
+    }
+    return true;
+}
+
+NumberTable read_rows(const JsonPlace& place, std::size_t columns, const std::string& form) {
+    NumberTable table{.numbers = {}, .columns = columns};
+    const nlohmann::json& rows = place.require_array().value();
+    table.numbers.reserve(rows.size() * columns);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!append_row(rows[i], columns, table.numbers)) {
+            static_cast<void>(numbers(place.element(i), columns, form));  // says what is wrong
+        }
+    }
+    return table;
+}
+
 }  // namespace nearfield::tools

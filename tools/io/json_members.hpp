@@ -4,6 +4,7 @@
 
 #include <tools/io/input_error.hpp>
 #include <tools/io/json_document.hpp>
+#include <tools/io/number_table.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -30,6 +31,13 @@ void require_known_members(const JsonPlace& place, const std::vector<std::string
 /// An array of `count` finite numbers; `form` says what they are.
 [[nodiscard]] std::vector<double> numbers(const JsonPlace& place, std::size_t count,
                                           const std::string& form);
+/// Appends the numbers of an array; returns false where they are not `columns` finite numbers.
+[[nodiscard]] bool append_row(const nlohmann::json& row, std::size_t columns,
+                              std::vector<double>& numbers);
+/// An array of arrays of `columns` finite numbers; `form` says what they are. Places are made only
+/// for what is wrong: there may be many rows.
+[[nodiscard]] NumberTable read_rows(const JsonPlace& place, std::size_t columns,
+                                    const std::string& form);
 [[nodiscard]] double read_above_zero(const JsonPlace& place);
 /// A whole number from 1 to 1,000,000,000.
 [[nodiscard]] std::uint32_t read_count(const JsonPlace& place);

@@ -30,37 +30,6 @@ constexpr const char* pose_form = "[x, y, degrees] (three numbers)";
 constexpr const char* segment_form = "[x0, y0, x1, y1] (four numbers)";
 constexpr const char* sweep_form = "[[x, y, degrees], [x, y, degrees]] (six numbers)";
 
-/// Appends the numbers of an array; returns false where they are not `columns` finite numbers.
-bool append_row(const json& row, std::size_t columns, std::vector<double>& numbers) {
-    if (!row.is_array() || row.size() != columns) {
-        return false;
-    }
-    for (const json& number : row) {
-        if (!number.is_number()) {
-            return false;
-        }
-        numbers.push_back(number.get<double>());
-        if (!std::isfinite(numbers.back())) {
-            return false;
-        }
-    }
-    return true;
-}
-
-/// An array of arrays of `columns` numbers. Places are made only for what is wrong: there may be
-/// many rows.
-NumberTable read_rows(const JsonPlace& place, std::size_t columns, const std::string& form) {
-    NumberTable table{.numbers = {}, .columns = columns};
-    const json& rows = place.require_array().value();
-    table.numbers.reserve(rows.size() * columns);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (!append_row(rows[i], columns, table.numbers)) {
-            static_cast<void>(numbers(place.element(i), columns, form));  // says what is wrong
-        }
-    }
-    return table;
-}
-
 /// An array of pairs of poses.
 NumberTable read_pose_pairs(const JsonPlace& place) {
     NumberTable table{.numbers = {}, .columns = 6};
