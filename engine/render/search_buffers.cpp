@@ -99,11 +99,13 @@ void SearchBuffers::bind() const {
     const auto write = [this](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
         layout_->write_buffer(item_.set, binding, buffer, 0, bytes);
     };
+    layout_->begin_updates();
     write(Layout::tiles, item_.input, input_bytes_);
     write(Layout::geometry, item_.scratch, item_.layout.units * sizeof(plan::SearchUnit));
     write(Layout::points, item_.records,
           std::max(item_.layout.capacities[2], 1U) * sizeof(plan::FoundPointData));
     write(Layout::output, item_.arguments, argument_bytes);
+    layout_->end_updates();
 }
 
 void SearchBuffers::read_back() {

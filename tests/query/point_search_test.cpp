@@ -41,19 +41,19 @@ protected:
         return all_numbers(results);
     }
 
-    /// The answer with the technique and the regions of another.
-    static AnyResult by_cpu(AnyResult result, const AnyResult& other) {
+    /// Another answer with the technique and the regions of the one that was found.
+    static AnyResult by_technique_of(const AnyResult& found, AnyResult other) {
         std::visit(
-            [&result](const auto& by_cpu) {
+            [&other](const auto& searched) {
                 std::visit(
-                    [&by_cpu](auto& one) {
-                        one.technique = by_cpu.technique;
-                        one.regions = by_cpu.regions;
+                    [&searched](auto& one) {
+                        one.technique = searched.technique;
+                        one.regions = searched.regions;
                     },
-                    result);
+                    other);
             },
-            other);
-        return result;
+            found);
+        return other;
     }
 
     static double contact_distance_of(const PlacedPair& pair) { return 2.0 * pair.tolerance(); }
@@ -80,8 +80,8 @@ private:
         Results expected;
         ASSERT_TRUE(context.run(batch, expected).ok());
         for (std::size_t i = 0; i < queries_per_pair; ++i) {
-            check_agreement({pair, batch.queries()[i]}, by_cpu(found[i], expected.results[i]),
-                            expected.results[i]);
+            check_agreement({pair, batch.queries()[i]}, found[i],
+                            by_technique_of(found[i], expected.results[i]));
         }
     }
 };
@@ -134,7 +134,7 @@ TEST_F(PointSearch, DecidesTheSideWhereSinglePrecisionCannot) {
         PenetrationQuery query = placed.penetration(PenetrationPoints::vertices);
         query.technique = Technique::cpu;
         const PenetrationResult expected = run_alone(context(), query);
-        check_agreement({placed, query}, by_cpu(found, expected), expected);
+        check_agreement({placed, query}, found, by_technique_of(found, expected));
         EXPECT_GT(found.count, 50U);
         EXPECT_LT(found.count, 250U);
     });

@@ -88,7 +88,8 @@ TEST(PointContacts, AreAllSamplesOfBothBoundariesThatAreNear) {
                     EXPECT_EQ(record.point, all[i].point);
                     EXPECT_NEAR(record.distance, all[i].distance, 1e-14);
                     EXPECT_EQ(record.on, all[i].on);
-                    EXPECT_EQ(record.inside, all[i].inside) << record.distance;
+                    const bool touches = all[i].distance <= plan::touching_depth * query.tolerance;
+                    EXPECT_EQ(record.inside, all[i].inside && !touches) << record.distance;
                     inside += record.inside ? 1 : 0;
                 }
                 count += all.size();
