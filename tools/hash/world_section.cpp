@@ -109,8 +109,10 @@ std::uint64_t hash_world(const MakeContext& make_context) {
     Integers integers(11);
     Context context = make_context({});
     World world = tools::take(World::create(context));
+    constexpr int shape_count = 8;
     std::vector<ShapeHandle> shapes;
-    for (int i = 0; i < 8; ++i) {
+    shapes.reserve(shape_count);
+    for (int i = 0; i < shape_count; ++i) {
         shapes.push_back(tools::take(context.add_shape(any_shape(integers))));
     }
     std::vector<InstanceHandle> members;

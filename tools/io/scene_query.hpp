@@ -7,6 +7,6 @@ namespace nearfield::tools {
 
 /// Reads what a query of a scene between instances asks for: everything but its instances. Throws
 /// InputError with the place, UnknownMember for a member that queries of its kind do not have.
-[[nodiscard]] QueryRequest read_query_request(const JsonPlace& query);
+[[nodiscard]] QueryRequest read_query_request(const JsonPlace& place);
 
 }  // namespace nearfield::tools

@@ -42,11 +42,11 @@ bool are_equal(const AffineMap& a, const AffineMap& b) {
            std::abs(a.y_axis.x - b.y_axis.x) <= bound && std::abs(a.y_axis.y - b.y_axis.y) <= bound;
 }
 
-class LayoutReader {
+class SvgLayoutReader {
     static constexpr std::size_t no_shape = std::numeric_limits<std::size_t>::max();
 
 public:
-    LayoutReader(const SvgDocument& document, SkippedParts& skipped)
+    SvgLayoutReader(const SvgDocument& document, SkippedParts& skipped)
         : document_(document), walk_(document, skipped) {}
 
     SvgLayout read(LengthUnit unit) {
@@ -204,7 +204,7 @@ private:
 SvgLayout parse_svg_layout(const std::string& text, const std::string& file, SkippedParts& skipped,
                            LengthUnit unit) {
     const SvgDocument document(text, file);
-    SvgLayout layout = LayoutReader(document, skipped).read(unit);
+    SvgLayout layout = SvgLayoutReader(document, skipped).read(unit);
     if (layout.items.empty()) {
         document.fail(document.root(),
                       "has no outline" + (skipped.empty() ? "" : ", only " + skipped.text()));

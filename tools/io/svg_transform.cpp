@@ -20,10 +20,6 @@ Vector2 mapped(const AffineMap& map, const Vector2& v) {
     return {v.x * map.x_axis.x + v.y * map.y_axis.x, v.x * map.x_axis.y + v.y * map.y_axis.y};
 }
 
-AffineMap translation(double x, double y) {
-    return {{1.0, 0.0}, {0.0, 1.0}, {x, y}};
-}
-
 AffineMap rotation(double degrees) {
     const double cosine = std::cos(radians(degrees));
     const double sine = std::sin(radians(degrees));
@@ -107,6 +103,10 @@ AffineMap one_transform(const SvgText& text, std::size_t start, const std::strin
 }
 
 }  // namespace
+
+AffineMap translation(double x, double y) {
+    return {{1.0, 0.0}, {0.0, 1.0}, {x, y}};
+}
 
 AffineMap combine(const AffineMap& first, const AffineMap& then) {
     const Vector2 origin = mapped(then, first.origin);

@@ -11,6 +11,9 @@ namespace nearfield::tools {
 /// Throws InputError.
 [[nodiscard]] AffineMap parse_transform(SvgText& text);
 
+/// The map that moves by a vector.
+[[nodiscard]] AffineMap translation(double x, double y);
+
 /// The map that applies `first`, then `then`.
 [[nodiscard]] AffineMap combine(const AffineMap& first, const AffineMap& then);
 

@@ -13,10 +13,6 @@ namespace {
 constexpr int deepest = 1024;                 // untrusted input must not exhaust the stack
 constexpr std::size_t most_work = 2'000'000;  // uses of uses multiply
 
-AffineMap translation(double x, double y) {
-    return {{1.0, 0.0}, {0.0, 1.0}, {x, y}};
-}
-
 AffineMap scaling(double factor) {
     return {{factor, 0.0}, {0.0, factor}, {}};
 }
