@@ -73,14 +73,18 @@ void scan_tile(const plan::Plan& plan, const plan::TileBatch& round, const plan:
 
 }  // namespace
 
-std::vector<ReferenceSample> scan_intersection(const HostDevice& host, const PlacedPair& pair,
-                                               IntersectionQuery query, const Settings& settings) {
+geometry::SubpixelGrid grid_of(const HostDevice& host) {
     const gpu::Device device(host);
+    return {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
+}
+
+std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, const PlacedPair& pair,
+                                               IntersectionQuery query, const Settings& settings) {
     geometry::Polygon a;
     geometry::Polygon b;
     EXPECT_TRUE(a.assign(pair.pair().a.rings).ok() && b.assign(pair.pair().b.rings).ok());
     plan::PlanLimits limits;
-    limits.subpixel = {std::ldexp(1.0, static_cast<int>(device.limits().subPixelPrecisionBits))};
+    limits.subpixel = grid;
     limits.memory = settings.memory_limit;
     query.a.shape = {0, 0};
     query.b.shape = {1, 0};

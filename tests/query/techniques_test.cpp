@@ -4,6 +4,7 @@
 #include <tests/query/degenerate_shapes.hpp>
 #include <tests/query/match.hpp>
 #include <tests/query/query_test.hpp>
+#include <tests/query/scanline_reference.hpp>
 #include <tests/support/allocations.hpp>
 #include <tests/support/outlines.hpp>
 
@@ -51,10 +52,13 @@ protected:
             const IntersectionResult drawn = run_alone(context(), raster.intersection(kind));
             ASSERT_TRUE(exact.status.ok()) << exact.status.text();
             EXPECT_EQ(exact.technique, Technique::cpu);
+            EXPECT_EQ(exact.intersects, drawn.intersects);
+            if (grid_of(host_device()).steps != geometry::cpu_grid.steps) {
+                continue;  // other samples; the tests of strategies compare each with a scan
+            }
             EXPECT_EQ(exact.count, drawn.count);
             EXPECT_EQ(exact.box.min, drawn.box.min);
             EXPECT_EQ(exact.box.max, drawn.box.max);
-            EXPECT_EQ(exact.intersects, drawn.intersects);
             ASSERT_EQ(exact.samples.size(), drawn.samples.size());
             Report report("samples of kind " + std::to_string(static_cast<int>(kind)));
             for (std::size_t i = 0; i < exact.samples.size(); ++i) {
