@@ -48,8 +48,8 @@ public:
     void prepare(std::span<const plan::TileBatch> tile_batches,
                  const plan::ResidentOutputs& resident, plan::TileSize extent, SampleRoom room,
                  BatchResources& slot, Timings& timings);
-    /// Uploads searches for points, after prepare(); nothing of them is needed afterwards. `shapes`:
-    /// what their input starts with.
+    /// Uploads searches for points, after prepare(); nothing of them is needed afterwards.
+    /// `shapes`: what their input starts with.
     void prepare_searches(std::span<const plan::SearchUnit> shapes,
                           std::span<const plan::PointSearch> searches, SampleRoom room,
                           BatchResources& slot, Timings& timings);
