@@ -89,7 +89,7 @@ private:
     /// Nothing to plan: Containment answers it.
     void add(const ContainmentQuery& /*query*/, ContainmentResult& /*result*/) {}
 
-    [[nodiscard]] bool can_be_searched(double samples);
+    [[nodiscard]] bool can_be_searched(double samples, double bytes_of_record);
     void search(double reach, bool both_ways, ResultSummary& result);
 
     /// Checks that the device has what a strategy needs, if a device is involved; the result states

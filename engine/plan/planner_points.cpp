@@ -90,10 +90,11 @@ bool Planner::fits(double samples, double bytes_of_record, double tolerance) {
 
 /// Returns whether the device may search for the points of the query. Resident outputs still need
 /// planned points.
-bool Planner::can_be_searched(double samples) {
+bool Planner::can_be_searched(double samples, double bytes_of_record) {
     const PlannedQuery& planned = plan_->queries[query_];
+    constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
     return planned.by_compute && !planned.resident && samples <= max_searched_points &&
-           fits_roughly(samples, bytes_per_point);
+           fits_roughly(samples, bytes_of_found + bytes_of_record);
 }
 
 /// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
@@ -140,7 +141,7 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
         return;
     }
     planned.budget = budget;
-    if (can_be_searched(of_boundary)) {
+    if (can_be_searched(of_boundary, bytes_of_record)) {
         search(0.0, false, result);
         return;
     }
@@ -255,7 +256,7 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
     if (planned.brute_force) {
         return;
     }
-    if (!gradients && can_be_searched(of_boundaries)) {
+    if (!gradients && can_be_searched(of_boundaries, bytes_of_record)) {
         search(query.contact_distance, true, result);
         return;
     }
