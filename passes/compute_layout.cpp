@@ -23,16 +23,15 @@ VkDescriptorType type_of(std::uint32_t binding) {
     if (binding < ComputeLayout::storage_buffers) {
         return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     }
-    return binding < ComputeLayout::storage_buffers + ComputeLayout::sampled_images
-               ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-               : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    if (binding < ComputeLayout::storage_buffers + ComputeLayout::sampled_images) {
+        return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+    return binding < ComputeLayout::texels ? VK_DESCRIPTOR_TYPE_STORAGE_IMAGE
+                                           : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
 }
 
 gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkSampler sampler) {
-    std::array<VkDescriptorSetLayoutBinding, ComputeLayout::storage_buffers +
-                                                 ComputeLayout::sampled_images +
-                                                 ComputeLayout::storage_images>
-        bindings{};
+    std::array<VkDescriptorSetLayoutBinding, ComputeLayout::bindings> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i].binding = i;
         bindings[i].descriptorType = type_of(i);
@@ -85,7 +84,7 @@ ComputeLayout::ComputeLayout(const gpu::Device& device)
 
 void ComputeLayout::write_buffer(VkDescriptorSet set, Binding binding, VkBuffer buffer,
                                  VkDeviceSize offset, VkDeviceSize bytes) const {
-    updates_.push_back({set, binding, {buffer, offset, bytes}, {}});
+    updates_.push_back({set, binding, {buffer, offset, bytes}, {}, VK_NULL_HANDLE});
 }
 
 void ComputeLayout::write_image(VkDescriptorSet set, Binding binding, VkImageView view) const {
@@ -99,7 +98,11 @@ void ComputeLayout::write_storage_image(VkDescriptorSet set, Binding binding,
 
 void ComputeLayout::write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
                                    VkImageView view) const {
-    updates_.push_back({set, binding, {}, {VK_NULL_HANDLE, view, layout}});
+    updates_.push_back({set, binding, {}, {VK_NULL_HANDLE, view, layout}, VK_NULL_HANDLE});
+}
+
+void ComputeLayout::write_texels(VkDescriptorSet set, VkBufferView view) const {
+    updates_.push_back({set, texels, {}, {}, view});
 }
 
 void ComputeLayout::begin_updates() const {
@@ -117,6 +120,8 @@ void ComputeLayout::end_updates() const {
         write.descriptorType = type_of(update.binding);
         if (write.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) {
             write.pBufferInfo = &update.buffer;
+        } else if (write.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER) {
+            write.pTexelBufferView = &update.texels;
         } else {
             write.pImageInfo = &update.image;
         }

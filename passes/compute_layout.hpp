@@ -35,10 +35,14 @@ public:
         record_blocks = output,
         signed_distance_image = sign_image + 1,
         feature_id_image,
+        texels,
     };
     static constexpr std::uint32_t storage_buffers = 4;
     static constexpr std::uint32_t sampled_images = 2;
     static constexpr std::uint32_t storage_images = 2;
+    static constexpr std::uint32_t texel_buffers = 1;
+    static constexpr std::uint32_t bindings =
+        storage_buffers + sampled_images + storage_images + texel_buffers;
     static constexpr std::uint32_t push_bytes = 52;
 
     explicit ComputeLayout(const gpu::Device& device);
@@ -54,6 +58,7 @@ public:
                       VkDeviceSize bytes) const;
     void write_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
     void write_storage_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
+    void write_texels(VkDescriptorSet set, VkBufferView view) const;
 
 private:
     void write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,
@@ -64,7 +69,8 @@ private:
         VkDescriptorSet set = VK_NULL_HANDLE;
         std::uint32_t binding = 0;
         VkDescriptorBufferInfo buffer{};  // or
-        VkDescriptorImageInfo image{};
+        VkDescriptorImageInfo image{};    // or
+        VkBufferView texels = VK_NULL_HANDLE;
     };
 
     const gpu::Device* device_;

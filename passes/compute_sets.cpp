@@ -6,10 +6,11 @@ namespace nearfield::passes {
 namespace {
 
 gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t sets) {
-    const std::array<VkDescriptorPoolSize, 3> sizes{
+    const std::array<VkDescriptorPoolSize, 4> sizes{
         {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, ComputeLayout::storage_buffers * sets},
          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, ComputeLayout::sampled_images * sets},
-         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, ComputeLayout::storage_images * sets}}};
+         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, ComputeLayout::storage_images * sets},
+         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, ComputeLayout::texel_buffers * sets}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = sets;

@@ -1,5 +1,6 @@
 #include <engine/gpu/pipeline.hpp>
 #include <engine/graph/print.hpp>
+#include <engine/plan/point_search.hpp>
 #include <passes/point_search.hpp>
 
 #include <shaders/search_edges_comp.hpp>
@@ -23,19 +24,27 @@ static_assert(sizeof(SearchPush) <= ComputeLayout::push_bytes);
 // Of the arguments of one stage: three numbers of workgroups, and the number of elements.
 constexpr VkDeviceSize argument_bytes = 4 * sizeof(std::uint32_t);
 
+// Whether shaders read the input as texels: where these can address as much as a storage buffer.
+VkBool32 reads_texels(const gpu::Device& device) {
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / sizeof(plan::SearchUnit)
+               ? VK_TRUE
+               : VK_FALSE;
+}
+
 }  // namespace
 
 PointSearch::PointSearch(const gpu::Device& device, const ComputeLayout& layout)
     : device_(&device),
       layout_(layout.pipeline_layout()),
       items_(gpu::make_compute_pipeline(device, layout_, shaders::search_items_comp,
-                                        "nearfield search items")),
+                                        "nearfield search items", reads_texels(device))),
       scan_(gpu::make_compute_pipeline(device, layout_, shaders::search_scan_comp,
                                        "nearfield search scan")),
       edges_(gpu::make_compute_pipeline(device, layout_, shaders::search_edges_comp,
-                                        "nearfield search edges")),
+                                        "nearfield search edges", reads_texels(device))),
       points_(gpu::make_compute_pipeline(device, layout_, shaders::search_points_comp,
-                                         "nearfield search points")),
+                                         "nearfield search points", reads_texels(device))),
       pack_(gpu::make_compute_pipeline(device, layout_, shaders::search_pack_comp,
                                        "nearfield pack points")),
       input_(graph_.import_buffer({"search input", true, false})),

@@ -1,16 +1,13 @@
-// The search for boundary points: the structures of engine/plan/point_search.hpp (std430), and walks
-// over a shape's boxes. Lengths are in world units; all positions are in B's frame, relative to its
-// centre.
+// The search for boundary points: the structures of engine/plan/point_search.hpp (std430), and
+// walks over a shape's boxes. All positions and lengths are in B's frame, relative to its centre, in
+// its units.
 
 layout(std430, set = 0, binding = 0) readonly buffer Input {
     uvec4 units[];
 };
-layout(std430, set = 0, binding = 0) readonly buffer FloatInput {
-    vec4 float_units[];  // the same memory
-};
-layout(std430, set = 0, binding = 0) readonly buffer WordInput {
-    uint input_words[];  // the same memory
-};
+layout(set = 0, binding = 8) uniform usamplerBuffer texels;  // the same memory
+layout(constant_id = 0) const bool reads_texels = false;
+
 layout(std430, set = 0, binding = 1) buffer Scratch {
     uint scratch[];
 };
@@ -37,7 +34,22 @@ const uint block_size = 64u;  // elements with one sum; one workgroup
 const uint chunk_size = 8u;   // edges per box, and boxes per box of the next level
 const uint max_levels = 8u;
 const uint no_parts = 0xffffffffu;
+const uint points_per_thread = 4u;  // of search_points.comp
+const uint local_shift = 24u;  // beside a thread's first direction: points found before it
 const float infinity = 1.0 / 0.0;
+
+// The parts of the input. Some devices read texels several times as fast, and others allow too few.
+uvec4 unit_at(uint unit) {
+    return reads_texels ? texelFetch(texels, int(unit)) : units[unit];
+}
+
+vec4 floats_at(uint unit) {
+    return uintBitsToFloat(unit_at(unit));
+}
+
+uint word_at(uint word) {
+    return unit_at(word >> 2)[word & 3u];
+}
 
 // The counts at the start of the scratch memory.
 const uint edge_total = 0u;
@@ -50,7 +62,7 @@ uint dispatched_index() {
 }
 
 struct Direction {
-    mat2 rotation;  // from A's frame to B's
+    mat2 rotation;  // from A's frame to B's, with the ratio of their units
     vec2 translation;
     uint shape_a;  // first units
     uint shape_b;
@@ -66,12 +78,12 @@ struct Direction {
 
 Direction direction_at(uint index) {
     uint unit = push.directions + 4u * index;
-    vec4 place = float_units[unit];
-    uvec4 shapes = units[unit + 1u];
-    vec4 lengths = float_units[unit + 2u];
+    vec4 place = floats_at(unit);
+    uvec4 shapes = unit_at(unit + 1u);
+    vec4 lengths = floats_at(unit + 2u);
     return Direction(mat2(place.x, place.y, -place.y, place.x), place.zw, shapes.x, shapes.y,
                      shapes.z, shapes.w, lengths.x, lengths.y, lengths.z, lengths.w != 0.0,
-                     float_units[unit + 3u].x);
+                     floats_at(unit + 3u).x);
 }
 
 // The direction that an item belongs to.
@@ -79,12 +91,12 @@ uint direction_of(uint item) {
     // The first directions of blocks of items follow the directions.
     uint blocks = 4u * (push.directions + 4u * push.direction_count);
     uint block = item / block_size;
-    uint low = input_words[blocks + block];
-    uint count = (block_size * (block + 1u) < push.items ? input_words[blocks + block + 1u] + 1u
+    uint low = word_at(blocks + block);
+    uint count = (block_size * (block + 1u) < push.items ? word_at(blocks + block + 1u) + 1u
                                                          : push.direction_count) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (units[push.directions + 4u * (low + half_count) + 1u].w <= item) {
+        if (unit_at(push.directions + 4u * (low + half_count) + 1u).w <= item) {
             low += half_count;
             count -= half_count;
         } else {
@@ -99,35 +111,51 @@ struct Shape {
     uint levels;
     uint edges;  // first unit: one per edge, eight per chunk
     uint infos;  // first word: of each chunk, its first edge << 4 | its number of edges
-    vec4 box;
-    uint first_box[max_levels];  // first units, by level
+    uint first_boxes;  // first word: of each level, its first unit
 };
 
 Shape shape_at(uint unit) {
-    uvec4 head = units[unit];
-    uvec4 low = units[unit + 2u];
-    uvec4 high = units[unit + 3u];
-    return Shape(head.x, head.y, head.z, head.w, float_units[unit + 1u],
-                 uint[](low.x, low.y, low.z, low.w, high.x, high.y, high.z, high.w));
+    uvec4 head = unit_at(unit);
+    return Shape(head.x, head.y, head.z, head.w, 4u * (unit + 2u));
+}
+
+vec4 box_of_shape(uint unit) {
+    return floats_at(unit + 1u);
+}
+
+// The end of the slots of a chunk's edges.
+uint edges_end(Shape shape, uint chunk) {
+    return chunk_size * chunk + (word_at(shape.infos + chunk) & 15u);
+}
+
+// The number of the edge in a slot.
+uint number_of(Shape shape, uint slot) {
+    return (word_at(shape.infos + slot / chunk_size) >> 4) + slot % chunk_size;
 }
 
 uint parts_of(Direction direction, uint edge) {
-    return direction.parts == no_parts ? 1u : input_words[direction.parts + edge];
+    return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
 
-// The last i of `count` with value(i) <= key, where value is a word of the scratch memory.
-uint last_block(uint first, uint count, uint key) {
-    uint low = 0u;
+// The last of `count` words of the scratch memory, `stride` apart, whose value without its low bits
+// is at most `key`; the values ascend.
+uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) {
+    uint last = 0u;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (scratch[first + low + half_count] <= key) {
-            low += half_count;
+        if (scratch[first + stride * (last + half_count)] >> low_bits <= key) {
+            last += half_count;
             count -= half_count;
         } else {
             count = half_count;
         }
     }
-    return low;
+    return last;
+}
+
+// The block of elements that counts an element of the next stage. `elements`: of all blocks.
+uint block_of(uint index, uint first_block, uint elements) {
+    return last_at_most(index, first_block, (elements + block_size - 1u) / block_size, 1u, 0u);
 }
 
 float distance_to_box(vec2 p, vec4 box) {
@@ -155,26 +183,32 @@ struct Walk {
     uint level;
     uint group;  // its boxes are 8 * group, ...
     uint mask;
-    uint groups[max_levels];
-    uint masks[max_levels];
+    uint waiting[2];  // masks of the groups above: eight bits per level
 };
 
-uint boxes_of_group(Shape shape, uint level, uint group) {
-    uint count = (shape.chunks + (1u << (3u * level)) - 1u) >> (3u * level);
-    return min(count - chunk_size * group, chunk_size);
+// The boxes of a walk's group.
+struct Group {
+    uint first;  // unit
+    uint count;
+};
+
+Group group_of(Shape shape, uint level, uint group) {
+    uint boxes = (shape.chunks + (1u << (3u * level)) - 1u) >> (3u * level);
+    return Group(word_at(shape.first_boxes + level) + chunk_size * group,
+                 min(boxes - chunk_size * group, chunk_size));
 }
 
 Walk start_walk(Shape shape) {
-    Walk walk;
-    walk.level = shape.levels - 1u;
-    walk.group = 0u;
-    walk.mask = 0u;
-    return walk;
+    return Walk(shape.levels - 1u, 0u, 0u, uint[](0u, 0u));
 }
 
 void descend(inout Walk walk, uint box) {
-    walk.groups[walk.level] = walk.group;
-    walk.masks[walk.level] = walk.mask;
+    int place = 8 * int(walk.level & 3u);
+    if (walk.level < 4u) {
+        walk.waiting[0] = bitfieldInsert(walk.waiting[0], walk.mask, place, 8);
+    } else {
+        walk.waiting[1] = bitfieldInsert(walk.waiting[1], walk.mask, place, 8);
+    }
     walk.group = box;
     --walk.level;
 }
@@ -187,8 +221,9 @@ bool next_box(Shape shape, inout Walk walk, out uint box) {
         if (walk.level >= shape.levels) {
             return false;
         }
-        walk.group = walk.groups[walk.level];
-        walk.mask = walk.masks[walk.level];
+        walk.group /= chunk_size;
+        uint waiting = walk.level < 4u ? walk.waiting[0] : walk.waiting[1];
+        walk.mask = bitfieldExtract(waiting, 8 * int(walk.level & 3u), 8);
     }
     uint bit = findLSB(walk.mask);
     walk.mask &= walk.mask - 1u;

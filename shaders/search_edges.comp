@@ -45,9 +45,9 @@ Stretch find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides) {
     for (;;) {
         if (enters) {
             walk.mask = 0u;
-            uint count = boxes_of_group(b, walk.level, walk.group);
-            for (uint i = 0u; i < count; ++i) {
-                vec4 box = float_units[b.first_box[walk.level] + chunk_size * walk.group + i];
+            Group group = group_of(b, walk.level, walk.group);
+            for (uint i = 0u; i < group.count; ++i) {
+                vec4 box = floats_at(group.first + i);
                 vec2 t = vec2(0.0, 1.0);
                 bool visit = clip_to_box(from, along, box + margin, t) ||
                              (sides && (ray_meets(from, box) || ray_meets(to, box)));
@@ -63,9 +63,9 @@ Stretch find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides) {
             descend(walk, box);
             continue;
         }
-        uint end = chunk_size * box + (input_words[b.infos + box] & 15u);
+        uint end = edges_end(b, box);
         for (uint i = chunk_size * box; i < end; ++i) {
-            vec4 edge = float_units[b.edges + i];
+            vec4 edge = floats_at(b.edges + i);
             vec4 edge_box = vec4(min(edge.xy, edge.zw), max(edge.xy, edge.zw));
             vec2 t = vec2(0.0, 1.0);
             if (clip_to_box(from, along, edge_box + margin, t)) {
@@ -80,27 +80,17 @@ Stretch find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides) {
 }
 
 Item item_of(uint index) {
-    uint block =
-        last_block(push.item_blocks, (push.items + block_size - 1u) / block_size, index);
+    uint block = block_of(index, push.item_blocks, push.items);
     uint rest = index - scratch[push.item_blocks + block];
     uint low = block * block_size;
-    uint count = min(block_size, push.items - low);
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (scratch[push.item_words + low + half_count] >> 8 <= rest) {
-            low += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
-        }
-    }
+    low += last_at_most(rest, push.item_words + low, min(block_size, push.items - low), 1u, 8u);
     uint word = scratch[push.item_words + low];
     uint mask = word & 255u;
     for (uint skip = rest - (word >> 8); skip > 0u; --skip) {
         mask &= mask - 1u;
     }
     uint direction = direction_of(low);
-    uint chunk = low - units[push.directions + 4u * direction + 1u].w;
+    uint chunk = low - unit_at(push.directions + 4u * direction + 1u).w;
     return Item(direction, chunk_size * chunk + findLSB(mask));
 }
 
@@ -117,9 +107,8 @@ Points points_of(Item item) {
     Direction direction = direction_at(item.direction);
     Shape a = shape_at(direction.shape_a);
     Shape b = shape_at(direction.shape_b);
-    vec4 edge = float_units[a.edges + item.slot];
-    uint number = (input_words[a.infos + item.slot / chunk_size] >> 4) + item.slot % chunk_size;
-    uint parts = parts_of(direction, number);
+    vec4 edge = floats_at(a.edges + item.slot);
+    uint parts = parts_of(direction, number_of(a, item.slot));
     vec2 from = direction.rotation * edge.xy + direction.translation;
     vec2 end = direction.rotation * edge.zw + direction.translation;
     vec2 to = parts == 1u ? from : from + (end - from) * (float(parts - 1u) / float(parts));
@@ -152,6 +141,6 @@ void main() {
     if (exists) {
         uint unit = push.edge_units + 2u * index;
         scratch_units[unit] = uvec4(item.direction, item.slot, points.first, before);
-        scratch_units[unit + 1u] = uvec4(points.ask_begin, points.ask_end, 0u, 0u);
+        scratch_units[unit + 1u] = uvec4(points.ask_begin, points.ask_end, points.count, 0u);
     }
 }

@@ -26,14 +26,14 @@ uint edges_of(uint item) {
     uint chunk = item - direction.first_item;
     Shape a = shape_at(direction.shape_a);
     float grow = direction.reach + 2.0 * direction.margin;
-    vec4 near = float_units[direction.shape_b + 1u] + vec4(-grow, -grow, grow, grow);
-    if (!overlap(transformed(direction, float_units[a.first_box[0] + chunk]), near)) {
+    vec4 near = box_of_shape(direction.shape_b) + vec4(-grow, -grow, grow, grow);
+    if (!overlap(transformed(direction, floats_at(word_at(a.first_boxes) + chunk)), near)) {
         return 0u;
     }
-    uint info = input_words[a.infos + chunk];
+    uint info = word_at(a.infos + chunk);
     uint mask = 0u;
     for (uint i = 0u; i < (info & 15u); ++i) {
-        vec4 edge = float_units[a.edges + chunk_size * chunk + i];
+        vec4 edge = floats_at(a.edges + chunk_size * chunk + i);
         vec2 from = direction.rotation * edge.xy + direction.translation;
         vec2 to = direction.rotation * edge.zw + direction.translation;
         if (overlap(vec4(min(from, to), max(from, to)), near) &&

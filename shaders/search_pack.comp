@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The search's last step, one thread per point: those that were found, one after the other.
+// The search's last step, one thread per four points, as in the step before: those that were found,
+// one after the other.
 
 #include "search.glsl"
 
@@ -11,19 +12,19 @@ layout(std430, set = 0, binding = 2) writeonly buffer Records {
     uvec4 records[];  // direction, edge of A, sample on it, word
 };
 
-const uint local_shift = 26u;
-
 void main() {
-    uint index = dispatched_index();
-    if (index >= scratch[point_total]) {
-        return;
-    }
-    uvec4 record = scratch_units[push.point_units + index];
-    if (record.w != 0u) {
-        uint target = scratch[push.point_blocks + index / block_size] + (record.x >> local_shift);
-        if (target < scratch[record_total]) {
+    uint thread = dispatched_index();
+    uint begin = points_per_thread * thread;
+    uint end = min(begin + points_per_thread, scratch[point_total]);
+    uint target = scratch[push.point_blocks + thread / block_size];
+    for (uint i = begin; i < end; ++i) {
+        uvec4 record = scratch_units[push.point_units + i];
+        if (i == begin) {
+            target += record.x >> local_shift;
             record.x &= (1u << local_shift) - 1u;
-            records[target] = record;
+        }
+        if (record.w != 0u && target < scratch[record_total]) {
+            records[target++] = record;
         }
     }
 }

@@ -1,9 +1,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The search's third step, one thread per point of A's boundary: the side of B's boundary on which
-// it lies where that is not known, the nearest edge of B, and what single precision leaves in
-// doubt.
+// The search's third step, one thread per four points of A's boundary, which share the edges that
+// it loads: the side of B's boundary on which a point lies where that is not known, the nearest edge
+// of B, and what single precision leaves in doubt.
 
 #include "search.glsl"
 #include "block_sum.glsl"
@@ -14,89 +14,138 @@ const uint inside_flag = 1u << 31;
 const uint unique_flag = 1u << 30;
 const uint resolved_flag = 1u << 29;
 const uint doubt_flag = 1u << 28;
-const uint local_shift = 26u;
 
-struct Nearest {
-    float distance;
-    vec2 point;
-    uint slot;
+// Four points, in B's frame, and a disc that holds them.
+struct Points {
+    vec4 x;
+    vec4 y;
+    vec2 centre;
+    float radius;
 };
 
-uint edges_end(Shape b, uint chunk) {
-    return chunk_size * chunk + (input_words[b.infos + chunk] & 15u);
+struct Nearest {
+    vec4 squared;  // distances
+    vec4 x;        // the nearest points
+    vec4 y;
+    uvec4 slot;
+};
+
+float least(vec4 v) {
+    return min(min(v.x, v.y), min(v.z, v.w));
 }
 
-bool is_inside(vec2 p, Shape b) {
-    bool odd = false;
+float largest(vec4 v) {
+    return max(max(v.x, v.y), max(v.z, v.w));
+}
+
+Points points_at(vec4 x, vec4 y) {
+    vec2 low = vec2(least(x), least(y));
+    vec2 high = vec2(largest(x), largest(y));
+    return Points(x, y, 0.5 * (low + high), 0.5 * distance(low, high));
+}
+
+// Of four points, the nearest ones on an edge.
+void find_on_edge(Points p, vec4 edge, out vec4 x, out vec4 y, out vec4 squared) {
+    vec2 d = edge.zw - edge.xy;
+    float length_squared = dot(d, d);
+    vec4 along = length_squared > 0.0 ? clamp(((p.x - edge.x) * d.x + (p.y - edge.y) * d.y) /
+                                                  length_squared, 0.0, 1.0)
+                                      : vec4(0.0);
+    x = edge.x + along * d.x;
+    y = edge.y + along * d.y;
+    squared = (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y);
+}
+
+bvec4 cross_edge(Points p, vec4 edge) {
+    // Half-open in y, so a vertex on the ray counts once.
+    vec4 x = edge.x + (p.y - edge.y) / (edge.w - edge.y) * (edge.z - edge.x);
+    uvec4 spans = uvec4(greaterThan(vec4(edge.y), p.y)) ^ uvec4(greaterThan(vec4(edge.w), p.y));
+    return bvec4(spans & uvec4(lessThan(p.x, x)));
+}
+
+// The points that lie inside, of those that are asked for; the others do.
+bvec4 find_inside(Points p, bvec4 asked, Shape b) {
+    // The rays of those that are asked for go to growing x.
+    float lowest = least(mix(vec4(infinity), p.y, asked));
+    float highest = largest(mix(vec4(-infinity), p.y, asked));
+    float leftmost = least(mix(vec4(infinity), p.x, asked));
+    uvec4 odd = uvec4(0u);
     Walk walk = start_walk(b);
-    bool enters = true;
+    bool enters = any(asked);
     for (;;) {
         if (enters) {
-            walk.mask = 0u;
-            uint count = boxes_of_group(b, walk.level, walk.group);
-            for (uint i = 0u; i < count; ++i) {
-                vec4 box = float_units[b.first_box[walk.level] + chunk_size * walk.group + i];
-                walk.mask |= ray_meets(p, box) ? 1u << i : 0u;
+            Group group = group_of(b, walk.level, walk.group);
+            for (uint i = 0u; i < group.count; ++i) {
+                vec4 box = floats_at(group.first + i);
+                bool visit = highest >= box.y && lowest <= box.w && leftmost <= box.z;
+                walk.mask |= visit ? 1u << i : 0u;
             }
         }
         uint box;
         if (!next_box(b, walk, box)) {
-            return odd;
+            return bvec4(odd | uvec4(not(asked)));
         }
         enters = walk.level > 0u;
         if (enters) {
             descend(walk, box);
             continue;
         }
-        for (uint i = chunk_size * box; i < edges_end(b, box); ++i) {
-            vec4 edge = float_units[b.edges + i];
-            odd = odd != crosses(p, edge.xy, edge.zw);
+        uint end = edges_end(b, box);
+        for (uint i = chunk_size * box; i < end; ++i) {
+            odd ^= uvec4(cross_edge(p, floats_at(b.edges + i)));
         }
     }
 }
 
-void consider_chunk(vec2 p, Shape b, uint chunk, inout Nearest nearest) {
-    for (uint i = chunk_size * chunk; i < edges_end(b, chunk); ++i) {
-        vec4 edge = float_units[b.edges + i];
-        vec2 q = nearest_on_segment(p, edge.xy, edge.zw);
-        float d = distance(p, q);
-        if (d < nearest.distance) {
-            nearest = Nearest(d, q, i);
-        }
+void consider_chunk(Points p, Shape b, uint chunk, inout Nearest nearest) {
+    uint end = edges_end(b, chunk);
+    for (uint i = chunk_size * chunk; i < end; ++i) {
+        vec4 x, y, squared;
+        find_on_edge(p, floats_at(b.edges + i), x, y, squared);
+        bvec4 nearer = lessThan(squared, nearest.squared);
+        nearest.squared = min(squared, nearest.squared);
+        nearest.x = mix(nearest.x, x, nearer);
+        nearest.y = mix(nearest.y, y, nearer);
+        nearest.slot = mix(nearest.slot, uvec4(i), nearer);
     }
 }
 
-// Follows the nearest box from level to level: a first bound for the search.
-void descend_to_nearest(vec2 p, Shape b, inout Nearest nearest) {
-    uint group = 0u;
+// The boxes that may hold an edge nearer than what is known are nearer to the disc's centre.
+float reach_of(Points p, Nearest nearest) {
+    return p.radius + sqrt(largest(nearest.squared));
+}
+
+// Follows the nearest box from level to level: a first bound for the search. Returns the chunk.
+uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
+    uint box = 0u;
     for (uint level = b.levels; level > 0u; --level) {
-        uint count = boxes_of_group(b, level - 1u, group);
+        Group group = group_of(b, level - 1u, box);
         uint best = 0u;
-        float least = infinity;
-        for (uint i = 0u; i < count; ++i) {
-            float d = distance_to_box(
-                p, float_units[b.first_box[level - 1u] + chunk_size * group + i]);
-            best = d < least ? i : best;
-            least = min(d, least);
+        float least_distance = infinity;
+        for (uint i = 0u; i < group.count; ++i) {
+            float d = distance_to_box(p.centre, floats_at(group.first + i));
+            best = d < least_distance ? i : best;
+            least_distance = min(d, least_distance);
         }
-        group = chunk_size * group + best;
+        box = chunk_size * box + best;
     }
-    consider_chunk(p, b, group, nearest);
+    consider_chunk(p, b, box, nearest);
+    return box;
 }
 
-// Returns the nearest edge that is nearer than `limit`; slot is no_parts if there is none.
-Nearest find_nearest(vec2 p, Shape b, float limit) {
-    Nearest nearest = Nearest(limit, vec2(0.0), no_parts);
-    descend_to_nearest(p, b, nearest);
+// Returns the nearest edges that are nearer than `limit`; slot is no_parts if there is none.
+Nearest find_nearest(Points p, Shape b, vec4 limit) {
+    Nearest nearest = Nearest(limit * limit, vec4(0.0), vec4(0.0), uvec4(no_parts));
+    uint considered = descend_to_nearest(p, b, nearest);
     Walk walk = start_walk(b);
     bool enters = true;
+    float reach = reach_of(p, nearest);
     for (;;) {
         if (enters) {
-            walk.mask = 0u;
-            uint count = boxes_of_group(b, walk.level, walk.group);
-            for (uint i = 0u; i < count; ++i) {
-                vec4 box = float_units[b.first_box[walk.level] + chunk_size * walk.group + i];
-                walk.mask |= distance_to_box(p, box) < nearest.distance ? 1u << i : 0u;
+            Group group = group_of(b, walk.level, walk.group);
+            for (uint i = 0u; i < group.count; ++i) {
+                vec4 box = floats_at(group.first + i);
+                walk.mask |= distance_to_box(p.centre, box) < reach ? 1u << i : 0u;
             }
         }
         uint box;
@@ -106,54 +155,58 @@ Nearest find_nearest(vec2 p, Shape b, float limit) {
         enters = walk.level > 0u;
         if (enters) {
             descend(walk, box);
-        } else {
+        } else if (box != considered) {
             consider_chunk(p, b, box, nearest);
+            reach = reach_of(p, nearest);
         }
     }
 }
 
 struct Rivals {
-    bool unique;
-    bool doubtful;
+    bvec4 exist;
+    bvec4 doubtful;
 };
 
 // A second boundary point that is as near as the nearest one, up to the margin, is a rival if it is
 // more than twice as far from it as one straight edge explains. A second edge that is as near, up to
 // rounding, leaves both in doubt, except for a neighbour with the same nearest point.
-void compare_chunk(vec2 p, Shape b, uint chunk, Nearest nearest, uint edge, Direction direction,
-                   inout Rivals rivals) {
-    float limit = nearest.distance + direction.rival;
-    float along_wall = direction.rival * (limit + nearest.distance);  // limit^2 - distance^2
-    uint first = input_words[b.infos + chunk] >> 4;
-    for (uint i = chunk_size * chunk; i < edges_end(b, chunk); ++i) {
-        vec4 other = float_units[b.edges + i];
-        vec2 q = nearest_on_segment(p, other.xy, other.zw);
-        float d = distance(p, q);
-        vec2 apart = q - nearest.point;
-        if (d <= limit && dot(apart, apart) > 4.0 * along_wall) {
-            rivals.unique = false;
-        }
-        uint number = first + i % chunk_size;
-        bool elsewhere = number + 1u < edge || number > edge + 1u ||
-                         dot(apart, apart) > 16.0 * direction.margin * direction.margin;
-        if (d <= nearest.distance + direction.doubt && elsewhere) {
-            rivals.doubtful = true;
-        }
+void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uvec4 edge,
+                   Direction direction, inout Rivals rivals) {
+    vec4 limit = near + direction.rival;
+    vec4 along_wall = direction.rival * (limit + near);  // limit^2 - distance^2
+    vec4 in_doubt = near + direction.doubt;
+    float same = 16.0 * direction.margin * direction.margin;
+    uint first = word_at(b.infos + chunk) >> 4;
+    uint end = edges_end(b, chunk);
+    for (uint i = chunk_size * chunk; i < end; ++i) {
+        vec4 x, y, squared;
+        find_on_edge(p, floats_at(b.edges + i), x, y, squared);
+        vec4 distances = sqrt(squared);
+        vec4 apart = (x - nearest.x) * (x - nearest.x) + (y - nearest.y) * (y - nearest.y);
+        uvec4 number = uvec4(first + i % chunk_size);
+        uvec4 exist = uvec4(lessThanEqual(distances, limit)) &
+                      uvec4(greaterThan(apart, 4.0 * along_wall));
+        uvec4 elsewhere = uvec4(lessThan(number + 1u, edge)) |
+                          uvec4(greaterThan(number, edge + 1u)) |
+                          uvec4(greaterThan(apart, vec4(same)));
+        rivals.exist = bvec4(uvec4(rivals.exist) | exist);
+        rivals.doubtful = bvec4(uvec4(rivals.doubtful) |
+                                uvec4(lessThanEqual(distances, in_doubt)) & elsewhere);
     }
 }
 
-Rivals find_rivals(vec2 p, Shape b, Nearest nearest, uint edge, Direction direction) {
-    Rivals rivals = Rivals(true, false);
-    float limit = nearest.distance + max(direction.rival, direction.doubt);
+Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction direction) {
+    Rivals rivals = Rivals(bvec4(false), bvec4(false));
+    vec4 near = sqrt(nearest.squared);
+    float reach = p.radius + largest(near) + max(direction.rival, direction.doubt);
     Walk walk = start_walk(b);
     bool enters = true;
     for (;;) {
         if (enters) {
-            walk.mask = 0u;
-            uint count = boxes_of_group(b, walk.level, walk.group);
-            for (uint i = 0u; i < count; ++i) {
-                vec4 box = float_units[b.first_box[walk.level] + chunk_size * walk.group + i];
-                walk.mask |= distance_to_box(p, box) <= limit ? 1u << i : 0u;
+            Group group = group_of(b, walk.level, walk.group);
+            for (uint i = 0u; i < group.count; ++i) {
+                vec4 box = floats_at(group.first + i);
+                walk.mask |= distance_to_box(p.centre, box) <= reach ? 1u << i : 0u;
             }
         }
         uint box;
@@ -164,84 +217,144 @@ Rivals find_rivals(vec2 p, Shape b, Nearest nearest, uint edge, Direction direct
         if (enters) {
             descend(walk, box);
         } else {
-            compare_chunk(p, b, box, nearest, edge, direction, rivals);
+            compare_chunk(p, b, box, nearest, near, edge, direction, rivals);
         }
     }
 }
 
-// The edge of A that a point lies on, as the step before has written it.
-struct Owner {
-    uint direction;
-    uint slot;
-    uint number;  // among the points of the edge
-    bool asked;
+// Returns the words of four points; 0 for those that are not asked for.
+uvec4 resolve(Points p, bvec4 asked, Direction direction) {
+    Shape b = shape_at(direction.shape_b);
+    bvec4 inside = find_inside(p, asked, b);
+    float near_boundary = 2.0 * direction.margin;
+    vec4 limit = direction.outside ? vec4(direction.reach + near_boundary)
+                                   : mix(vec4(near_boundary), vec4(infinity), inside);
+    Nearest nearest = find_nearest(p, b, limit);
+    uvec4 found = uvec4(notEqual(nearest.slot, uvec4(no_parts)));
+    if (found == uvec4(0u)) {
+        return uvec4(0u);
+    }
+    uvec4 edge;
+    for (int i = 0; i < 4; ++i) {
+        edge[i] = found[i] != 0u ? number_of(b, nearest.slot[i]) : 0u;
+    }
+    Rivals rivals = find_rivals(p, b, nearest, edge, direction);
+    uvec4 doubtful = uvec4(rivals.doubtful) |
+                     uvec4(lessThanEqual(nearest.squared, vec4(near_boundary * near_boundary)));
+    return found * (resolved_flag | uvec4(inside) * inside_flag |
+                    uvec4(not(rivals.exist)) * unique_flag | doubtful * doubt_flag | edge);
+}
+
+// A place among the points that the step before has found: an edge of A, and a point on it.
+struct Place {
+    uint element;  // of that step
+    uvec4 edge;    // what it wrote
+    uvec4 asked;
+    uint point;
 };
 
-Owner owner_of(uint index) {
+void load(inout Place place) {
+    uint unit = push.edge_units + 2u * place.element;
+    place.edge = scratch_units[unit];
+    place.asked = scratch_units[unit + 1u];
+    place.point = place.edge.z;
+}
+
+Place place_of(uint index) {
     uint edges = scratch[edge_total];
-    uint block = last_block(push.edge_blocks, (edges + block_size - 1u) / block_size, index);
+    uint block = block_of(index, push.edge_blocks, edges);
     uint rest = index - scratch[push.edge_blocks + block];
     uint low = block * block_size;
-    uint count = min(block_size, edges - low);
-    while (count > 1u) {
-        uint half_count = count / 2u;
-        if (scratch_units[push.edge_units + 2u * (low + half_count)].w <= rest) {
-            low += half_count;
-            count -= half_count;
-        } else {
-            count = half_count;
+    // The last word of the first of two units.
+    uint first = 4u * (push.edge_units + 2u * low) + 3u;
+    Place place;
+    place.element = low + last_at_most(rest, first, min(block_size, edges - low), 8u, 0u);
+    load(place);
+    place.point += rest - place.edge.w;
+    return place;
+}
+
+// Moves on to the next point. There has to be one.
+void advance(inout Place place) {
+    ++place.point;
+    while (place.point == place.edge.z + place.asked.z) {
+        ++place.element;
+        load(place);
+    }
+}
+
+// The points of one thread.
+struct Batch {
+    uvec4 direction;
+    uvec4 slot;
+    uvec4 number;  // among the points of the edge
+    bvec4 asked;
+};
+
+Batch batch_at(uint index, uint count) {
+    Batch batch;
+    Place place = place_of(index);
+    for (uint i = 0u; i < points_per_thread; ++i) {
+        batch.direction[i] = place.edge.x;
+        batch.slot[i] = place.edge.y;
+        batch.number[i] = place.point;
+        batch.asked[i] = place.point >= place.asked.x && place.point < place.asked.y;
+        if (i + 1u < count) {
+            advance(place);
         }
     }
-    uvec4 edge = scratch_units[push.edge_units + 2u * low];
-    uvec4 asked = scratch_units[push.edge_units + 2u * low + 1u];
-    uint point = edge.z + rest - edge.w;
-    return Owner(edge.x, edge.y, point, point >= asked.x && point < asked.y);
+    return batch;
 }
 
-uint number_of(Shape shape, uint slot) {
-    return (input_words[shape.infos + slot / chunk_size] >> 4) + slot % chunk_size;
-}
-
-uint resolve(vec2 p, bool asked, Direction direction) {
-    Shape b = shape_at(direction.shape_b);
-    bool inside = !asked || is_inside(p, b);
-    float limit = direction.outside ? direction.reach + 2.0 * direction.margin
-                  : inside          ? infinity
-                                    : 2.0 * direction.margin;
-    Nearest nearest = find_nearest(p, b, limit);
-    if (nearest.slot == no_parts) {
-        return 0u;
-    }
-    uint edge = number_of(b, nearest.slot);
-    Rivals rivals = find_rivals(p, b, nearest, edge, direction);
-    bool doubtful = rivals.doubtful || nearest.distance <= 2.0 * direction.margin;
-    return resolved_flag | (inside ? inside_flag : 0u) | (rivals.unique ? unique_flag : 0u) |
-           (doubtful ? doubt_flag : 0u) | edge;
-}
-
-uvec4 record_of(uint index) {
-    Owner owner = owner_of(index);
-    Direction direction = direction_at(owner.direction);
+// Resolves the points from `first` on that have the same direction, and moves `first` behind them.
+void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, inout uvec4 words) {
+    uint index = batch.direction[first];
+    Direction direction = direction_at(index);
     Shape a = shape_at(direction.shape_a);
-    vec4 edge = float_units[a.edges + owner.slot];
-    uint number = number_of(a, owner.slot);
-    float along = float(owner.number) / float(parts_of(direction, number));
-    vec2 from = direction.rotation * edge.xy + direction.translation;
-    vec2 end = direction.rotation * edge.zw + direction.translation;
-    uint word = resolve(from + along * (end - from), owner.asked, direction);
-    return uvec4(owner.direction, number, owner.number, word);
+    vec4 x, y;
+    bvec4 asked;
+    bvec4 own = bvec4(false);
+    // The places of others are filled with the first point, which changes nothing.
+    for (uint i = 0u; i < points_per_thread; ++i) {
+        own[i] = i >= first && i < count && batch.direction[i] == index;
+        uint source = own[i] ? i : first;
+        vec4 edge = floats_at(a.edges + batch.slot[source]);
+        uint number = number_of(a, batch.slot[source]);
+        float along = float(batch.number[source]) / float(parts_of(direction, number));
+        vec2 from = direction.rotation * edge.xy + direction.translation;
+        vec2 end = direction.rotation * edge.zw + direction.translation;
+        vec2 p = from + along * (end - from);
+        x[i] = p.x;
+        y[i] = p.y;
+        asked[i] = batch.asked[source];
+        edges[i] = own[i] ? number : edges[i];
+    }
+    words = mix(words, resolve(points_at(x, y), asked, direction), own);
+    while (first < count && batch.direction[first] == index) {
+        ++first;
+    }
 }
 
 void main() {
-    uint index = dispatched_index();
-    bool exists = index < scratch[point_total];
-    uvec4 record = uvec4(0u);
-    if (exists) {
-        record = record_of(index);
+    uint thread = dispatched_index();
+    uint index = points_per_thread * thread;
+    uint total = scratch[point_total];
+    uint count = index < total ? min(points_per_thread, total - index) : 0u;
+    uvec4 edges = uvec4(0u);
+    uvec4 words = uvec4(0u);
+    Batch batch;
+    if (count > 0u) {
+        batch = batch_at(index, count);
+        for (uint first = 0u; first < count;) {
+            resolve_run(batch, count, first, edges, words);
+        }
     }
-    uint before = sum_before(record.w != 0u ? 1u : 0u, push.point_blocks + index / block_size);
-    if (exists) {
-        record.x |= before << local_shift;
-        scratch_units[push.point_units + index] = record;
+    uvec4 found = uvec4(notEqual(words, uvec4(0u)));
+    uint before = sum_before(found.x + found.y + found.z + found.w,
+                             push.point_blocks + thread / block_size);
+    for (uint i = 0u; i < count; ++i) {
+        scratch_units[push.point_units + index + i] =
+            uvec4(batch.direction[i] | (i == 0u ? before << local_shift : 0u), edges[i],
+                  batch.number[i], words[i]);
     }
 }

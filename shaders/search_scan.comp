@@ -17,11 +17,18 @@ shared uint sums[256];
 
 const uint max_groups = 65535u;
 
+// Of the steps that look at points.
+uint threads_for(uint points) {
+    return (points + points_per_thread - 1u) / points_per_thread;
+}
+
 void main() {
     uint first = push.stage == edge_total    ? push.item_blocks
                  : push.stage == point_total ? push.edge_blocks
                                              : push.point_blocks;
-    uint elements = push.stage == edge_total ? push.items : scratch[push.stage - 1u];
+    uint elements = push.stage == edge_total     ? push.items
+                    : push.stage == record_total ? threads_for(scratch[point_total])
+                                                 : scratch[edge_total];
     uint blocks = (elements + block_size - 1u) / block_size;
     uint share = (blocks + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(gl_LocalInvocationID.x * share, blocks);
@@ -39,7 +46,8 @@ void main() {
     if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {
         uint total = before + sum;
         uint room = min(total, push.capacity);
-        uint groups = (room + block_size - 1u) / block_size;
+        uint threads = push.stage == point_total ? threads_for(room) : room;
+        uint groups = (threads + block_size - 1u) / block_size;
         uint rows = (groups + max_groups - 1u) / max_groups;
         scratch[push.stage] = room;
         arguments[push.stage] = uvec4(min(groups, max_groups), rows, 1u, total);

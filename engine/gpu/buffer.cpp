@@ -110,4 +110,21 @@ void MappedBuffer::invalidate() const {
     }
 }
 
+Owned<VkBufferView> make_texel_view(const Device& device, const MappedBuffer& buffer,
+                                    const std::string& name) {
+    constexpr std::uint64_t texel_bytes = 16;
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = buffer.handle();
+    info.format = VK_FORMAT_R32G32B32A32_UINT;
+    info.range = texel_bytes * std::min<std::uint64_t>(buffer.capacity() / texel_bytes,
+                                                       device.limits().maxTexelBufferElements);
+    VkBufferView view = VK_NULL_HANDLE;
+    check(device.functions().vkCreateBufferView(device.handle(), &info, device.allocator(), &view),
+          "vkCreateBufferView", name);
+    Owned<VkBufferView> owned(device, view);
+    device.name_object(VK_OBJECT_TYPE_BUFFER_VIEW, view, name);
+    return owned;
+}
+
 }  // namespace nearfield::gpu

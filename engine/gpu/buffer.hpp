@@ -54,4 +54,9 @@ private:
     bool coherent_ = true;
 };
 
+/// Makes a view of a buffer as texels of four unsigned numbers: of all of it, or of as many as the
+/// device allows.
+[[nodiscard]] Owned<VkBufferView> make_texel_view(const Device& device, const MappedBuffer& buffer,
+                                                  const std::string& name);
+
 }  // namespace nearfield::gpu

@@ -50,6 +50,7 @@
     X(vkCreateFramebuffer)            \
     X(vkCreateGraphicsPipelines)      \
     X(vkCreateImage)                  \
+    X(vkCreateBufferView)             \
     X(vkCreateImageView)              \
     X(vkCreatePipelineLayout)         \
     X(vkCreateQueryPool)              \
@@ -63,6 +64,7 @@
     X(vkDestroyFence)                 \
     X(vkDestroyFramebuffer)           \
     X(vkDestroyImage)                 \
+    X(vkDestroyBufferView)            \
     X(vkDestroyImageView)             \
     X(vkDestroyPipeline)              \
     X(vkDestroyPipelineLayout)        \

@@ -8,6 +8,7 @@ namespace nearfield::gpu {
     }
 
 NEARFIELD_DESTROY(VkBuffer, vkDestroyBuffer)
+NEARFIELD_DESTROY(VkBufferView, vkDestroyBufferView)
 NEARFIELD_DESTROY(VkCommandPool, vkDestroyCommandPool)
 NEARFIELD_DESTROY(VkDescriptorPool, vkDestroyDescriptorPool)
 NEARFIELD_DESTROY(VkDescriptorSetLayout, vkDestroyDescriptorSetLayout)

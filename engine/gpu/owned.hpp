@@ -8,6 +8,7 @@ namespace nearfield::gpu {
 
 /// Calls the vkDestroy (or vkFree) function of an object's type.
 void destroy(const Device& device, VkBuffer object);
+void destroy(const Device& device, VkBufferView object);
 void destroy(const Device& device, VkCommandPool object);
 void destroy(const Device& device, VkDescriptorPool object);
 void destroy(const Device& device, VkDescriptorSetLayout object);

@@ -191,12 +191,18 @@ void report(const Device& device, const std::string& name, const Stopwatch& star
 }  // namespace
 
 Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout, Spirv shader,
-                                        const std::string& name) {
+                                        const std::string& name, std::optional<VkBool32> constant) {
     const Stopwatch start;
     const Owned<VkShaderModule> shader_module = make_shader_module(device, shader, name);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = shader_stage(VK_SHADER_STAGE_COMPUTE_BIT, shader_module);
+    constexpr VkSpecializationMapEntry entry{0, 0, sizeof(VkBool32)};
+    VkSpecializationInfo specialization{1, &entry, sizeof(VkBool32), nullptr};
+    if (constant) {
+        specialization.pData = &*constant;
+        info.stage.pSpecializationInfo = &specialization;
+    }
     info.layout = layout;
     const std::string what = in_words(name);
     VkPipeline pipeline = VK_NULL_HANDLE;

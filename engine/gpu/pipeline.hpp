@@ -13,8 +13,10 @@ namespace nearfield::gpu {
 /// SPIR-V words embedded at build time.
 using Spirv = std::span<const std::uint32_t>;
 
-[[nodiscard]] Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout,
-                                                      Spirv shader, const std::string& name);
+/// `constant`: replaces the specialization constant 0, a bool.
+[[nodiscard]] Owned<VkPipeline> make_compute_pipeline(
+    const Device& device, VkPipelineLayout layout, Spirv shader, const std::string& name,
+    std::optional<VkBool32> constant = std::nullopt);
 
 /// The differences between the library's graphics pipelines. All draw triangle lists of
 /// geometry::MeshVertex, with viewport, scissor, stencil masks and stencil reference as dynamic

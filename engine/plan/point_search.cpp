@@ -65,17 +65,25 @@ float rounded_up(double value) {
                            : rounded;
 }
 
-// Transforms A's frame to B's. Everything happens in floats, in a handful of operations, each of
-// which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates covers them.
+// The unit of lengths in a shape's own frame: a power of two near its radius, so that products of
+// lengths stay within the range of floats.
+double unit_length_of(const Polygon& polygon) {
+    return std::ldexp(1.0, std::ilogb(polygon.radius()));
+}
+
+// Transforms A's frame to B's, in units of B's. Everything happens in floats, in a handful of
+// operations, each of which errs by at most 2^-24 of its result: 2^-20 of the largest coordinates
+// covers them.
 SearchDirectionData direction_of(const PlannedQuery& query, const SearchedQuery& searched) {
     SearchDirectionData data;
-    data.cosine = static_cast<float>(searched.axis.x());
-    data.sine = static_cast<float>(searched.axis.y());
-    data.x = static_cast<float>(searched.offset.x());
-    data.y = static_cast<float>(searched.offset.y());
-    const double extent = query.a->radius() + query.b->radius() + searched.offset.norm();
-    const double cell = query.budget.cell;
-    data.reach = rounded_up(reach_of(query));
+    const double unit = unit_length_of(*query.b);
+    const Vector axis = unit_length_of(*query.a) / unit * searched.axis;
+    const Vector offset = searched.offset / unit;
+    data.axis = {static_cast<float>(axis.x()), static_cast<float>(axis.y())};
+    data.offset = {static_cast<float>(offset.x()), static_cast<float>(offset.y())};
+    const double extent = (query.a->radius() + query.b->radius()) / unit + offset.norm();
+    const double cell = query.budget.cell / unit;
+    data.reach = rounded_up(reach_of(query) / unit);
     data.margin = rounded_up(std::ldexp(extent, -20));
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.outside ? 1.0F : 0.0F;
@@ -126,7 +134,7 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
 void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSearch& search) {
     PlannedQuery& planned = plan.queries[searched.query];
     SearchDirectionData& data = search.directions.emplace_back(direction_of(planned, searched));
-    planned.margin = data.margin;
+    planned.margin = data.margin * unit_length_of(*planned.b);
     data.shape_a = find_or_make({planned.a, 0.0});
     data.shape_b = find_or_make({planned.b, 0.0});
     if (!asks_for_vertices(planned)) {
@@ -135,7 +143,7 @@ void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSea
     data.first_item = search.items;
     // Of each block of items, the direction of its first one.
     const auto direction = static_cast<std::uint32_t>(search.queries.size());
-    const std::uint32_t end = search.items + chunks_of(*planned.a);
+    const std::uint32_t end = search.items + units_[data.shape_a][0];  // its number of chunks
     while (search_block * search.first_directions.size() < end) {
         search.first_directions.push_back(direction);
     }
@@ -153,6 +161,7 @@ void PointSearchBuilder::drop_unused() {
     if (units_.size() > most + few) {
         entries_.clear();
         units_.clear();
+        ++revision_;
     }
 }
 
@@ -183,6 +192,7 @@ std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
             made_[0][3] += 4 * entry.first;
         }
         std::copy(made_.begin(), made_.end(), units_.begin() + entry.first);
+        ++revision_;
         entry.revision = key.polygon->revision();
     }
     if (entry.batch != batch_) {
@@ -225,6 +235,11 @@ void PointSearchBuilder::make_shape(const Polygon& polygon) {
 void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,
                                     std::uint32_t infos) {
     const std::span<const Vector> vertices = polygon.vertices();
+    const double unit = unit_length_of(polygon);
+    const auto end_of = [&](std::uint32_t vertex) -> std::array<float, 2> {
+        const Vector place = vertices[vertex] / unit;
+        return {static_cast<float>(place.x()), static_cast<float>(place.y())};
+    };
     std::uint32_t chunk = 0;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const std::uint32_t begin = polygon.ring_begin(ring);
@@ -233,10 +248,9 @@ void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,
             const std::uint32_t count = std::min(end - edge, chunk_size);
             made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
             for (std::uint32_t i = 0; i < count; ++i, ++edge) {
-                const Vector& a = vertices[edge];
-                const Vector& b = vertices[edge + 1 == end ? begin : edge + 1];
-                const FloatBox ends{static_cast<float>(a.x()), static_cast<float>(a.y()),
-                                    static_cast<float>(b.x()), static_cast<float>(b.y())};
+                const auto a = end_of(edge);
+                const auto b = end_of(edge + 1 == end ? begin : edge + 1);
+                const FloatBox ends{a[0], a[1], b[0], b[1]};
                 made_[edges + chunk_size * chunk + i] = unit_of(ends);
                 extend(boxes_[chunk], ends);
                 extend(boxes_[chunk], {ends[2], ends[3], ends[0], ends[1]});

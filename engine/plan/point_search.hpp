@@ -16,9 +16,9 @@ namespace nearfield::plan {
 /// boundary that a query asks for, the side of B's boundary on which they lie, and the nearest edge
 /// of B, with nothing planned on the CPU. Structures in the layout of shaders/search.glsl (std430).
 ///
-/// A shape is given in its own frame, relative to its centre, in chunks of edges that are
-/// consecutive on one ring: a box per chunk, and levels of boxes above, until at most one group is
-/// left.
+/// A shape is given in its own frame, relative to its centre, in units of a power of two near its
+/// radius, in chunks of edges that are consecutive on one ring: a box per chunk, and levels of
+/// boxes above, until at most one group is left.
 
 /// Sixteen bytes of the search's input.
 using SearchUnit = std::array<std::uint32_t, 4>;
@@ -27,13 +27,15 @@ using SearchUnit = std::array<std::uint32_t, 4>;
 inline constexpr std::uint32_t chunk_size = 8;
 /// Elements that the device sums at once: those of one workgroup.
 inline constexpr std::uint32_t search_block = 64;
+/// Points that one of the device's threads resolves.
+inline constexpr std::uint32_t points_per_thread = 4;
 /// Replaces the first word of the numbers of parts: one point per edge, its first vertex.
 inline constexpr std::uint32_t no_parts = UINT32_MAX;
 
-/// The points of A's boundary in the field of B. Lengths in world units.
+/// The points of A's boundary in the field of B. Lengths in units of B's frame.
 struct SearchDirectionData {
-    float cosine = 1.0F, sine = 0.0F;  ///< from A's frame to B's
-    float x = 0.0F, y = 0.0F;
+    std::array<float, 2> axis{1.0F, 0.0F};   ///< A's x axis, of a unit of A's frame, in B's
+    std::array<float, 2> offset{};           ///< A's centre in B's frame
     std::uint32_t shape_a = 0, shape_b = 0;  ///< first units in the input
     std::uint32_t parts = no_parts;          ///< first word of the numbers of parts of A's edges
     std::uint32_t first_item = 0;            ///< an item is a chunk of A in one direction
@@ -80,6 +82,12 @@ struct PointSearch {
 /// address.
 inline constexpr double max_searched_points = 1U << 21U;
 
+/// The shapes that the input of searches starts with.
+struct SearchShapes {
+    std::span<const SearchUnit> units;
+    std::uint64_t revision = 0;  ///< another one: any of the units may have changed
+};
+
 /// Turns the searched queries of a plan into the device's input. Keeps what it makes of a shape
 /// until the shape changes.
 class PointSearchBuilder {
@@ -87,7 +95,7 @@ public:
     /// Fills the first searches of `searches`, which grows as needed, and returns their number.
     std::size_t build(Plan& plan, std::vector<PointSearch>& searches);
     /// The shapes of the last build, and more; the input starts with them.
-    [[nodiscard]] std::span<const SearchUnit> shapes() const { return units_; }
+    [[nodiscard]] SearchShapes shapes() const { return {units_, revision_}; }
 
 private:
     struct Key {
@@ -118,6 +126,7 @@ private:
     std::vector<SearchUnit> units_;
     std::vector<SearchUnit> made_;  // of one shape
     std::vector<std::array<float, 4>> boxes_;
+    std::uint64_t revision_ = 0;
     std::uint64_t batch_ = 0;
     std::size_t units_in_use_ = 0;  // by the present batch
 };

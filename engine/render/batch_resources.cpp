@@ -109,7 +109,7 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     mesh_.flush();
 }
 
-void BatchResources::upload_searches(std::span<const plan::SearchUnit> shapes,
+void BatchResources::upload_searches(const plan::SearchShapes& shapes,
                                      std::span<const plan::PointSearch> searches,
                                      const SearchCounts& expected) {
     const auto count = static_cast<std::uint32_t>(searches.size());

@@ -75,7 +75,7 @@ public:
     void lay_out_output();
 
     /// Uploads searches for points, after the tile batches; `shapes`: what their input starts with.
-    void upload_searches(std::span<const plan::SearchUnit> shapes,
+    void upload_searches(const plan::SearchShapes& shapes,
                          std::span<const plan::PointSearch> searches, const SearchCounts& expected);
     [[nodiscard]] std::span<const std::uint32_t> running_searches() const {
         return running_searches_;

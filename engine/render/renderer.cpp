@@ -139,7 +139,7 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     timings.plan += start.milliseconds();
 }
 
-void Renderer::prepare_searches(std::span<const plan::SearchUnit> shapes,
+void Renderer::prepare_searches(const plan::SearchShapes& shapes,
                                 std::span<const plan::PointSearch> searches, SampleRoom room,
                                 BatchResources& slot, Timings& timings) {
     const Stopwatch start;

@@ -50,7 +50,7 @@ public:
                  BatchResources& slot, Timings& timings);
     /// Uploads searches for points, after prepare(); nothing of them is needed afterwards.
     /// `shapes`: what their input starts with.
-    void prepare_searches(std::span<const plan::SearchUnit> shapes,
+    void prepare_searches(const plan::SearchShapes& shapes,
                           std::span<const plan::PointSearch> searches, SampleRoom room,
                           BatchResources& slot, Timings& timings);
     /// Records the prepared tile batches and submits them; adds to the time of recording.

@@ -30,9 +30,10 @@ std::uint32_t rounded_up(double value) {
 }  // namespace
 
 SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
-    : layout_(&layout),
-      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
-             "nearfield search input"),
+    : device_(&device),
+      layout_(&layout),
+      input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+             gpu::Direction::upload, "nearfield search input"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
                "nearfield search scratch"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
@@ -44,23 +45,40 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
     item_.set = sets_[0];
 }
 
-void SearchBuffers::upload(std::span<const plan::SearchUnit> shapes,
-                           const plan::PointSearch& search, const SearchCounts& expected) {
-    const auto blocks = std::as_bytes(std::span(search.first_directions));
+void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSearch& search,
+                           const SearchCounts& expected) {
+    const auto shape_bytes = std::as_bytes(shapes.units);
     const auto directions = std::as_bytes(std::span(search.directions));
-    input_bytes_ = shapes.size_bytes() + directions.size() + blocks.size();
-    input_.reserve(input_bytes_);
+    const auto blocks = std::as_bytes(std::span(search.first_directions));
+    input_bytes_ = shape_bytes.size() + directions.size() + blocks.size();
+    const bool is_new = reserve_input();
     std::byte* target = input_.data();
-    for (const auto bytes : {std::as_bytes(shapes), directions, blocks}) {
-        target = std::copy(bytes.begin(), bytes.end(), target);
+    if (is_new || shapes.revision != revision_) {
+        std::copy(shape_bytes.begin(), shape_bytes.end(), target);
+        revision_ = shapes.revision;
     }
+    target += shape_bytes.size();
+    target = std::copy(directions.begin(), directions.end(), target);
+    std::copy(blocks.begin(), blocks.end(), target);
     input_.flush();
     item_.items = search.items;
-    item_.first_direction = static_cast<std::uint32_t>(shapes.size());
+    item_.first_direction = static_cast<std::uint32_t>(shapes.units.size());
     item_.directions = static_cast<std::uint32_t>(search.directions.size());
     const std::uint32_t max_points = rounded_up(search.max_points);
     max_counts_ = {rounded_up(search.max_edges), max_points, max_points};
     lay_out(expected);
+}
+
+/// Makes room for the input; returns whether it has to be written anew.
+bool SearchBuffers::reserve_input() {
+    // Where making either of the two failed before, there is no view.
+    if (texels_ && input_bytes_ <= input_.capacity()) {
+        return false;
+    }
+    texels_.reset();
+    input_.reserve(input_bytes_);
+    texels_ = gpu::make_texel_view(*device_, input_, "nearfield search texels");
+    return true;
 }
 
 void SearchBuffers::lay_out(const SearchCounts& expected) {
@@ -77,7 +95,7 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     };
     layout.item_blocks = words(blocks_for(item_.items));
     layout.edge_blocks = words(blocks_for(edges));
-    layout.point_blocks = words(blocks_for(points));
+    layout.point_blocks = words(blocks_for(points / plan::points_per_thread + 1));
     layout.item_words = words(item_.items);
     layout.edge_units = word / 4;
     layout.point_units = layout.edge_units + 2 * edges;
@@ -105,6 +123,7 @@ void SearchBuffers::bind() const {
     write(Layout::points, item_.records,
           std::max(item_.layout.capacities[2], 1U) * sizeof(plan::FoundPointData));
     write(Layout::output, item_.arguments, argument_bytes);
+    layout_->write_texels(item_.set, texels_.get());
     layout_->end_updates();
 }
 

@@ -2,6 +2,7 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
 #include <engine/plan/point_search.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
@@ -24,7 +25,7 @@ public:
     /// Uploads a search and makes room for `expected` elements, or for as many as there can be. The
     /// device must not be using the buffers. Throws StatusException (too_large) if the device
     /// cannot hold them.
-    void upload(std::span<const plan::SearchUnit> shapes, const plan::PointSearch& search,
+    void upload(const plan::SearchShapes& shapes, const plan::PointSearch& search,
                 const SearchCounts& expected);
 
     [[nodiscard]] const passes::PointSearch::Item& item() const { return item_; }
@@ -42,17 +43,21 @@ public:
     [[nodiscard]] std::span<const plan::FoundPointData> found() const;
 
 private:
+    [[nodiscard]] bool reserve_input();
     void lay_out(const SearchCounts& expected);
     void bind() const;
 
+    const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer arguments_;
+    gpu::Owned<VkBufferView> texels_;  // of the input
     passes::DescriptorSets sets_;
     passes::PointSearch::Item item_;
     std::uint64_t input_bytes_ = 0;
+    std::uint64_t revision_ = 0;  // of the shapes in the input
     SearchCounts max_counts_{};
     SearchCounts counts_{};
 };

@@ -163,6 +163,23 @@ TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
     });
 }
 
+// Squares of lengths would leave the range of single precision in world units.
+TEST_F(PointSearch, HoldsForShapesOfAnySize) {
+    Random random(seed + 4000);
+    std::vector<Pair> pairs;
+    for (const double size : {1e-19, 1e-12, 1e-6, 1e3, 1e9}) {
+        for (int i = 0; i < 4; ++i) {
+            Pair pair;
+            pair.a = {"star", scaled_and_moved(star(random, 40, 0.4), size, {})};
+            pair.b = {"parts", scaled_and_moved(several_parts(random, 3), size, {})};
+            pair.pose_a = {{random.between(-0.5, 0.5) * size, 0.0}, random.between(-3.0, 3.0)};
+            pair.tolerance = random.scale(1e-4, 1e-2) * size;
+            pairs.push_back(pair);
+        }
+    }
+    check(context(), pairs);
+}
+
 // More points than a new context makes room for: the search is repeated, and nothing is cut.
 TEST_F(PointSearch, RepeatsWithMoreRoom) {
     Expected<Context> fresh = Context::create(host_device());

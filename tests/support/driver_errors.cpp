@@ -32,6 +32,7 @@ const std::map<std::string_view, Errors> table{
     {"vkBindBufferMemory", memory},
     {"vkBindImageMemory", memory},
     {"vkCreateBuffer", memory},
+    {"vkCreateBufferView", memory},
     {"vkCreateCommandPool", memory},
     {"vkCreateComputePipelines", memory_and(VK_ERROR_INVALID_SHADER_NV)},
     {"vkCreateDescriptorPool", memory_and(VK_ERROR_FRAGMENTATION)},

@@ -32,6 +32,7 @@
     X(vkGetImageMemoryRequirements)   \
     X(vkBindBufferMemory)             \
     X(vkBindImageMemory)              \
+    X(vkCreateBufferView)             \
     X(vkCreateImageView)              \
     X(vkCreateFramebuffer)
 

@@ -132,6 +132,13 @@ VkResult perform(Tag_vkBindImageMemory tag, VkDevice, VkImage image, VkDeviceMem
     return bind(tag.name, image, memory, offset);
 }
 
+VkResult perform(Tag_vkCreateBufferView tag, VkDevice device, const VkBufferViewCreateInfo* info,
+                 const VkAllocationCallbacks*, VkBufferView* view) {
+    *view = driver().make<VkBufferView>(tag.name, number(device));
+    refer(tag.name, *driver().find(tag.name, *view), 0, info->buffer);
+    return VK_SUCCESS;
+}
+
 VkResult perform(Tag_vkCreateImageView tag, VkDevice device, const VkImageViewCreateInfo* info,
                  const VkAllocationCallbacks*, VkImageView* view) {
     *view = driver().make<VkImageView>(tag.name, number(device));

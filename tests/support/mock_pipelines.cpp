@@ -44,6 +44,8 @@ void perform(Tag_vkUpdateDescriptorSets tag, VkDevice, std::uint32_t count,
         driver().expect_unused(tag.name, number(writes[i].dstSet));
         if (writes[i].pImageInfo != nullptr) {
             refer(tag.name, *set, writes[i].dstBinding, writes[i].pImageInfo->imageView);
+        } else if (writes[i].pTexelBufferView != nullptr) {
+            refer(tag.name, *set, writes[i].dstBinding, *writes[i].pTexelBufferView);
         } else {
             const VkDescriptorBufferInfo& info = *writes[i].pBufferInfo;
             refer(tag.name, *set, writes[i].dstBinding, info.buffer);

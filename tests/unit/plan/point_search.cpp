@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -39,28 +40,29 @@ protected:
         ASSERT_EQ(search().directions.size(), 1U);
     }
 
-    [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().size(); }
+    [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units.size(); }
     [[nodiscard]] const PointSearch& search() const { return searches_.front(); }
     [[nodiscard]] const SearchUnit& unit(std::size_t index) const {
-        return builder_.shapes()[index];
+        return builder_.shapes().units[index];
     }
     [[nodiscard]] std::uint32_t word(std::size_t index) const { return unit(index / 4)[index % 4]; }
 
     /// The boxes of a level hold those below, and the lowest ones hold the edges of the polygon.
     void check(std::uint32_t first, const geometry::Polygon& polygon) const {
         const auto [chunks, levels, edges, infos] = unit(first);
+        const int exponent = -std::ilogb(polygon.radius());
+        const auto expect_at = [&](const geometry::Vector& place, const std::uint32_t* words) {
+            EXPECT_EQ(as_float(words[0]), std::ldexp(static_cast<float>(place.x()), exponent));
+            EXPECT_EQ(as_float(words[1]), std::ldexp(static_cast<float>(place.y()), exponent));
+        };
         std::uint32_t edge = 0;
         for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
             const std::uint32_t info = word(infos + chunk);
             ASSERT_EQ(info >> 4U, edge);
             for (std::uint32_t i = 0; i < (info & 15U); ++i, ++edge) {
                 const SearchUnit& ends = unit(edges + chunk_size * chunk + i);
-                const geometry::Vector& from = polygon.vertices()[edge];
-                const geometry::Vector& to = polygon.vertices()[polygon.next(edge)];
-                EXPECT_EQ(as_float(ends[0]), static_cast<float>(from.x()));
-                EXPECT_EQ(as_float(ends[1]), static_cast<float>(from.y()));
-                EXPECT_EQ(as_float(ends[2]), static_cast<float>(to.x()));
-                EXPECT_EQ(as_float(ends[3]), static_cast<float>(to.y()));
+                expect_at(polygon.vertices()[edge], &ends[0]);
+                expect_at(polygon.vertices()[polygon.next(edge)], &ends[2]);
                 expect_holds(unit(first_box(first, 0) + chunk), ends);
             }
         }
