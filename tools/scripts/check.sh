@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Sets up and runs the checks that the tests do not cover: the reference, the libraries' symbols,
-# format, clang-tidy, and the sanitizers. Stops at the first check that fails.
+# format, clang-tidy, the sanitizers, and that answers have the same bits by another compiler and on
+# another processor. Stops at the first check that fails.
 #   check.sh [--no-setup]
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -114,6 +115,7 @@ check_reference() {
 
 if wants_setup "$@"; then
     step "Install what is missing" "$root/tools/scripts/setup.sh" test
+    step "Install other compilers" "$root/tools/scripts/setup.sh" bits
 fi
 step "Configure" configure release
 step "Build" build release --target nearfield_static nearfield_shared
@@ -124,5 +126,6 @@ step "Format" check_format
 step "clang-tidy" check_tidy
 step "Sanitizers" check_sanitized
 step "Threads" check_threads
+step "The same bits" "$root/tools/scripts/same_bits.sh" clang-O3 aarch64-O2
 printf '\n== All checks passed\n'
 print_test_counts
