@@ -4,6 +4,23 @@
 #include <utility>
 
 namespace nearfield {
+namespace {
+
+/// The region that rings enclose, for a shape, with the sum of the deviations; a bad one of the
+/// rings stays as it is, to be refused.
+Expected<ResolvedFill> filled(std::span<const Ring> rings, FillRule rule, double deviation) {
+    Expected<ResolvedFill> fill = resolve_fill(rings, rule);
+    if (!fill.has_value()) {
+        return fill;
+    }
+    if (fill->rings.empty()) {
+        return Status(StatusCode::invalid_shape, "the rings enclose nothing by their fill rule");
+    }
+    fill->deviation = deviation < 0.0 ? deviation : fill->deviation + deviation;
+    return fill;
+}
+
+}  // namespace
 
 Context::Context(std::unique_ptr<Implementation> implementation) noexcept
     : implementation_(std::move(implementation)) {}
@@ -75,6 +92,19 @@ Status Context::update_shape(ShapeHandle shape, std::span<const RingView> rings,
         result = implementation_->shapes().update(shape, implementation_->gather(rings), deviation);
     });
     return status.ok() ? result : status;
+}
+
+Expected<ShapeHandle> Context::add_shape(std::span<const Ring> rings, FillRule rule,
+                                         double deviation) {
+    const Expected<ResolvedFill> fill = filled(rings, rule, deviation);
+    return fill.has_value() ? add_shape(fill->rings, fill->deviation)
+                            : Expected<ShapeHandle>(fill.error());
+}
+
+Status Context::update_shape(ShapeHandle shape, std::span<const Ring> rings, FillRule rule,
+                             double deviation) {
+    const Expected<ResolvedFill> fill = filled(rings, rule, deviation);
+    return fill.has_value() ? update_shape(shape, fill->rings, fill->deviation) : fill.error();
 }
 
 Status Context::remove_shape(ShapeHandle shape) {

@@ -2,6 +2,7 @@
 
 #include <nearfield/cost.hpp>
 #include <nearfield/export.hpp>
+#include <nearfield/fill.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/jobs.hpp>
 #include <nearfield/localization.hpp>
@@ -148,6 +149,12 @@ public:
     /// The same from the caller's own numbers.
     [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const RingView> rings,
                                                   double deviation = 0.0);
+    /// The region that the rings enclose by a rule, as resolve_fill() (fill.hpp) finds it on its
+    /// finest grid: features are those of its rings, and its deviation is added to `deviation`. Of
+    /// FillRule::union_of_parts every ring is a part. Fails as resolve_fill() does too, and with
+    /// invalid_shape if the region is empty.
+    [[nodiscard]] Expected<ShapeHandle> add_shape(std::span<const Ring> rings, FillRule rule,
+                                                  double deviation = 0.0);
 
     /// Replaces all rings of a shape; its handle stays valid. Nothing is rebuilt, so deforming a
     /// shape every frame costs one copy. Batches in flight are answered for the rings they were
@@ -156,6 +163,10 @@ public:
     Status update_shape(ShapeHandle shape, std::span<const Ring> rings, double deviation = 0.0);
     /// The same from the caller's own numbers.
     Status update_shape(ShapeHandle shape, std::span<const RingView> rings, double deviation = 0.0);
+    /// The same from the region that the rings enclose by a rule, which costs what resolve_fill()
+    /// does.
+    Status update_shape(ShapeHandle shape, std::span<const Ring> rings, FillRule rule,
+                        double deviation = 0.0);
 
     /// Removes a shape. Its handle stays invalid from then on (unknown_shape). Batches in flight
     /// are answered as if the shape were still there.
