@@ -36,7 +36,7 @@ const std::map<std::string, Names>& own_options() {
 
 const Names common_options{"-h",          "--help",        "-d",        "--deviation", "--pose-a",
                            "--pose-b",    "--technique",   "--threads", "--json",      "--image",
-                           "--fill-rule", "--clean-width", "--strict",  "--units"};
+                           "--fill-rule", "--clean-width", "--strict",  "--units",     "--offset"};
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;

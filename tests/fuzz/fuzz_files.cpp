@@ -1,7 +1,7 @@
-// Reads mutated files of every format as the command line does, up to the rings of shapes, and
-// prints a table. Any file has to be read or refused with a message that begins with its name;
-// another exception, or more than two seconds of processor time, ends the run, and the file is
-// written to the current folder.
+// Reads mutated files of every format as the command line does, up to the rings of shapes and the
+// rows of tables, and prints a table. Any file has to be read or refused with a message that begins
+// with its name; another exception, or more than two seconds of processor time, ends the run, and
+// the file is written to the current folder.
 //
 //     fuzz_files COUNT [SEED [FILE...]]      FILE: f.svg, f.wkt, ... instead of all formats
 
@@ -10,6 +10,7 @@
 
 #include <tools/io/input_error.hpp>
 #include <tools/io/layout.hpp>
+#include <tools/io/number_table.hpp>
 #include <tools/io/outline.hpp>
 #include <tools/io/scene.hpp>
 #include <tools/io/shape_rings.hpp>
@@ -37,9 +38,17 @@ void read(const InputFile& file, unsigned way) {
         static_cast<void>(tools::read_scene(file, bad));
         return;
     }
+    if (file.name == "f.csv" || file.name == "f.npy") {
+        const unsigned columns = way % 4 == 3 ? 4 : 3;  // of sweeps' segments, of poses
+        static_cast<void>(tools::read_number_table(file, columns, "numbers"));
+        return;
+    }
     tools::OutlineTreatment treatment;
     if (way % 3 == 1) {
         treatment.fill_rule = nearfield::FillRule::nonzero;
+    }
+    if (way % 7 == 1) {
+        treatment.offset = 0.25;
     }
     const auto unit = way % 5 == 1 ? tools::LengthUnit::mm : tools::LengthUnit::user;
     if (file.name == "f.svg" && way % 2 == 0) {

@@ -1,5 +1,8 @@
 #include "seeds.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace nearfield::test {
 namespace {
 
@@ -111,19 +114,80 @@ FuzzFormat path() {
 
 FuzzFormat scene() {
     return {"f.json",
-            {R"({"shapes":{"a":{"rings":[[[0,0],[2,0],[2,1]]],"fill_rule":"nonzero"}},
+            {R"({"shapes":{"a":{"rings":[[[0,0],[2,0],[2,1]]],"fill_rule":"nonzero","offset":0.1}},
 "instances":{"x":{"shape":"a","pose":[1,2,30]},"y":{"shape":"a","end_pose":[1,1,1]}},
 "groups":{"g":["x","y"]},"queries":[{"query":"contacts","a":"x","b":"y","tolerance":0.1},
 {"query":"penetration","pairs":{"between":["g","x"]},"tolerance":0.1,"hits_only":true},
 {"query":"nearest","points":[[1,2]],"count":2,"against":"g"}]})"},
             {"[", "]", "{", "}", ",", "null", "\"pairs\":\"all\"", "\"shapes\"", "\"deviation\":1",
-             "\"clean_width\":1", "\"query\":\"poses\"", "[1,2,3]", "\"x\"", "true", "-1"}};
+             "\"clean_width\":1", "\"offset\":0.5", "\"query\":\"poses\"", "[1,2,3]", "\"x\"",
+             "true", "-1"}};
+}
+
+/// A word a line.
+std::string lines(std::string words) {
+    std::replace(words.begin(), words.end(), ' ', '\n');
+    return words + "\n";
+}
+
+FuzzFormat dxf() {
+    return {"f.dxf",
+            {lines("0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 b 10 "
+                   "1 20 1 0 CIRCLE 10 0 20 0 40 .5 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 "
+                   "INSERT 2 b 10 5 20 5 41 2 50 30 0 LWPOLYLINE 70 1 10 0 20 0 42 1 10 4 20 0 10 "
+                   "4 20 3 0 TEXT 1 t 0 ENDSEC 0 EOF"),
+             lines("0 SECTION 2 HEADER 9 $INSUNITS 70 1 0 ENDSEC 0 SECTION 2 ENTITIES 0 LINE 10 0 "
+                   "20 0 11 4 21 0 0 ARC 10 4 20 1 40 1 50 270 51 90 0 LINE 10 4 20 2 11 0 21 0 0 "
+                   "POLYLINE 70 1 0 VERTEX 10 5 20 5 42 -.3 0 VERTEX 10 7 20 5 0 VERTEX 10 7 20 7 "
+                   "0 SEQEND 0 ELLIPSE 10 0 20 9 11 1 21 0 40 .5 0 ENDSEC 0 EOF")},
+            {"0\n", "\n", lines("0 LINE"), lines("0 ARC"), lines("0 INSERT 2 b 10 0 20 0"),
+             lines("0 ENDSEC"), lines("0 ENDBLK"), lines("0 BLOCK 2 b"),
+             lines("0 VERTEX 10 1 20 1"), lines("230 -1"), lines("42 1"), lines("70 1"), "999\n",
+             lines("0 SPLINE"), "\r\n", "-", lines("0 CIRCLE 10 0 20 0 40 1")}};
+}
+
+FuzzFormat csv() {
+    return {"f.csv",
+            {"x,y,degrees\n1,2,30\n-0.5, 1e3 ,0\r\n\n4,5,-720.25\n", "1,2,3\n4,5,6\n7,8,9",
+             "\xEF\xBB\xBF"
+             "2.5,1,0\n4.5,1,0\n"},
+            {",", "\n", "\r\n", "\n\n", ",,", "1", "-1.5e-3", " ", "\t", "x,y", "+1", "0x1p3", ";",
+             "1,2,3", "\"1\""}};
+}
+
+/// A file of NumPy's format, of two rows of three numbers.
+template <class Number>
+std::string npy(const std::string& start, const std::string& type) {
+    const std::string header =
+        "{'descr': '" + type + "', 'fortran_order': False, 'shape': (2, 3), }\n";
+    std::string file = start + std::string(1, static_cast<char>(header.size()));
+    file.resize(start[6] == 1 ? 10 : 12);  // the other bytes of the length are 0
+    file += header;
+    for (const double value : {1.5, 2.0, -30.0, 0.0, 1e6, 0.25}) {
+        const auto number = static_cast<Number>(value);
+        char bytes[sizeof(Number)];
+        std::memcpy(bytes, &number, sizeof(Number));
+        file.append(bytes, sizeof(Number));
+    }
+    return file;
+}
+
+FuzzFormat npy() {
+    const std::string name = "\x93NUMPY";
+    return {
+        "f.npy",
+        {npy<double>(name + bytes_of("0100"), "<f8"), npy<float>(name + bytes_of("0100"), "<f4"),
+         npy<double>(name + bytes_of("0200"), "<f8")},
+        {"'descr':", "'shape':", "'fortran_order':", "(2, 3)", "(2,)", "()", "(0, 3)", "(", ")",
+         "True", "'<f4'", "'<f8'", "'>f8'", "18446744073709551615", "4611686018427387904, ",
+         bytes_of("000000000000F07F"), bytes_of("0000000000000000"), bytes_of("0000F03F"),
+         bytes_of("FFFF")}};
 }
 
 }  // namespace
 
 std::vector<FuzzFormat> fuzz_formats() {
-    return {geojson(), wkt(), wkb(), hex_wkb(), svg(), path(), scene()};
+    return {geojson(), wkt(), wkb(), hex_wkb(), svg(), path(), dxf(), scene(), csv(), npy()};
 }
 
 }  // namespace nearfield::test

@@ -100,12 +100,14 @@ Outline read_and_note(const std::string& file, LengthUnit unit) {
     return outline;
 }
 
-/// How far tessellation may be off the curves of A and B, each.
+/// How far edges may be off the curves of A and B, each, and off those of an offset.
 double choose_deviation(const QueryArguments& arguments, const QueryRequest& request,
                         const Outline& a, const Outline& b) {
     if (!arguments.deviation) {
-        if (request.tolerance == 0.0 && (a.curved() || b.curved())) {
-            throw InputError("--deviation: required for curves where there is no tolerance");
+        const bool is_needed = needs_deviation(a, arguments.treatment) || b.curved();
+        if (request.tolerance == 0.0 && is_needed) {
+            throw InputError(
+                "--deviation: required for curves and offsets where there is no tolerance");
         }
         return usual_deviation * request.tolerance;
     }

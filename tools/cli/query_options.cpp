@@ -46,7 +46,7 @@ const char* describe_tolerance(QueryType type) {
     switch (type) {
         case QueryType::intersection_test:
         case QueryType::containment:
-            return "Tolerance, world units, > 0: curves of SVG become edges that are off by at "
+            return "Tolerance, world units, > 0: curves become edges that are off by at "
                    "most a sixteenth of it. Of no other use: the test is exact; default none";
         case QueryType::time_of_impact:
             return "Tolerance, world units, > 0: no two points of the shapes move by more than "
@@ -68,7 +68,7 @@ const char* describe_tolerance(QueryType type) {
 void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     kind.option_defaults()->group("Input");
     kind.add_option("A", arguments.file_a,
-                    "Outline A: GeoJSON, WKT, WKB, SVG or SVG path data; - reads the standard "
+                    "Outline A: GeoJSON, WKT, WKB, SVG, SVG path data or DXF; - reads the standard "
                     "input")
         ->required()
         ->type_name("FILE");
@@ -79,15 +79,18 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                       describe_tolerance(type))
         ->type_name("TOLERANCE")
         ->required(!is_exact(type));
-    add_parsed_option(kind, "--deviation", arguments.deviation, parse_positive,
-                      "How far the edges that stand for curves of SVG may be off, world units, > "
-                      "0; A's and B's together at most a quarter of the tolerance; default a "
-                      "sixteenth of it each")
+    add_parsed_option(
+        kind, "--deviation", arguments.deviation, parse_positive,
+        "How far the edges that stand for curves, and for those of --offset, may be off, "
+        "world units, > 0; A's and B's together at most a quarter of the tolerance; default a "
+        "sixteenth of it each")
         ->type_name("DEVIATION");
-    add_parsed_option(kind, "--units", arguments.unit, parse_length_unit,
-                      "The unit of coordinates read from SVG: user (user units as they are), or "
-                      "px, mm, cm, in, pt or pc, with viewBox, width and height applied; default "
-                      "user")
+    add_parsed_option(
+        kind, "--units", arguments.unit, parse_length_unit,
+        "The unit of coordinates read from SVG and DXF: user (user units as they are), or "
+        "px, mm, cm, in, pt or pc, with viewBox, width and height (of DXF $INSUNITS) applied; "
+        "default "
+        "user")
         ->type_name("NAME");
     add_parsed_option(kind, "--fill-rule", arguments.treatment.fill_rule, parse_fill_rule,
                       "What the rings of A and B enclose: odd-even, nonzero, positive (a winding "
@@ -99,6 +102,10 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
                       "Drop rings, spikes and vertices that are no wider than this, world units, > "
                       "0; part of the deviation; default only rings that enclose nothing")
         ->type_name("W");
+    add_parsed_option(kind, "--offset", arguments.treatment.offset, parse_nonzero,
+                      "Grow A and B by this, world units, with round corners; negative: shrink; "
+                      "what is off about the corners is part of --deviation; default not at all")
+        ->type_name("DISTANCE");
     kind.add_flag("--strict", arguments.treatment.strict,
                   "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
                   "the standard error");

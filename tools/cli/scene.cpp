@@ -69,6 +69,10 @@ void add_outline_options(CLI::App& command, SceneArguments& arguments) {
                       "Of outlines: drop rings, spikes and vertices that are no wider than this, "
                       "world units, > 0; default only rings that enclose nothing")
         ->type_name("W");
+    add_parsed_option(command, "--offset", arguments.offset, parse_nonzero,
+                      "Of outlines: grow every item by this, world units, with round corners; "
+                      "negative: shrink; default not at all")
+        ->type_name("DISTANCE");
 }
 
 /// Refuses what a scene in JSON states itself.
@@ -80,7 +84,8 @@ void require_no_outline_options(const SceneArguments& arguments, const std::stri
           std::pair{"--units", arguments.unit.has_value()},
           std::pair{"--deviation", arguments.deviation.has_value()},
           std::pair{"--fill-rule", arguments.fill_rule.has_value()},
-          std::pair{"--clean-width", arguments.clean_width.has_value()}}) {
+          std::pair{"--clean-width", arguments.clean_width.has_value()},
+          std::pair{"--offset", arguments.offset.has_value()}}) {
         if (is_given) {
             throw InputError(std::string(name) + ": belongs to outlines; " + file +
                              " is a scene, which states its own");
@@ -92,11 +97,11 @@ LayoutRequest layout_request(const SceneArguments& arguments) {
     if (arguments.strict && arguments.clean_width) {
         throw InputError("--strict: drops nothing, so it cannot stand beside --clean-width");
     }
-    LayoutRequest request{
-        .hits_only = arguments.hits_only,
-        .treatment = {arguments.fill_rule, arguments.clean_width, arguments.strict},
-        .unit = arguments.unit.value_or(LengthUnit::user),
-        .deviation = arguments.deviation};
+    LayoutRequest request{.hits_only = arguments.hits_only,
+                          .treatment = {arguments.fill_rule, arguments.clean_width,
+                                        arguments.offset, arguments.strict},
+                          .unit = arguments.unit.value_or(LengthUnit::user),
+                          .deviation = arguments.deviation};
     for (const std::string& kind :
          arguments.queries.empty() ? std::vector<std::string>{"containment", "intersection-test"}
                                    : arguments.queries) {
@@ -138,9 +143,10 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         "answered. Of outlines, all pairs are asked about: of an SVG file those of its items (use, "
         "groups of outlines, other outlines), of any other file it as a whole");
     command
-        ->add_option("scene", arguments.files,
-                     "A scene: shapes, instances (shape and pose), groups and queries, as JSON; or "
-                     "outlines: SVG, GeoJSON, WKT, WKB, SVG path data. - reads the standard input")
+        ->add_option(
+            "scene", arguments.files,
+            "A scene: shapes, instances (shape and pose), groups and queries, as JSON; or "
+            "outlines: SVG, DXF, GeoJSON, WKT, WKB, SVG path data. - reads the standard input")
         ->required()
         ->type_name("FILE...");
     add_outline_options(*command, arguments);

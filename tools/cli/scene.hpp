@@ -23,6 +23,7 @@ struct SceneArguments {
     std::optional<double> deviation;
     std::optional<FillRule> fill_rule;
     std::optional<double> clean_width;
+    std::optional<double> offset;
     std::optional<LengthUnit> unit;
     SettingsArguments settings;
     std::optional<std::string> json;

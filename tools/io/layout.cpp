@@ -93,7 +93,7 @@ private:
     }
 
     [[nodiscard]] double deviation_of(const Outline& outline) const {
-        if (!outline.curved()) {
+        if (!needs_deviation(outline, request_.treatment)) {
             return 0.0;
         }
         if (request_.deviation) {

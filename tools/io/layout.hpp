@@ -16,12 +16,12 @@ struct LayoutRequest {
     bool hits_only = false;                  ///< only results for which is_hit() holds
     OutlineTreatment treatment = {};
     LengthUnit unit = LengthUnit::user;
-    /// How far edges may be off curves. None: usual_deviation of the tolerances, without one
-    /// layout_deviation of the longer side of a shape.
+    /// How far edges may be off curves, those of an offset too. None: usual_deviation of the
+    /// tolerances, without one layout_deviation of the longer side of a shape.
     std::optional<double> deviation = {};
 };
 
-/// The deviation of curves in a layout without a tolerance, in longer sides of a shape.
+/// The deviation of curves and offsets in a layout without a tolerance, in longer sides of a shape.
 inline constexpr double layout_deviation = 1e-5;
 
 /// A scene of the items in outline files: of SVG those of parse_svg_layout(), of any other file

@@ -1,7 +1,6 @@
 #include <tools/io/input_error.hpp>
 #include <tools/io/npy.hpp>
 #include <tools/io/number_table.hpp>
-#include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
 
 #include <cmath>
@@ -85,8 +84,9 @@ private:
     NumberTable table_;
 };
 
-NumberTable read_npy_table(const std::string& path, std::size_t columns, const std::string& form) {
-    NpyArray array = read_npy(read_bytes(path), path);
+NumberTable read_npy_table(const InputFile& file, std::size_t columns, const std::string& form) {
+    const std::string& path = file.name;
+    NpyArray array = read_npy(file.bytes, path);
     if (array.shape.size() != 2 || array.shape[1] != columns) {
         throw InputError(path + ": expected rows of " + form + "; the shape is " +
                          npy_shape_text(array.shape));
@@ -106,13 +106,12 @@ bool is_npy(const std::string& path) {
     return path.ends_with(".npy");
 }
 
-NumberTable read_number_table(const std::string& path, std::size_t columns,
-                              const std::string& form) {
-    if (is_npy(path)) {
-        return read_npy_table(path, columns, form);
+NumberTable read_number_table(const InputFile& file, std::size_t columns, const std::string& form) {
+    if (is_npy(file.name)) {
+        return read_npy_table(file, columns, form);
     }
-    const std::string text = read_text(path);
-    return CsvReader(path, text, columns, form).read();
+    const std::string text = to_text(file.bytes, file.name);
+    return CsvReader(file.name, text, columns, form).read();
 }
 
 }  // namespace nearfield::tools

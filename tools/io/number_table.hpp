@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tools/io/text_file.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -17,12 +19,12 @@ struct NumberTable {
     }
 };
 
-/// Reads a table of `columns` columns from a file: NumPy's format where the name ends in .npy
+/// Takes a table of `columns` columns from a file: NumPy's format where the name ends in .npy
 /// (float32 or float64, shape (rows, columns), C order, little endian), else CSV (commas, a line a
 /// row; empty lines are skipped, and so is a first line without any number, the names of the
 /// columns). `form` says what a row is. Throws InputError with the line and column, or the row and
 /// column, of what is wrong.
-[[nodiscard]] NumberTable read_number_table(const std::string& path, std::size_t columns,
+[[nodiscard]] NumberTable read_number_table(const InputFile& file, std::size_t columns,
                                             const std::string& form);
 
 /// True of a file that is read and written in NumPy's format: its name ends in .npy.

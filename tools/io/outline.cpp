@@ -1,4 +1,5 @@
 #include <tools/io/characters.hpp>
+#include <tools/io/dxf.hpp>
 #include <tools/io/geojson.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/outline.hpp>
@@ -18,6 +19,13 @@ bool begins_hex_wkb(std::string_view text) {
     return text.size() > 1 && text[0] == '0' && (text[1] == '0' || text[1] == '1');
 }
 
+/// A drawing begins with a group of code 0, SECTION, or a comment, 999.
+bool begins_dxf(std::string_view text) {
+    const std::size_t end = text.find_first_of("\r\n");
+    const std::string_view code = text.substr(0, end);
+    return end != std::string_view::npos && (code == "0" || code == "999");
+}
+
 /// The format of a file of another extension. Precondition: it is not empty.
 OutlineFormat guess_format(std::string_view bytes, const std::string& name) {
     if (bytes.front() == '\0' || bytes.front() == '\1') {
@@ -31,6 +39,9 @@ OutlineFormat guess_format(std::string_view bytes, const std::string& name) {
     if (first == '<') {
         return OutlineFormat::svg;
     }
+    if (begins_dxf(text)) {
+        return OutlineFormat::dxf;
+    }
     if (begins_hex_wkb(text)) {
         return OutlineFormat::hex_wkb;
     }
@@ -42,8 +53,8 @@ OutlineFormat guess_format(std::string_view bytes, const std::string& name) {
     if (is_letter(first)) {
         return OutlineFormat::wkt;
     }
-    throw InputError(name +
-                     ":1:1: neither GeoJSON, well-known text or binary, SVG nor SVG path data");
+    throw InputError(
+        name + ":1:1: neither GeoJSON, well-known text or binary, SVG, SVG path data nor DXF");
 }
 
 /// A byte order mark says that bytes are text, and nothing else.
@@ -74,6 +85,9 @@ OutlineFormat format_of(const InputFile& file) {
     if (extension == ".path") {
         return OutlineFormat::path;
     }
+    if (extension == ".dxf") {
+        return OutlineFormat::dxf;
+    }
     return guess_format(bytes, file.name);
 }
 
@@ -97,6 +111,8 @@ Outline parse_outline(InputFile file, LengthUnit unit) {
         SvgDrawing drawing = parse_svg(text, name, outline.skipped, unit);
         outline.path = std::move(drawing.path);
         outline.parts = std::move(drawing.parts);
+    } else if (format == OutlineFormat::dxf) {
+        outline.path = parse_dxf(text, name, outline.skipped, unit);
     } else {
         outline.path = parse_path_file(text, name);
     }

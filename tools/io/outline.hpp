@@ -38,11 +38,11 @@ struct OutlineRings {
 inline constexpr double usual_deviation = 1.0 / 16.0;
 
 /// What a file holds.
-enum class OutlineFormat { geojson, wkt, hex_wkb, binary_wkb, svg, path };
+enum class OutlineFormat { geojson, wkt, hex_wkb, binary_wkb, svg, path, dxf };
 
-/// The format of a file. The extension (.geojson, .json, .wkt, .wkb, .svg, .path) says which it is;
-/// with any other the first characters do. Hexadecimal WKB may stand in place of WKT or WKB. Throws
-/// InputError.
+/// The format of a file. The extension (.geojson, .json, .wkt, .wkb, .svg, .path, .dxf) says which
+/// it is; with any other the first characters do. Hexadecimal WKB may stand in place of WKT or WKB.
+/// Throws InputError.
 [[nodiscard]] OutlineFormat format_of(const InputFile& file);
 
 /// The outline in a file. `unit` is for files that state what a length is. Throws InputError.

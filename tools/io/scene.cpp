@@ -22,8 +22,8 @@ namespace {
 using nlohmann::json;
 
 Outline read_shape(const JsonPlace& place) {
-    require_known_members(place,
-                          {"file", "rings", "units", "deviation", "fill_rule", "clean_width"});
+    require_known_members(
+        place, {"file", "rings", "units", "deviation", "fill_rule", "clean_width", "offset"});
     if (place.has("file") == place.has("rings")) {
         place.fail("needs either \"file\" or \"rings\"");
     }
@@ -55,8 +55,8 @@ bool takes_part(const SceneQuery& query, std::size_t shape, bool is_placed, cons
                : scene.instances[query.a].shape == shape || scene.instances[query.b].shape == shape;
 }
 
-/// The maximum deviation of a shape's rings from its curves: stated by the shape, or derived from
-/// the tolerances of its queries.
+/// The maximum deviation of a shape's rings from its curves and those of its offset: stated by the
+/// shape, or derived from the tolerances of its queries.
 double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& scene) {
     if (place.has("deviation")) {
         return read_above_zero(place.member("deviation"));
@@ -75,7 +75,8 @@ double shape_deviation(const JsonPlace& place, std::size_t shape, const Scene& s
         }
     }
     if (!std::isfinite(smallest)) {
-        place.fail("has curves and is in no query with a tolerance; needs \"deviation\"");
+        place.fail(
+            "has curves or an offset and is in no query with a tolerance; needs \"deviation\"");
     }
     return usual_deviation * smallest;
 }
@@ -88,6 +89,13 @@ OutlineTreatment read_treatment(const JsonPlace& place, EmptyRings empty) {
     }
     if (place.has("clean_width")) {
         treatment.clean_width = read_above_zero(place.member("clean_width"));
+    }
+    if (place.has("offset")) {
+        const JsonPlace offset = place.member("offset");
+        treatment.offset = offset.number();
+        if (*treatment.offset == 0.0) {
+            offset.fail("expected a number other than 0");
+        }
     }
     return treatment;
 }
@@ -292,8 +300,10 @@ private:
         }
         attempt(shapes_.member(shape.name), shape.problem, [&](const JsonPlace& place) {
             const Outline& outline = outlines_[index];
-            const double deviation = outline.curved() ? shape_deviation(place, index, scene_) : 0.0;
-            ShapeRings rings = make_shape_rings(outline, deviation, read_treatment(place, empty_));
+            const OutlineTreatment treatment = read_treatment(place, empty_);
+            const double deviation =
+                needs_deviation(outline, treatment) ? shape_deviation(place, index, scene_) : 0.0;
+            ShapeRings rings = make_shape_rings(outline, deviation, treatment);
             shape.rings = std::move(rings.rings);
             shape.deviation = rings.deviation;
             add_note(shape.note, place, rings.note);

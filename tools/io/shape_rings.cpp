@@ -59,10 +59,14 @@ class Treatment {
 public:
     Treatment(const Outline& outline, double deviation, const OutlineTreatment& asked)
         : outline_(outline), asked_(asked) {
+        // An offset has arcs of its own.
+        const double of_curves =
+            outline.curved() ? (asked.offset ? 0.5 * deviation : deviation) : 0.0;
         // Room for the deviation of the fill rule, so that the sum is what the caller allowed.
         const double share = asked.fill_rule || !outline.parts.empty() ? 1.0 - 0x1p-10 : 1.0;
-        allowed_ = outline.curved() ? deviation : 0.0;
-        OutlineRings rings = tessellate_outline(outline, share * deviation);
+        left_ = share * (deviation - of_curves);
+        allowed_ = of_curves;
+        OutlineRings rings = tessellate_outline(outline, share * of_curves);
         result_.rings = std::move(rings.rings);
         result_.deviation = rings.deviation;
     }
@@ -79,6 +83,9 @@ public:
             clean_all(*asked_.clean_width);
         } else if (!asked_.fill_rule && outline_.parts.empty() && !asked_.strict) {
             drop_empty_rings();
+        }
+        if (asked_.offset) {
+            move_boundary(*asked_.offset);
         }
         return std::move(result_);
     }
@@ -189,6 +196,21 @@ private:
         take(*cleaned, asked_.fill_rule ? std::string("of the filled region ") + why : why);
     }
 
+    void move_boundary(double distance) {
+        // More come of a wrong unit alone, and would take seconds.
+        constexpr std::uint32_t most = 1U << 20U;
+        ResolvedFill fill = checked(
+            offset_fill(result_.rings, FillRule::odd_even, distance, left_, {.most = most}));
+        if (fill.rings.empty()) {
+            char text[80];
+            std::snprintf(text, sizeof text, "nothing is left of it by an offset of %.17g",
+                          distance);
+            fail(text);
+        }
+        result_.rings = std::move(fill.rings);
+        result_.deviation += fill.deviation;
+    }
+
     void take(CleanedRings& cleaned, const std::string& why) {
         note(describe(cleaned, why));
         result_.rings = std::move(cleaned.rings);
@@ -198,10 +220,15 @@ private:
     const Outline& outline_;
     const OutlineTreatment& asked_;
     double allowed_ = 0.0;  ///< deviation, of outlines with curves
+    double left_ = 0.0;     ///< deviation, of an offset
     ShapeRings result_;
 };
 
 }  // namespace
+
+bool needs_deviation(const Outline& outline, const OutlineTreatment& treatment) {
+    return outline.curved() || treatment.offset;
+}
 
 ShapeRings make_shape_rings(const Outline& outline, double deviation,
                             const OutlineTreatment& treatment) {

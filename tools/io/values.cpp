@@ -68,6 +68,14 @@ double parse_positive(std::string_view text, const std::string& option) {
     return number;
 }
 
+double parse_nonzero(std::string_view text, const std::string& option) {
+    double number = 0.0;
+    if (!parse_finite(text, number) || number == 0.0) {
+        fail(option, text, "expected a finite number other than 0");
+    }
+    return number;
+}
+
 std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {
     const auto refuse = [&](const std::string& reason) {
         throw InputError(option + ": \"" + std::string(text) + "\" is " + reason);

@@ -21,6 +21,9 @@ namespace nearfield::tools {
 /// A number greater than zero.
 [[nodiscard]] double parse_positive(std::string_view text, const std::string& option);
 
+/// A number other than zero.
+[[nodiscard]] double parse_nonzero(std::string_view text, const std::string& option);
+
 /// The range of an integer, both ends included.
 struct CountRange {
     std::uint32_t min = 0;

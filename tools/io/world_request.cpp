@@ -218,7 +218,7 @@ private:
         const std::string path = read_path(name);
         files_.push_back(path);
         try {
-            return read_number_table(path, columns, form);
+            return read_number_table({path, read_bytes(path)}, columns, form);
         } catch (const InputError& error) {
             name.fail(error.what());
         }

@@ -148,8 +148,9 @@ TEST(ToolsOutline, FilesThatCannotBeReadAreNamed) {
     const std::string binary = folder.write("binary", std::string("PK\x03\x04\0\x01", 6));
     EXPECT_EQ(error(binary), binary + ": is not text: a zero byte at offset 4");
     const std::string other = folder.write("other", "\x89PNG");
-    EXPECT_EQ(error(other),
-              other + ":1:1: neither GeoJSON, well-known text or binary, SVG nor SVG path data");
+    EXPECT_EQ(
+        error(other),
+        other + ":1:1: neither GeoJSON, well-known text or binary, SVG, SVG path data nor DXF");
 }
 
 }  // namespace

@@ -1,0 +1,377 @@
+#include <nearfield/shape.hpp>
+
+#include <tools/io/arc_chain.hpp>
+#include <tools/io/dxf.hpp>
+#include <tools/io/dxf_groups.hpp>
+#include <tools/io/values.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nearfield::tools {
+namespace {
+
+/// Entities that stand together: a block, or model space.
+struct DxfBlock {
+    std::vector<DxfEntity> entities = {};
+    Vector2 base = {};  ///< the point that an INSERT puts at its place
+    enum class State { unread, in_progress, done } state = State::unread;
+    CurvePath path = {};
+    std::size_t segments = 0;  ///< of the path
+};
+
+/// What is no outline.
+bool is_annotation(std::string_view type) {
+    constexpr std::string_view types[] = {
+        "TEXT",   "MTEXT",  "DIMENSION", "LEADER", "MULTILEADER", "TOLERANCE", "POINT",  "HATCH",
+        "ATTDEF", "ATTRIB", "XLINE",     "RAY",    "VIEWPORT",    "IMAGE",     "SEQEND", "WIPEOUT"};
+    return std::find(std::begin(types), std::end(types), type) != std::end(types);
+}
+
+/// CSS pixels in a unit of $INSUNITS; 0 for one that is not known.
+double pixels_of_insunits(double code) {
+    constexpr double millimetre = 96.0 / 25.4;
+    const std::pair<double, double> units[] = {{1.0, 96.0},
+                                               {2.0, 12.0 * 96.0},
+                                               {4.0, millimetre},
+                                               {5.0, 10.0 * millimetre},
+                                               {6.0, 1000.0 * millimetre}};
+    for (const auto& [unit, pixels] : units) {
+        if (unit == code) {
+            return pixels;
+        }
+    }
+    return 0.0;
+}
+
+class DxfReader {
+    // Blocks in blocks multiply: a small file must not take all memory.
+    static constexpr std::size_t most_segments = std::size_t{1} << 18U;
+
+public:
+    DxfReader(const std::string& text, const std::string& file, SkippedParts& skipped)
+        : groups_(text, file), skipped_(skipped) {}
+
+    CurvePath read(LengthUnit unit) {
+        const std::vector<DxfEntity> all = read_dxf_entities(groups_);
+        if (all.empty() || all.front().type != "SECTION") {
+            groups_.fail(0, "a DXF file begins with a section");
+        }
+        sort_into_blocks(all);
+        CurvePath path = path_of(model_, 0);
+        if (path.contours().empty()) {
+            groups_.fail(0,
+                         "has no outline" + (skipped_.empty() ? "" : ", only " + skipped_.text()));
+        }
+        if (unit != LengthUnit::user) {
+            const double scale = pixels_ / pixels_per(unit);
+            if (scale == 0.0) {
+                groups_.fail(0, "states no unit ($INSUNITS 1, 2, 4, 5 or 6); --units needs one");
+            }
+            path.transform({{scale, 0.0}, {0.0, scale}, {}});
+        }
+        return path;
+    }
+
+private:
+    [[noreturn]] void fail(const DxfEntity& entity, const std::string& reason) const {
+        groups_.fail(entity.offset, std::string(entity.type) + ": " + reason);
+    }
+
+    [[nodiscard]] double number(const DxfGroup& group) const {
+        double number = 0.0;
+        if (!parse_finite(group.value, number)) {
+            groups_.fail(group.offset, "group " + std::to_string(group.code) + ": \"" +
+                                           std::string(group.value.substr(0, 40)) +
+                                           "\" is not a finite number");
+        }
+        if (std::abs(number) > largest_coordinate) {
+            groups_.fail(group.offset, "group " + std::to_string(group.code) +
+                                           ": numbers must be at most 1e12 in magnitude");
+        }
+        return number;
+    }
+
+    /// The number of the first group with a code.
+    [[nodiscard]] double number(const DxfEntity& entity, int code) const {
+        const DxfGroup* const group = entity.find(code);
+        if (group == nullptr) {
+            fail(entity, "lacks group " + std::to_string(code));
+        }
+        return number(*group);
+    }
+
+    [[nodiscard]] double number(const DxfEntity& entity, int code, double usual) const {
+        const DxfGroup* const group = entity.find(code);
+        return group == nullptr ? usual : number(*group);
+    }
+
+    [[nodiscard]] bool has_flag(const DxfEntity& entity, int code, int flag) const {
+        const double flags = number(entity, code, 0.0);
+        return std::abs(flags) <= 0x1p30 && (static_cast<int>(flags) & flag) != 0;
+    }
+
+    [[nodiscard]] Vector2 point(const DxfEntity& entity, int code) const {
+        return {number(entity, code), number(entity, code + 10)};
+    }
+
+    void sort_into_blocks(const std::vector<DxfEntity>& all) {
+        std::string_view section;
+        DxfBlock* block = nullptr;
+        for (const DxfEntity& entity : all) {
+            if (entity.type == "SECTION") {
+                section = entity.text(2);
+                block = section == "ENTITIES" ? &model_ : nullptr;
+                if (section == "HEADER") {
+                    read_unit(entity);
+                }
+            } else if (entity.type == "ENDSEC") {
+                section = {};
+                block = nullptr;
+            } else if (section == "BLOCKS" && entity.type == "BLOCK") {
+                block = &blocks_[std::string(entity.text(2))];
+                *block = {.base = point(entity, 10)};
+            } else if (section == "BLOCKS" && entity.type == "ENDBLK") {
+                block = nullptr;
+            } else if (block != nullptr) {
+                block->entities.push_back(entity);
+            }
+        }
+        if (!section.empty()) {
+            groups_.fail(all.back().offset,
+                         "the file ends within its section " + std::string(section.substr(0, 40)));
+        }
+    }
+
+    void read_unit(const DxfEntity& header) {
+        for (std::size_t i = 0; i + 1 < header.groups.size(); ++i) {
+            if (header.groups[i].code == 9 && header.groups[i].value == "$INSUNITS") {
+                pixels_ = pixels_of_insunits(number(header.groups[i + 1]));
+            }
+        }
+    }
+
+    /// The outlines of a block, for which no block may be needed that needs it.
+    const CurvePath& path_of(DxfBlock& block, std::size_t offset) {
+        if (block.state == DxfBlock::State::in_progress) {
+            groups_.fail(offset, "INSERT: the block holds itself");
+        }
+        if (block.state == DxfBlock::State::unread) {
+            block.state = DxfBlock::State::in_progress;
+            std::vector<ArcChain> chains;
+            for (std::size_t i = 0; i < block.entities.size(); ++i) {
+                read_entity(block, i, chains);
+            }
+            close(chains);
+            for (const ArcChain& chain : chains) {
+                block.segments += chain.points.size();
+                append_chain(chain, block.path);
+            }
+            block.state = DxfBlock::State::done;
+        }
+        return block.path;
+    }
+
+    void close(std::vector<ArcChain>& chains) const {
+        constexpr double part = 1e-6;
+        Vector2 low{largest_coordinate, largest_coordinate};
+        Vector2 high{-largest_coordinate, -largest_coordinate};
+        for (const ArcChain& chain : chains) {
+            for (const ArcChain::Point& point : chain.points) {
+                low = {std::min(low.x, point.at.x), std::min(low.y, point.at.y)};
+                high = {std::max(high.x, point.at.x), std::max(high.y, point.at.y)};
+            }
+        }
+        const double gap = part * std::max(high.x - low.x, high.y - low.y);
+        if (const std::optional<LooseEnd> end = close_chains(chains, gap)) {
+            char text[120];
+            std::snprintf(text, sizeof text,
+                          "the outline is open: nothing continues it at (%.17g, %.17g)", end->at.x,
+                          end->at.y);
+            groups_.fail(end->offset, text);
+        }
+    }
+
+    void read_entity(DxfBlock& block, std::size_t& index, std::vector<ArcChain>& chains) {
+        const DxfEntity& entity = block.entities[index];
+        const std::string_view type = entity.type;
+        if (has_flag(entity, 67, 1) || has_flag(entity, 60, 1)) {
+            skipped_.add("of paper space, or invisible");
+            return;
+        }
+        if (is_annotation(type)) {
+            skipped_.add(type);
+        } else if (type == "LWPOLYLINE") {
+            chains.push_back(lightweight(entity));
+        } else if (type == "POLYLINE") {
+            chains.push_back(polyline(block, index));
+        } else if (type == "LINE") {
+            chains.push_back({.points = {{point(entity, 10), 0.0}, {point(entity, 11), 0.0}},
+                              .offset = entity.offset});
+        } else if (type == "ARC") {
+            add_arc(block, entity, chains);
+        } else if (type == "CIRCLE") {
+            block.path.circle(placed(entity, point(entity, 10)), radius(entity));
+            ++block.segments;
+        } else if (type == "ELLIPSE") {
+            add_ellipse(block, entity);
+        } else if (type == "INSERT") {
+            insert(block, entity);
+        } else {
+            fail(entity, "is not read; convert it to polylines, or remove it");
+        }
+    }
+
+    /// 1, or -1 for an entity that is seen from behind, whose x points the other way.
+    [[nodiscard]] double direction(const DxfEntity& entity) const {
+        const double z = number(entity, 230, 1.0);
+        if (number(entity, 210, 0.0) != 0.0 || number(entity, 220, 0.0) != 0.0 ||
+            std::abs(z) != 1.0) {
+            fail(entity, "does not lie in the plane of x and y");
+        }
+        return z;
+    }
+
+    [[nodiscard]] Vector2 placed(const DxfEntity& entity, const Vector2& point) const {
+        return {direction(entity) * point.x, point.y};
+    }
+
+    [[nodiscard]] double radius(const DxfEntity& entity) const {
+        const double radius = number(entity, 40);
+        if (!(radius > 0.0)) {
+            fail(entity, "its radius is not above 0");
+        }
+        return radius;
+    }
+
+    [[nodiscard]] ArcChain lightweight(const DxfEntity& entity) const {
+        ArcChain chain{.points = {}, .closed = has_flag(entity, 70, 1), .offset = entity.offset};
+        const double way = direction(entity);
+        for (const DxfGroup& group : entity.groups) {
+            if (group.code == 10) {
+                chain.points.push_back({{way * number(group), 0.0}, 0.0});
+            } else if (!chain.points.empty() && group.code == 20) {
+                chain.points.back().at.y = number(group);
+            } else if (!chain.points.empty() && group.code == 42) {
+                chain.points.back().bulge = way * number(group);
+            }
+        }
+        require_points(entity, chain);
+        return chain;
+    }
+
+    /// A POLYLINE and the VERTEX entities that follow it, which `index` then has passed.
+    [[nodiscard]] ArcChain polyline(const DxfBlock& block, std::size_t& index) const {
+        const DxfEntity& entity = block.entities[index];
+        constexpr int in_space_or_mesh = 8 | 16 | 64;
+        constexpr int frame_of_spline = 16;
+        if (has_flag(entity, 70, in_space_or_mesh)) {
+            fail(entity, "is a mesh, or lies in space");
+        }
+        ArcChain chain{.points = {}, .closed = has_flag(entity, 70, 1), .offset = entity.offset};
+        const double way = direction(entity);
+        while (index + 1 < block.entities.size() && block.entities[index + 1].type == "VERTEX") {
+            const DxfEntity& vertex = block.entities[++index];
+            if (!has_flag(vertex, 70, frame_of_spline)) {
+                const Vector2 at = point(vertex, 10);
+                chain.points.push_back({{way * at.x, at.y}, way * number(vertex, 42, 0.0)});
+            }
+        }
+        if (index + 1 < block.entities.size() && block.entities[index + 1].type == "SEQEND") {
+            ++index;
+        }
+        require_points(entity, chain);
+        return chain;
+    }
+
+    void require_points(const DxfEntity& entity, const ArcChain& chain) const {
+        if (chain.points.size() < 2) {
+            fail(entity, "has fewer than two vertices");
+        }
+    }
+
+    void add_arc(DxfBlock& block, const DxfEntity& entity, std::vector<ArcChain>& chains) const {
+        constexpr double degree = std::numbers::pi / 180.0;
+        const Vector2 centre = point(entity, 10);
+        const double first = std::fmod(number(entity, 50), 360.0);
+        double sweep = std::fmod(number(entity, 51) - first, 360.0);
+        sweep += sweep <= 0.0 ? 360.0 : 0.0;
+        if (sweep == 360.0) {
+            block.path.circle(placed(entity, centre), radius(entity));
+            ++block.segments;
+            return;
+        }
+        const double way = direction(entity);
+        const auto at = [&](double degrees) {
+            return Vector2{way * (centre.x + radius(entity) * std::cos(degree * degrees)),
+                           centre.y + radius(entity) * std::sin(degree * degrees)};
+        };
+        chains.push_back({.points = {{at(first), way * std::tan(0.25 * degree * sweep)},
+                                     {at(first + sweep), 0.0}},
+                          .offset = entity.offset});
+    }
+
+    void add_ellipse(DxfBlock& block, const DxfEntity& entity) const {
+        const Vector2 axis = point(entity, 11);
+        const double length = std::hypot(axis.x, axis.y);
+        const double ratio = number(entity, 40);
+        const double sweep = number(entity, 42, 2.0 * std::numbers::pi) - number(entity, 41, 0.0);
+        if (!(length > 0.0 && ratio > 0.0)) {
+            fail(entity, "its axes are not above 0");
+        }
+        if (std::abs(sweep - 2.0 * std::numbers::pi) > 1e-6) {
+            fail(entity, "is an arc, which is not read; convert it to a polyline");
+        }
+        static_cast<void>(direction(entity));  // its points are not seen from behind
+        block.path.ellipse(point(entity, 10), length, ratio * length, std::atan2(axis.y, axis.x));
+        ++block.segments;
+    }
+
+    void insert(DxfBlock& block, const DxfEntity& entity) {
+        const auto found = blocks_.find(std::string(entity.text(2)));
+        if (found == blocks_.end()) {
+            fail(entity, "there is no block \"" + std::string(entity.text(2).substr(0, 40)) + "\"");
+        }
+        if (number(entity, 70, 1.0) > 1.0 || number(entity, 71, 1.0) > 1.0) {
+            fail(entity, "places rows and columns, which are not read; take it apart");
+        }
+        const CurvePath& content = path_of(found->second, entity.offset);
+        block.segments += found->second.segments;
+        if (block.segments > most_segments) {
+            fail(entity,
+                 "the blocks place more than " + std::to_string(most_segments) + " segments");
+        }
+        const double angle = std::numbers::pi / 180.0 * number(entity, 50, 0.0);
+        const double x = number(entity, 41, 1.0);
+        const double y = number(entity, 42, 1.0);
+        const Vector2& base = found->second.base;
+        const Vector2 at = point(entity, 10);
+        const double way = direction(entity);
+        const double cosine = std::cos(angle);
+        const double sine = std::sin(angle);
+        AffineMap map{{way * x * cosine, x * sine}, {-way * y * sine, y * cosine}, {}};
+        map.origin = {way * at.x - base.x * map.x_axis.x - base.y * map.y_axis.x,
+                      at.y - base.x * map.x_axis.y - base.y * map.y_axis.y};
+        block.path.append(CurvePath(content).transform(map));
+    }
+
+    DxfGroups groups_;
+    SkippedParts& skipped_;
+    std::map<std::string, DxfBlock> blocks_;
+    DxfBlock model_;
+    double pixels_ = 0.0;  ///< in a unit of the file; 0 if it states none
+};
+
+}  // namespace
+
+CurvePath parse_dxf(const std::string& text, const std::string& file, SkippedParts& skipped,
+                    LengthUnit unit) {
+    return DxfReader(text, file, skipped).read(unit);
+}
+
+}  // namespace nearfield::tools
