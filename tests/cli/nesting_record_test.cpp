@@ -1,0 +1,102 @@
+#include "cli_test.hpp"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace nearfield::test {
+namespace {
+
+/// The record of a nesting tool (tests/data/layouts/sheet.svg): 15 parts of five kinds on a sheet,
+/// turned, mirrored, one within the hole of another one. Gusset 3 reaches 4 mm over the edge, and
+/// plate 2 reaches 2 mm into bracket 4.
+class NestingRecord : public CliTest {
+protected:
+    const std::string record_ = NEARFIELD_TEST_DATA "/layouts/sheet.svg";
+    const std::set<std::string> parts_{"bracket-1", "bracket-2", "bracket-3", "bracket-4",
+                                       "plate-1",   "plate-2",   "plate-3",   "gasket-1",
+                                       "gasket-2",  "washer-1",  "washer-2",  "washer-3",
+                                       "gusset-1",  "gusset-2",  "gusset-3"};
+
+    using Pair = std::pair<std::string, std::string>;
+};
+
+TEST_F(NestingRecord, OneCommandAnswersContainmentAndOverlapOfAllItems) {
+    const Outcome outcome = run_program({"scene", record_, "--units", "mm", "--json", "-"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("sheet.svg: skipped what has no outline: text (1)"),
+              std::string::npos)
+        << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    std::map<std::string, double> clearances;
+    std::set<std::string> tested;
+    std::set<Pair> overlaps;
+    for (const Json& result : json.at("results")) {
+        ASSERT_EQ(result.at("status"), "ok");
+        const Pair pair{result.at("a"), result.at("b")};
+        if (result.at("query") == "containment" && pair.second == "bin") {
+            tested.insert(pair.first);
+            if (result.at("inside") == true) {
+                clearances[pair.first] = result.at("clearance");
+            }
+        } else if (result.at("query") == "containment") {
+            // No part lies within another one: holes are no part of it.
+            EXPECT_EQ(result.at("inside"), false) << pair.first << " in " << pair.second;
+        } else if (result.at("intersects") == true && pair.first != "bin" && pair.second != "bin") {
+            overlaps.insert(pair);
+        }
+    }
+    EXPECT_EQ(tested, parts_);
+    EXPECT_EQ(overlaps, (std::set<Pair>{{"bracket-4", "plate-2"}}));
+    EXPECT_EQ(clearances.size(), 14U);
+    EXPECT_EQ(clearances.count("gusset-3"), 0U);
+    EXPECT_NEAR(clearances.at("bracket-1"), 5.0, 1e-9);
+    EXPECT_NEAR(clearances.at("gasket-1"), 10.0, 0.002);
+    EXPECT_NEAR(clearances.at("washer-3"), 10.0, 0.002);
+    EXPECT_NEAR(clearances.at("plate-3"), 100.0, 0.002);
+    EXPECT_NEAR(clearances.at("gusset-2"), 160.0, 1e-9);
+}
+
+TEST_F(NestingRecord, DistancesAndDepthsAreThoseOfTheSheet) {
+    const Json json = answer({"scene", record_, "--units", "mm", "--query", "separation", "--query",
+                              "separation-vector", "-d", "0.01"});
+    ASSERT_TRUE(json.is_object());
+    std::map<Pair, double> distances;
+    std::map<Pair, double> depths;
+    for (const Json& result : json.at("results")) {
+        const Pair pair{result.at("a"), result.at("b")};
+        if (result.at("query") == "separation") {
+            distances[pair] = result.at("distance");
+        } else if (result.at("intersects") == true) {
+            depths[pair] = result.at("length");
+        }
+    }
+    EXPECT_EQ(distances.size(), 16U * 15U / 2U);
+    // Interlocked, corner to corner; hypotenuse to hypotenuse; in the hole, off its centre and in
+    // it.
+    EXPECT_NEAR(distances.at({"bracket-1", "bracket-2"}), 5.0 * std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(distances.at({"gusset-1", "gusset-2"}), 14.0, 1e-9);
+    EXPECT_NEAR(distances.at({"gasket-1", "washer-1"}), 8.0, 0.002);
+    EXPECT_NEAR(distances.at({"gasket-2", "washer-2"}), 10.0, 0.002);
+    EXPECT_NEAR(depths.at({"bracket-4", "plate-2"}), 2.0, 0.011);
+}
+
+TEST_F(NestingRecord, SpacingIsCheckedByAnOffset) {
+    // By 2.5 mm all around, parts meet that are closer than 5 mm: only the two that overlap.
+    const auto overlaps = [&](const std::string& offset) {
+        std::size_t count = 0;
+        const Json json = answer({"scene", record_, "--units", "mm", "--query", "intersection-test",
+                                  "--hits-only", "--offset", offset});
+        for (const Json& result : json.at("results")) {
+            count += result.at("a") != "bin" && result.at("b") != "bin" ? 1U : 0U;
+        }
+        return count;
+    };
+    EXPECT_EQ(overlaps("2.49"), 1U);
+    EXPECT_GT(overlaps("4.1"), 2U);
+}
+
+}  // namespace
+}  // namespace nearfield::test
