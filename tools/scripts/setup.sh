@@ -17,6 +17,7 @@ viewer_packages=(libsdl2-dev libimgui-dev ffmpeg)
 test_packages=(
     "${viewer_packages[@]}"
     libgtest-dev libgeos-dev vulkan-validationlayers chromium-common clang clang-format clang-tidy
+    libfreetype-dev fonts-inter-variable fonts-ebgaramond
     doxygen dpkg-dev file gdb python3
 )
 # The libraries that the examples use, and an X server for all windows.
