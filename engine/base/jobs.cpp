@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/jobs.hpp>
 #include <engine/base/status_exception.hpp>
 
@@ -10,13 +11,15 @@ void Jobs::run_all(std::uint32_t jobs, const AnyWork& work) {
     struct Call {
         Jobs& all;
         const AnyWork& work;
-    } call{*this, work};
+        Interruption* interruption;
+    } call{*this, work, current_interruption};
     for (std::uint32_t i = 0; i < jobs; ++i) {
         outcomes_[i] = {};
     }
     const auto run_one = [](void* data, std::uint32_t job) {
         const Call& of = *static_cast<Call*>(data);
         Outcome& outcome = of.all.outcomes_[job];
+        const InterruptionScope scope(of.interruption);
         try {
             of.work.run(of.work.data, job);
         } catch (...) {

@@ -50,6 +50,10 @@ const char* to_string(StatusCode code) noexcept {
             return "unavailable";
         case StatusCode::invalid_shader:
             return "invalid_shader";
+        case StatusCode::cancelled:
+            return "cancelled";
+        case StatusCode::budget_exhausted:
+            return "budget_exhausted";
     }
     return "unknown";
 }

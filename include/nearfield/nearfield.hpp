@@ -9,6 +9,7 @@
 #include <nearfield/fill.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/jobs.hpp>
+#include <nearfield/limits.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/portable_math.hpp>
 #include <nearfield/query.hpp>

@@ -35,9 +35,11 @@ enum class StatusCode {
     unsupported_technique,  ///< the context does not have the technique that a query needs
     out_of_memory,          ///< host or device memory ran out
     device_lost,            ///< the device was lost; the context can only be destroyed
-    device_error,    ///< another Vulkan call failed; the message names the call and its result
-    unavailable,     ///< not in this build; the message says what provides it
-    invalid_shader,  ///< a shader does not compile; the reasons are the compiler's messages
+    device_error,      ///< another Vulkan call failed; the message names the call and its result
+    unavailable,       ///< not in this build; the message says what provides it
+    invalid_shader,    ///< a shader does not compile; the reasons are the compiler's messages
+    cancelled,         ///< the caller cancelled the call (Limits::cancel) before this was done
+    budget_exhausted,  ///< the time budget of the call (Limits::seconds) ended before
 };
 
 /// The name of a code as in the enumeration, e.g. "invalid_shape".
