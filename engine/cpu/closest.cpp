@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/closest.hpp>
 #include <engine/cpu/transformed_pair.hpp>
 #include <engine/records/nearest_feature.hpp>
@@ -23,7 +24,9 @@ double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
     const TransformedPolygon a(*query.a, query.pose_a);
     const TransformedPolygon b(*query.b, query.pose_b);
     double squared = infinity;
+    SparseCheckpoint<256> checkpoint;
     for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+        checkpoint.step();
         if ((words[i] & plan::point_resolved) != 0) {
             const std::uint32_t edge = words[i] & plan::point_edge_mask;
             const auto nearest =

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/common_point.hpp>
 #include <engine/geometry/segment.hpp>
 
@@ -15,6 +16,7 @@ std::optional<Vector> vertex_inside(const TransformedPolygon& inner,
                                     const TransformedPolygon& outer) {
     const geometry::Polygon& polygon = inner.polygon();
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        checkpoint();
         const Vector vertex = inner.vertex(polygon.ring_begin(ring));
         if (contains(outer, vertex)) {
             return vertex;

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/exact_field.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/tile_edges.hpp>
@@ -88,6 +89,7 @@ void ExactField::write_features(const DistanceFieldQuery& query, const Transform
                                 std::size_t border, DistanceFieldResult& result) const {
     const std::size_t stride = result.width + 2 * border;
     for (std::size_t row = 0; row < result.height; ++row) {
+        checkpoint();
         for (std::size_t column = 0; column < result.width; ++column) {
             records::write_feature(query, b, touching_at(result), row * result.width + column,
                                    words_[(row + border) * stride + column + border], result);
@@ -100,6 +102,7 @@ void ExactField::take_differences(const DistanceFieldQuery& query,
     const std::size_t stride = result.width + std::size_t{2};
     const auto scale = static_cast<float>(result.cell);
     for (std::size_t row = 0; row < result.height; ++row) {
+        checkpoint();
         for (std::size_t column = 0; column < result.width; ++column) {
             const float* const centre = &distances_[(row + 1) * stride + column + 1];
             const std::size_t cell = row * result.width + column;
@@ -129,6 +132,7 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
         return boundary_.contains(place) ? -distance : distance;
     };
     for (std::uint32_t i = 0; i < planned.field_point_count; ++i) {
+        checkpoint();
         const plan::PlannedFieldPoint& point = plan.field_points[planned.first_field_point + i];
         std::array<double, records::difference_cells.size()> distances{};
         const std::size_t count = planned.field.cells_per_point;

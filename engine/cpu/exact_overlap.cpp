@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/exact_overlap.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
@@ -40,6 +41,7 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
         samples_.clear();
         row_counts_.clear();
         for (const Tile& tile : band) {
+            checkpoint();
             find_common(planned, tile, with_runs, shapes);
             records::add_summary(tile, summarize(), result);
             if (query.records) {
@@ -97,7 +99,9 @@ void ExactOverlap::fill(const TileBoundary& boundary, const Tile& tile, double s
     crossing_.clear();
     plan::crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
     const geometry::FillMesh mesh(tile.width, tile.height, geometry::cpu_grid);
+    SparseCheckpoint<256> checkpoint;
     for (const plan::TileEdge& edge : crossing_) {
+        checkpoint.step();
         for (const auto& [x0, y0, x1, y1] : mesh.pieces(edge.a, edge.b)) {
             coverage.invert_left_of({x0, y0}, {x1, y1});
         }
@@ -110,7 +114,9 @@ void ExactOverlap::for_offset_polygons(const TileBoundary& boundary, const Tile&
                                        double offset, const grid::Coverage& coverage,
                                        const Use& use) {
     const std::size_t words_per_row = coverage.words_per_row();
+    SparseCheckpoint<64> checkpoint;
     boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
+        checkpoint.step();
         const std::optional<geometry::OffsetPolygon> polygon =
             geometry::offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
                                      tile.height, geometry::cpu_grid);

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/exact_points.hpp>
 #include <engine/narrowphase/brute_force.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -41,7 +42,9 @@ void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query
     const double margin = query.budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin;
     const double reach = reach_of(query);
     std::uint32_t edge = 0;
+    SparseCheckpoint<256> checkpoint;
     for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+        checkpoint.step();
         words[i] = 0;
         const geometry::Vector point = position(a, plan.points[i].point);
         if (!query.outside && !contains(b, point)) {

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/inside_samples.hpp>
 
 #include <algorithm>
@@ -31,7 +32,9 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
     plan::EdgeSampler sampler(polygon, spacing);
     std::uint32_t ring = 0;
     std::uint32_t after_last = 0;  // index of the last edge plus 1
+    SparseCheckpoint<64> checkpoint;
     for (const std::uint32_t edge : edges_near(a, b)) {
+        checkpoint.step();
         while (edge >= polygon.ring_end(ring)) {
             ++ring;
         }
@@ -107,7 +110,9 @@ void InsideSamples::add_interval(std::uint32_t edge, double parts, std::uint32_t
 void InsideSamples::add_one_by_one(std::uint32_t edge, double parts, std::uint32_t part,
                                    std::uint32_t end) {
     inside_->reserve(inside_->size() + (end - part));
+    SparseCheckpoint<64> checkpoint;
     for (; part < end; ++part) {
+        checkpoint.step();
         const Vector point = a_->at(edge, part / parts);
         if (side_of(point) == Side::inside) {
             inside_->push(point.x(), point.y());

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/near_samples.hpp>
 #include <engine/plan/edge_sampler.hpp>
 
@@ -56,7 +57,9 @@ void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedE
         tree_.emplace(b.tree());
     }
     plan::EdgeSampler sampler(a.placed.polygon(), spacing);
+    SparseCheckpoint<16> checkpoint;
     for (const std::uint32_t edge : find_edges()) {
+        checkpoint.step();
         const double parts = sampler.parts_of(edge);
         if (parts > 0.0) {
             add(edge, parts);

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/point_contacts.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/region.hpp>
@@ -99,7 +100,9 @@ void PointContacts::for_each_contact(const simd::TransformedEdges& a,
     nearest_.find(points, b, result.tolerance * plan::uniqueness_margin);
     const simd::NearestArrays& nearest = nearest_.arrays();
     SidesOfPoints sides(b, a.rounding + b.rounding);
+    SparseCheckpoint<64> checkpoint;
     for (std::size_t i = 0; i < points.count; ++i) {
+        checkpoint.step();
         if (nearest.distance[i] > contact_distance) {
             continue;
         }

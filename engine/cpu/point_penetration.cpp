@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/cpu/point_penetration.hpp>
 #include <engine/narrowphase/brute_force.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -100,7 +101,9 @@ void PointPenetration::write_records(double touching, const simd::TransformedEdg
     const simd::PointArrays points = inside_.arrays();
     const simd::NearestArrays& nearest = nearest_.arrays();
     std::size_t deepest = 0;
+    SparseCheckpoint<256> checkpoint;
     for (std::size_t i = 0; i < points.count; ++i) {
+        checkpoint.step();
         const double depth = nearest.distance[i];
         if (depth <= touching) {
             continue;

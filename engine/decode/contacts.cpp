@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/decode/contacts.hpp>
 #include <engine/localize/hierarchy.hpp>
 
@@ -13,7 +14,9 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
                    std::span<const std::uint32_t> words, double distance,
                    records::PointResolver& resolver, const Use& use) {
     resolver.begin(plan, query);
+    SparseCheckpoint<256> checkpoint;
     for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+        checkpoint.step();
         if ((words[i] & plan::point_resolved) != 0) {
             const records::ResolvedPoint resolved = resolver.resolve(plan.points[i], words[i]);
             if (resolved.distance <= distance) {

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/decode/field_results.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/records/field_features.hpp>
@@ -48,6 +49,7 @@ float FieldDecoder::in_world(std::uint32_t word, const Tile& tile) {
 void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& round,
                        std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
     for (const plan::TileDraw& draw : round.distance_draws) {
+        checkpoint();
         if (draw.field) {
             const Tile& tile = plan.tiles[round.tile_index[draw.tile]];
             add_tile(plan.queries[tile.query], tile, draw, words,
@@ -57,7 +59,9 @@ void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& round,
     for (const plan::FieldPointRun& run : round.field_point_runs) {
         const plan::PlannedQuery& planned = plan.queries[run.query];
         auto& result = std::get<DistanceFieldResult>(results[run.query]);
+        SparseCheckpoint<256> checkpoint;
         for (std::uint32_t i = 0; i < run.count; ++i) {
+            checkpoint.step();
             const std::uint32_t index = round.field_point_index[run.first + i];
             const plan::PlannedFieldPoint& point = plan.field_points[index];
             const std::uint32_t count = run.parts.words_per_point;

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/grid/coverage.hpp>
@@ -93,6 +94,7 @@ void FieldSolver::find_signs(const Polygon& shape) {
     words_per_row_ = (grid_.width + near_side - 1) / near_side;
     inside_.assign(words_per_row_ * grid_.height, 0);
     for_own_edges(shape, [this](std::uint32_t start, std::uint32_t end) {
+        checkpoint_.step();
         add_crossings(vertices_[start], vertices_[end]);
     });
     for (std::size_t row = 0; row < grid_.height; ++row) {
@@ -174,6 +176,7 @@ void for_quarters(const Square& square, const Use& use) {
 }  // namespace
 
 void FieldSolver::divide(const Square& square, std::size_t depth) {
+    checkpoint();
     const Disc cells = disc(square, far_origin_);
     const auto slack = static_cast<float>(output_.margin + 0.01 + 4.0 * far_slack_);
     const auto nearest = static_cast<double>(
@@ -229,6 +232,7 @@ double FieldSolver::distance_from(const Vector& point, const EdgeList& edges) co
 }
 
 void FieldSolver::divide_near(const Square& square, std::size_t depth) {
+    checkpoint_.step();
     const EdgeList& edges = levels_[depth];
     if (square.side == block_side) {
         solve_block_at(square, edges);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/simplify.hpp>
 #include <engine/geometry/transformed_polygon.hpp>
 #include <engine/grid/near_edges.hpp>
@@ -89,6 +90,7 @@ private:
     std::vector<EdgeList> levels_;                             // by depth of the quadtree
     std::vector<float> squared_;                               // scratch
     BlockScratch scratch_;
+    SparseCheckpoint<16> checkpoint_;
 };
 
 }  // namespace nearfield::grid

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/containment.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
@@ -47,6 +48,7 @@ public:
 
     /// True if edges of the two nodes intersect.
     [[nodiscard]] bool meet(const Node& a, const Node& b) {
+        checkpoint_.step();
         if (!volumes_meet(a, b, margin_, volume_)) {
             ++pairs_rejected_;
             return false;
@@ -89,6 +91,7 @@ private:
     double margin_;
     BoundingVolume volume_;
     std::uint64_t pairs_rejected_ = 0;
+    SparseCheckpoint<256> checkpoint_;
 };
 
 /// True if a ring of `inner` lies inside `outer`, decided by one vertex of each ring. Precondition:

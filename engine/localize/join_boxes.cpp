@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/localize/overlap.hpp>
 
 #include <cstddef>
@@ -21,13 +22,16 @@ void join_boxes(std::vector<Box>& boxes) {
     // absorbs those it joins with and, having grown, is compared with all others again. Every such
     // pass leaves one box fewer, so the whole is quadratic.
     std::size_t joined = 0;
+    SparseCheckpoint<16> checkpoint;
     for (std::size_t next = 0; next < boxes.size(); ++next) {
+        checkpoint.step();
         Box box = boxes[next];
         for (std::size_t i = 0; i < joined;) {
             if (worth_joining(box, boxes[i])) {
                 box.extend(boxes[i]);
                 boxes[i] = boxes[--joined];
                 i = 0;
+                checkpoint.step();
             } else {
                 ++i;
             }

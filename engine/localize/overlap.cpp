@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/containment.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/localize/overlap.hpp>
@@ -192,7 +193,9 @@ private:
     }
 
     void split_candidates() {
+        SparseCheckpoint<64> checkpoint;
         for (const Candidate& candidate : level_.candidates) {
+            checkpoint.step();
             if (candidate.settled()) {
                 next_.candidates.push_back({candidate.node, 0, 0});
             } else if (tree_a_.splits(candidate.node)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/localize/lazy_tree.hpp>
 
 #include <cstdint>
@@ -29,6 +30,7 @@ private:
     }
 
     void visit(std::uint32_t a, std::uint32_t b, double squared) {
+        checkpoint_.step();
         if (squared > leaves_.squared_bound()) {
             ++pairs_rejected_;
             return;
@@ -66,6 +68,7 @@ private:
     LazyTree& b_;
     Leaves& leaves_;
     std::uint64_t pairs_rejected_ = 0;
+    SparseCheckpoint<256> checkpoint_;
 };
 
 }  // namespace nearfield::localize

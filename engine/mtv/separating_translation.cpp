@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/mtv/separating_translation.hpp>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ const simd::TransformedEdges& SeparatingTranslationFinder::move_a(const Vector& 
 }
 
 bool SeparatingTranslationFinder::separates(const Vector& shift) {
+    checkpoint();
     work_.add(work_of_test * (a_->count + b_->count));
     return !overlap_test_.intersect(move_a(shift), *b_);
 }
@@ -231,18 +233,20 @@ double SeparatingTranslationFinder::nearest_open() {
     return open;
 }
 
-double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
+void SeparatingTranslationFinder::find_lower_bound(double tolerance) {
     if (work_.is_used_up()) {
-        return 0.0;
+        return;
     }
     cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, clearance_, work_);
     double open = length_;  // length of the shortest that may separate the shapes, so far
     bool has_looked_around = false;
     std::uint64_t used_for_tests = 0;
     while (!cover_.is_empty()) {
+        checkpoint();
         const TranslationCell square = cover_.take_nearest();
+        lower_bound_ = std::min({square.nearest, open, length_});
         if (square.nearest >= std::min(open, length_ - tolerance) || work_.is_used_up()) {
-            return std::min({square.nearest, open, length_});
+            return;
         }
         if (!has_looked_around && work_.used() > max_work_ / work_before_looking) {
             look_around();
@@ -266,7 +270,7 @@ double SeparatingTranslationFinder::find_lower_bound(double tolerance) {
         }
         cover_.cut(square);
     }
-    return std::min(open, length_);
+    lower_bound_ = std::min(open, length_);
 }
 
 SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedEdges& a,
@@ -278,6 +282,7 @@ SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedE
     pose_a_ = pose_a;
     clearance_ = 4.0 * (a.rounding + b.rounding);
     best_ = Vector::Zero();
+    lower_bound_ = 0.0;
     max_work_ = limits.max_work;
     used_for_directions_ = 0;
     work_ = WorkBudget(limits.max_work);
@@ -287,9 +292,15 @@ SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedE
         return way;
     }
     go_past_box();
-    descend(best_.normalized());
-    way.lower_bound = find_lower_bound(limits.tolerance);
+    try {
+        descend(best_.normalized());
+        find_lower_bound(limits.tolerance);
+    } catch (const Interrupted&) {
+        // The best translation separates the shapes, and the bound held when it was stated.
+        lower_bound_ = std::min(lower_bound_, length_);
+    }
     way.vector = best_;
+    way.lower_bound = lower_bound_;
     way.work = work_.used();
     return way;
 }

@@ -40,7 +40,8 @@ struct SeparatingTranslationLimits {
 class SeparatingTranslationFinder {
 public:
     /// `pose_a`: the pose of A. Stops once the length is within the tolerance of the bound, or once
-    /// the work budget is spent; the current step is then completed.
+    /// the work budget is spent; the current step is then completed. If the call is interrupted, it
+    /// returns the best translation and bound so far; before there is any, it throws Interrupted.
     [[nodiscard]] SeparatingTranslation find(const simd::TransformedEdges& a,
                                              const simd::TransformedEdges& b, const Pose& pose_a,
                                              const SeparatingTranslationLimits& limits);
@@ -75,7 +76,9 @@ private:
     /// Tests which of the pieces separate the shapes; returns the distance of the nearest, or the
     /// length.
     [[nodiscard]] double nearest_open();
-    [[nodiscard]] double find_lower_bound(double tolerance);
+    /// Raises the lower bound, until it is within the tolerance of the length or the work is used
+    /// up.
+    void find_lower_bound(double tolerance);
 
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
@@ -83,6 +86,7 @@ private:
     double clearance_ = 0.0;  // excess length beyond the point where the shapes touch
     geometry::Vector best_ = geometry::Vector::Zero();
     double length_ = 0.0;  // of the best
+    double lower_bound_ = 0.0;
     WorkBudget work_;
     std::uint64_t max_work_ = 0;
     std::uint64_t used_for_directions_ = 0;

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/mtv/translations.hpp>
 
 #include <algorithm>
@@ -53,11 +54,13 @@ bool TranslationFinder::add_intervals(double most, double rounding, WorkBudget& 
     };
     intervals_.clear();
     work.add(work_of_level * (of_a_.size() + of_b_.size()));
+    SparseCheckpoint<16> checkpoint;
     for (const Level& a : of_a_) {
         const double min_a = std::min(a.along_low, a.along_high);
         const double max_a = std::max(a.along_low, a.along_high);
         auto b = std::lower_bound(of_b_.begin(), of_b_.end(), a.low - highest - rounding,
                                   [](const Level& level, double low) { return level.low < low; });
+        checkpoint.step();
         if (work.is_used_up()) {
             return false;
         }

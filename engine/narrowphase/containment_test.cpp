@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/narrowphase/containment_test.hpp>
 
 #include <algorithm>
@@ -120,7 +121,9 @@ template <class Parts, class Use>
 bool for_each_free_stretch(std::uint32_t begin, std::uint32_t end, const Parts& touching,
                            const Use& use) {
     RingPlace at(begin, 0.0);
+    SparseCheckpoint<64> checkpoint;
     for (const auto& part : touching) {
+        checkpoint.step();
         const RingPlace from(part.edge, part.from);
         if (at < from && !use(at, from)) {
             return false;
@@ -138,7 +141,9 @@ bool for_each_ring(const TransformedEdges& edges, const std::vector<Part>& touch
                    const Use& use) {
     const Polygon& polygon = edges.placed.polygon();
     auto first = touching.begin();
+    SparseCheckpoint<64> checkpoint;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        checkpoint.step();
         const std::uint32_t end = polygon.ring_end(ring);
         const auto last = std::find_if(first, touching.end(),
                                        [end](const Part& part) { return part.edge >= end; });
@@ -203,6 +208,7 @@ void ContainmentTest::cut_where_edges_begin_and_end(std::uint32_t edge, double f
     Box box(start + from * (end - start));
     box.extend(start + to * (end - start));
     box = geometry::grown(box, 2.0 * width);
+    checkpoint();
     cuts_.assign({from, to});
     for (const TransformedEdges* const edges : {a_, b_}) {
         const std::uint32_t count = find_edges_in(*edges, box, near_.data());

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/narrowphase/brute_force.hpp>
 #include <engine/narrowphase/deepest_point.hpp>
 
@@ -72,6 +73,7 @@ void DeepestPointFinder::take(std::uint32_t point, double depth, std::uint32_t e
 }
 
 DeepestPointFinder::DepthProbe DeepestPointFinder::sound(std::uint32_t point) {
+    checkpoint_.step();
     const Vector at(points_.x[point], points_.y[point]);
     const NearestPoint near =
         is_small(*edges_) ? nearest(*edges_, at) : boundary_.nearest(at, guess_);

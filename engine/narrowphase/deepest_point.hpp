@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/nearest_points.hpp>
 #include <engine/simd/transformed_edges.hpp>
@@ -60,6 +61,7 @@ private:
     NearestPoints nearest_;    // to the points
     std::uint32_t guess_ = 0;  // an edge near the last point probed
     std::vector<DepthProbe> probes_;
+    SparseCheckpoint<64> checkpoint_;
 };
 
 }  // namespace nearfield::narrowphase

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
@@ -12,7 +13,9 @@ using geometry::Vector;
 /// the boundaries do not intersect.
 bool holds_a_ring(const simd::TransformedEdges& outer, const simd::TransformedEdges& inner) {
     const Polygon& polygon = inner.placed.polygon();
+    SparseCheckpoint<64> checkpoint;
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        checkpoint.step();
         const Vector vertex = inner.start(polygon.ring_begin(ring));
         if (outer.box.contains(vertex) && contains(outer, vertex)) {
             return true;

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/plan/block_edges.hpp>
 
@@ -97,6 +98,7 @@ void BlockEdges::visit(std::uint32_t column, std::uint32_t row, std::uint32_t co
     if (column >= along(width_) || row >= along(height_)) {
         return;
     }
+    checkpoint_.step();
     const std::size_t before = candidates_.size();
     if (end - first > few_edges) {
         push_near(candidates_, first, end, node(column, row, count), slack_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/base/interruption.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/edge_stack.hpp>
 #include <engine/plan/tile_edges.hpp>
@@ -51,6 +52,7 @@ private:
     EdgeStack candidates_;       // one list per level
     EdgeStack listed_;           // for all blocks
     std::vector<Range> blocks_;  // in listed_
+    SparseCheckpoint<16> checkpoint_;
 };
 
 }  // namespace nearfield::plan

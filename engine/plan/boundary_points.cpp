@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
 
@@ -38,8 +39,10 @@ void sample_chains(const TransformedPolygon& polygon, const std::vector<localize
                    double spacing, const geometry::Box& within,
                    std::vector<BoundaryPoint>& points) {
     EdgeSampler sampler(polygon.polygon(), spacing);
+    SparseCheckpoint<256> checkpoint;
     for (const localize::Chain& chain : chains) {
         for_each_edge(polygon, chain, [&](std::uint32_t edge, double) {
+            checkpoint.step();
             const double parts = sampler.parts_of(edge);
             const PartRange range = parts_within(polygon, edge, parts, within);
             // An edge may have more parts than 32 bits can count, but few of them lie in the box.

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
@@ -98,7 +99,9 @@ void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
 
 void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const {
     const geometry::FillMesh fill(tile.width, tile.height, grid_);
+    SparseCheckpoint<256> checkpoint;
     for (const TileEdge& edge : crossing_) {
+        checkpoint.step();
         for (const auto& [x0, y0, x1, y1] : fill.pieces(edge.a, edge.b)) {
             work.edges.push_back(
                 {steps(x0, grid_), steps(y0, grid_), steps(x1, grid_), steps(y1, grid_), mask});
@@ -199,7 +202,9 @@ void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile
     ComputeWork& work = round.compute;
     // Offset polygons reach a little farther than the offset.
     const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
+    SparseCheckpoint<64> checkpoint;
     boundary.for_edges_near(tile.centre(), reach, [&](std::uint32_t i) {
+        checkpoint.step();
         const auto polygon = geometry::offset_polygon(boundary.start(i), boundary.end(i), offset,
                                                       tile.width, tile.height, grid_);
         if (!polygon) {

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/plan/edge_lists.hpp>
 
 #include <algorithm>
@@ -97,7 +98,9 @@ void EdgeListWriter::push(const EdgeData& edge) {
 
 EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double extent) {
     list_.clear();
+    SparseCheckpoint<256> checkpoint;
     for (const TileEdge& edge : edges) {
+        checkpoint.step();
         const bool exact =
             edge.simplified == no_simplified || boundary_->edge(edge.simplified).count == 1;
         if (!exact) {

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/nearest_edges.hpp>
@@ -66,6 +67,7 @@ void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double sla
 
 void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint32_t count,
                               std::size_t first, std::size_t end) {
+    checkpoint();
     if (!needed_->any(column, row, count)) {
         return;
     }

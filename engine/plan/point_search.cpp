@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
@@ -115,6 +116,7 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
     drop_unused();
     units_in_use_ = 0;
     for (const SearchedQuery& searched : plan.searched) {
+        checkpoint();
         const PlannedQuery& planned = plan.queries[searched.query];
         const double points = asks_for_vertices(planned)
                                   ? static_cast<double>(planned.a->size())

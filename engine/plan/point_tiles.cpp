@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/plan/point_tiles.hpp>
 
 #include <algorithm>
@@ -67,7 +68,9 @@ void PointTiles::find_cells(const geometry::TransformedPolygon& a,
     kept_.clear();
     cells_.clear();
     std::uint32_t grid = 0;
+    SparseCheckpoint<64> checkpoint;
     for (const BoundaryPoint& sample : samples) {
+        checkpoint.step();
         const Vector p = position(a, sample);
         if (!within.contains(p)) {
             continue;

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
@@ -105,6 +106,7 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     tile_of_plan_.resize(plan.tiles.size());
     first_block_.resize(plan.tiles.size());
     for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
+        checkpoint();
         const Tile& tile = plan.tiles[i];
         TileDraw draw;
         draw.tile = static_cast<std::uint32_t>(round.tiles.size());
@@ -165,7 +167,9 @@ DrawRange TileBatchBuilder::add_fill(const std::vector<TileEdge>& edges, const T
                                      Mesh& mesh) const {
     const std::size_t first = mesh.size();
     const geometry::FillMesh fill(tile.width, tile.height, grid_);
+    SparseCheckpoint<256> checkpoint;
     for (const TileEdge& edge : edges) {
+        checkpoint.step();
         fill.append(edge.a, edge.b, mesh);
     }
     return since(first, mesh);
@@ -186,7 +190,9 @@ DrawRange TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, cons
                                               const geometry::DistanceMeshOptions& options,
                                               Mesh& mesh) {
     const std::size_t first = mesh.size();
+    SparseCheckpoint<64> checkpoint;
     for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
+        checkpoint.step();
         const NearestEdge& nearest = nearest_[i];
         const TileEdge& edge = nearest.edge;
         const TileEdge part = part_near(edge, tile, nearest.reach() + 1.0);
@@ -300,7 +306,9 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
 DrawRange TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile,
                                          double offset, bool with_runs, TileBatch& round) const {
     const std::size_t first = round.mesh.size();
+    SparseCheckpoint<64> checkpoint;
     boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
+        checkpoint.step();
         const std::size_t before = round.mesh.size();
         const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
         if (run == max_runs) {

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/records/found_contacts.hpp>
 
@@ -45,8 +46,10 @@ void FoundContacts::write(const geometry::Polygon& a, const geometry::Polygon& b
     result.count = static_cast<std::uint32_t>(of_a_.size() + of_b_.size());
     manifold_.build(a, b, of_a_, of_b_, result.cell, result.manifold);
     if (query.records) {
+        SparseCheckpoint<1024> checkpoint;
         for (const auto* contacts : {&of_a_, &of_b_}) {
             for (const TransformedContact& contact : *contacts) {
+                checkpoint.step();
                 result.records.push_back(contact.record);
             }
         }

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/records/manifold.hpp>
 
 #include <algorithm>
@@ -86,7 +87,9 @@ void ManifoldBuilder::find_intervals(const Polygon& polygon,
     intervals_.clear();
     std::size_t ring_start = 0;  // the first interval of the current ring
     std::uint32_t ring = 0;
+    SparseCheckpoint<1024> checkpoint;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
+        checkpoint.step();
         const std::uint32_t ring_of_contact = polygon.ring_of(contacts[i].place.edge);
         if (ring_of_contact != ring) {
             close_ring(contacts, ring_start);
@@ -190,7 +193,9 @@ void ManifoldBuilder::join_contacts_of_b(const Polygon& a, std::span<const Trans
                (nearest - to_vector(first.record.point)).norm() <= spacing_ ||
                (nearest - to_vector(last.record.point)).norm() <= spacing_;
     };
+    SparseCheckpoint<256> checkpoint;
     for (const TransformedContact& contact : of_b) {
+        checkpoint.step();
         bool found = false;
         for (const std::size_t i : candidates(a, of_a, contact.on_a)) {
             found = lies_on(contact, intervals_[i]);
@@ -215,13 +220,16 @@ void ManifoldBuilder::build(const Polygon& a, const Polygon& b,
     spacing_ = spacing * (1.0 + 1e-6);
     const std::size_t first = manifold.size();
     find_intervals(a, of_a);
+    SparseCheckpoint<256> checkpoint;
     for (const Interval& interval : intervals_) {
+        checkpoint.step();
         add_cluster(of_a, interval, manifold);
     }
     join_contacts_of_b(a, of_a, of_b, std::span(manifold).subspan(first));
     // A sharp feature of B close to A between two samples of A appears only among B's contacts.
     find_intervals(b, left_over_);
     for (const Interval& interval : intervals_) {
+        checkpoint.step();
         add_cluster(left_over_, interval, manifold);
     }
 }

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/select/technique_selector.hpp>
 #include <engine/select/work.hpp>
 
@@ -29,7 +30,9 @@ TechniqueSelector::Set TechniqueSelector::add_candidates(
     std::span<AnyQuery> queries, std::span<const plan::QueryShapes> shapes) {
     candidates_.clear();
     Set others = 0;
+    SparseCheckpoint<256> checkpoint;
     for (std::size_t index = 0; index < queries.size(); ++index) {
+        checkpoint.step();
         const Technique asked =
             std::visit([](const auto& query) { return query.technique; }, queries[index]);
         if (asked == Technique::automatic && is_answered_by_any(queries[index])) {

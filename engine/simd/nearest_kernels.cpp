@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/simd/nearest_kernels.hpp>
 
 #include <algorithm>
@@ -158,7 +159,9 @@ HWY_INLINE void solve(const PointArrays& points, std::uint32_t first, std::uint3
 
 void FindNearestOf(const PointArrays& points, const EdgeArrays& edges, double margin,
                    std::uint32_t* near, const NearestArrays& nearest) {
+    SparseCheckpoint<64> checkpoint;
     for (std::uint32_t i = 0; i < points.count; i += max_together) {
+        checkpoint.step();
         const std::uint32_t together = std::min(points.count - i, max_together);
         const DiscOfPoints disc = disc_around(points, i, together);
         const double least = LeastSquared(edges, disc.x, disc.y);
@@ -211,7 +214,9 @@ private:
 void FindNearestOfByTree(const PointArrays& points, const AabbTree& tree, double margin,
                          std::uint32_t* near, const NearestArrays& nearest) {
     NearestByTree search(points, tree, margin, near, nearest);
+    SparseCheckpoint<16> checkpoint;
     for (std::uint32_t i = 0; i < points.count; i += max_together) {
+        checkpoint.step();
         search.Solve(i, std::min(points.count - i, max_together));
     }
 }

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/simd/aabb_tree.hpp>
 
 #include <algorithm>
@@ -172,9 +173,11 @@ std::uint32_t FindEdgesNear(const AabbTree& tree, const Extent& box, const AabbT
                             double reach, std::uint32_t* found) {
     const LanesOfExtent bounds = lanes_of(box);
     std::uint32_t count = 0;
+    SparseCheckpoint<256> checkpoint;
     for_leaves(
         tree, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, bounds); },
         [&](std::uint32_t of_edges) HWY_ATTR {
+            checkpoint.step();
             if (Meets(others, grown(box_at(tree.level(0), of_edges), reach))) {
                 count = append_edges_in(tree, of_edges, bounds, found, count);
             }

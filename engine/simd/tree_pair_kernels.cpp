@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/simd/aabb_tree.hpp>
 
 #include <bit>
@@ -73,6 +74,7 @@ private:
 
     bool Visit(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
                std::uint32_t box_b) {
+        checkpoint_.step();
         if (level_a == 0 && level_b == 0) {
             return leaves_.Use(box_a, box_b);
         }
@@ -83,6 +85,7 @@ private:
     const AabbTree& a_;
     const AabbTree& b_;
     Leaves& leaves_;
+    SparseCheckpoint<1024> checkpoint_;
 };
 
 class IntersectingLeaves {

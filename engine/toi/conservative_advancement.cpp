@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/toi/conservative_advancement.hpp>
 
@@ -202,6 +203,7 @@ void ConservativeAdvancement::advance(const ContactAim& aim, Impact& contact) {
     double path = no_end;       // upper bound on the length of its path
     double looked_until = 0.0;  // touch_soon() has searched up to this time
     for (;;) {
+        checkpoint();
         const double before = std::sqrt(contact.closest.squared_distance);
         const narrowphase::ClosestPair closest = find_closest(before + moved + rounding_);
         const double distance = std::sqrt(closest.squared_distance);
@@ -235,14 +237,19 @@ void ConservativeAdvancement::advance(const ContactAim& aim, Impact& contact) {
             }
         }
         if (contact.steps >= aim.max_steps) {
-            contact.kind = Impact::Kind::unknown;
-            contact.latest = 1.0;
-            contact.touch_at_latest = touch_at(1.0, aim.distance, no_end, contact);
+            give_up(aim, contact);
             return;
         }
         time = next;
         place(time, contact);
     }
+}
+
+void ConservativeAdvancement::give_up(const ContactAim& aim, Impact& contact) {
+    const InterruptionScope without_limits(nullptr);
+    contact.kind = Impact::Kind::unknown;
+    contact.latest = 1.0;
+    contact.touch_at_latest = touch_at(1.0, aim.distance, no_end, contact);
 }
 
 Impact ConservativeAdvancement::find(const Motion& a, const Motion& b, const ContactAim& aim) {
@@ -259,7 +266,14 @@ Impact ConservativeAdvancement::find(const Motion& a, const Motion& b, const Con
         contact.share_a_point_at_start = true;
         contact.min_distance = 0.0;
     } else {
-        advance(aim, contact);
+        try {
+            advance(aim, contact);
+        } catch (const Interrupted&) {
+            if (contact.closest.squared_distance == no_end) {
+                throw;  // nothing is known yet
+            }
+            give_up(aim, contact);
+        }
     }
     return contact;
 }

@@ -51,6 +51,8 @@ struct Impact {
 /// positive distance, the given length is larger than that distance.
 class ConservativeAdvancement {
 public:
+    /// If the call is interrupted, ends as with a limit of steps reached; before the first distance
+    /// is known, it throws Interrupted.
     [[nodiscard]] Impact find(const Motion& a, const Motion& b, const ContactAim& aim);
 
     /// The shapes at the start. Precondition: find() returned share_a_point_at_start.
@@ -81,6 +83,8 @@ private:
         const narrowphase::ClosestPair& closest;
     };
     void advance(const ContactAim& aim, Impact& contact);
+    /// Ends the search with the time interval open; takes one more step.
+    void give_up(const ContactAim& aim, Impact& contact);
     /// Records a distance query in `contact`; returns whether the search is done.
     [[nodiscard]] bool settle(const ContactAim& aim, const Look& look, Impact& contact);
     /// How long no vertex and edge come as close as `keep`; at most `left`. `distance`: now.
