@@ -1,4 +1,5 @@
 #include <engine/base/catch_to_status.hpp>
+#include <engine/base/interruption.hpp>
 #include <engine/batch/batch_runner.hpp>
 #include <engine/plan/technique.hpp>
 
@@ -67,6 +68,7 @@ void BatchRunner::make_tile_batches() {
     builder.begin_batch();
     tile_batches_.resize(std::max<std::size_t>(tile_batches_.size(), plan_.tile_batches));
     for (std::uint32_t number = 0; number < plan_.tile_batches; ++number) {
+        checkpoint();
         builder.build(plan_, number, tile_batches_[number]);
     }
     search_count_ = planning_->searches.build(plan_, searches_);
@@ -87,6 +89,25 @@ void BatchRunner::keep_off_the_device() {
     }
 }
 
+/// Plans the batch and makes what the device needs. If the call ends before, nothing is left to do.
+void BatchRunner::plan_batch(plan::Submissions submissions) {
+    plan::Planner& planner = planning_->planner;
+    std::vector<AnyResult>& results = results_.results;
+    expect_answers(queries_.size());
+    try {
+        planning_->selector.choose(queries_, shapes_);
+        planner.plan(queries_, shapes_, plan_, results, submissions);
+        decoder_.begin_batch(plan_);
+        make_tile_batches();
+    } catch (const Interrupted& interrupted) {
+        plan::Planner::plan_nothing(queries_, interrupted.status(), plan_, results);
+        decoder_.begin_batch(plan_);
+        search_count_ = 0;
+        resident_.clear();
+    }
+    results_.timings.localize += planner.localize_milliseconds();
+}
+
 /// Everything up to the recording of tile batches.
 void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
                         plan::Submissions submissions) {
@@ -102,13 +123,8 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
         keep_off_the_device();
     }
     plan::find_shapes(queries_, find_shape, shapes_);
-    planning_->selector.choose(queries_, shapes_);
-    plan::Planner& planner = planning_->planner;
-    planner.plan(queries_, shapes_, plan_, results_.results, submissions);
-    timings.localize += planner.localize_milliseconds();
-    decoder_.begin_batch(plan_);
-    make_tile_batches();
-    timings.plan += start.milliseconds() - planner.localize_milliseconds();
+    plan_batch(submissions);
+    timings.plan += start.milliseconds() - timings.localize;
     if (has_device_work()) {
         const render::SampleRoom room = submissions == plan::Submissions::one
                                             ? render::SampleRoom::all
@@ -233,18 +249,21 @@ void BatchRunner::wait() {
     timings.device += device_milliseconds_.value_or(submitted_.milliseconds());
 }
 
-void BatchRunner::collect() {
+/// Waits for the device and reads what it wrote, as often as it has to be submitted.
+void BatchRunner::read_back() {
     Timings& timings = results_.timings;
     while (submission_state() != render::SubmissionState::none) {
         wait();
         const Stopwatch start;
         for (const std::uint32_t number : slot_->running()) {
             if (slot_->round(number).had_room()) {
+                checkpoint();
                 decode(number);
             }
         }
         for (const std::uint32_t number : slot_->running_searches()) {
             if (slot_->search(number).had_room()) {
+                checkpoint();
                 decoder_.add_found(searches_[number], slot_->search(number).found(), plan_);
             }
         }
@@ -253,6 +272,15 @@ void BatchRunner::collect() {
             submitted_ = {};
             device_milliseconds_.reset();
         }
+    }
+}
+
+void BatchRunner::collect() {
+    Timings& timings = results_.timings;
+    try {
+        read_back();
+    } catch (const Interrupted&) {
+        // Below, the queries whose results were not all read say so.
     }
     if (slot_ != nullptr) {
         slot_->release();

@@ -72,7 +72,8 @@ public:
     /// Returns whether collect() would return without waiting for a submission.
     [[nodiscard]] bool is_done();
     /// Waits for the device and writes the results; recorded commands have to be done. Gradient
-    /// normals of contacts are left to GradientNormals.
+    /// normals of contacts are left to GradientNormals. If the call ends before, the results that
+    /// are not done say so.
     void collect();
 
     /// The resident outputs of a query, after submit(). Throws a StatusException that names the
@@ -102,7 +103,9 @@ private:
     void copy(std::span<const AnyQuery> queries);
     void begin_timings();
     void make_tile_batches();
+    void plan_batch(plan::Submissions submissions);
     void wait();
+    void read_back();
     void decode(std::uint32_t number);
     template <class Query>
     void require_resident(QueryHandle<Query> handle) const;

@@ -1,4 +1,6 @@
+#include <engine/base/interruption.hpp>
 #include <engine/batch/gradient_normals.hpp>
+#include <engine/plan/empty_result.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +36,15 @@ void GradientNormals::apply(BatchRunner& main) {
         if (!result.status.ok()) {
             continue;
         }
-        decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
-        set_normals(planned, result, results.timings);
-        if (result.status.ok()) {
-            contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(*planned.query), result);
+        try {
+            decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
+            set_normals(planned, result, results.timings);
+            if (result.status.ok()) {
+                contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(*planned.query),
+                                result);
+            }
+        } catch (const Interrupted& interrupted) {
+            plan::cut_short(interrupted.status(), results.results[index]);
         }
     }
 }

@@ -1,3 +1,4 @@
+#include <engine/context/call_within.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/read_structures.hpp>
 
@@ -122,17 +123,21 @@ Expected<std::span<const InstancePair>> Context::find_pairs(std::span<const Inst
     return status.ok() ? pairs : Expected<std::span<const InstancePair>>(status);
 }
 
-Status Context::run(const Batch& batch, Results& results) {
-    const Expected<Ticket> ticket = implementation_->submit(batch, {}, &results);
-    return ticket.has_value() ? implementation_->collect(*ticket, results) : ticket.error();
+Status Context::run(const Batch& batch, Results& results, const Limits& limits) {
+    return call_within(limits, [&] {
+        const Expected<Ticket> ticket = implementation_->submit(batch, {}, &results);
+        return ticket.has_value() ? implementation_->collect(*ticket, results) : ticket.error();
+    });
 }
 
-Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission) {
-    return implementation_->submit(batch, submission, nullptr);
+Expected<Ticket> Context::submit(const Batch& batch, const Submission& submission,
+                                 const Limits& limits) {
+    return call_within(limits, [&] { return implementation_->submit(batch, submission, nullptr); });
 }
 
-Expected<Ticket> Context::record(const Batch& batch, const Recording& recording) {
-    return implementation_->record(batch, recording);
+Expected<Ticket> Context::record(const Batch& batch, const Recording& recording,
+                                 const Limits& limits) {
+    return call_within(limits, [&] { return implementation_->record(batch, recording); });
 }
 
 void Context::frame_completed(std::uint64_t frame) noexcept {
@@ -143,8 +148,8 @@ bool Context::is_ready(Ticket ticket) {
     return implementation_->is_ready(ticket);
 }
 
-Status Context::collect(Ticket ticket, Results& results) {
-    return implementation_->collect(ticket, results);
+Status Context::collect(Ticket ticket, Results& results, const Limits& limits) {
+    return call_within(limits, [&] { return implementation_->collect(ticket, results); });
 }
 
 Expected<ResidentField> Context::resident(Ticket ticket, QueryHandle<DistanceFieldQuery> query) {

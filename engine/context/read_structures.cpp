@@ -84,6 +84,12 @@ Recording read_versioned(const Recording& given) {
                           {offsetof(Recording, commands), offsetof(Recording, frame)});
 }
 
+Limits read_versioned(const Limits& given) {
+    return read_versioned(given, "Limits",
+                          {offsetof(Limits, cancel), offsetof(Limits, seconds),
+                           offsetof(Limits, user), offsetof(Limits, progress)});
+}
+
 Settings read_versioned(const Settings& given) {
     const Settings settings =
         read_versioned(given, "Settings",

@@ -10,6 +10,7 @@ namespace nearfield {
 [[nodiscard]] HeadlessOptions read_versioned(const HeadlessOptions& given);
 [[nodiscard]] Submission read_versioned(const Submission& given);
 [[nodiscard]] Recording read_versioned(const Recording& given);
+[[nodiscard]] Limits read_versioned(const Limits& given);
 /// Checks the members, too.
 [[nodiscard]] Settings read_versioned(const Settings& given);
 

@@ -1,3 +1,4 @@
+#include <engine/context/call_within.hpp>
 #include <engine/context/implementation.hpp>
 #include <engine/context/world_implementation.hpp>
 
@@ -54,48 +55,49 @@ std::uint32_t World::size() const noexcept {
 }
 
 Status World::test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
-                         std::span<std::uint8_t> intersects) {
-    return catch_to_status([&] { implementation_->test_poses(query, poses, intersects); });
+                         std::span<std::uint8_t> intersects, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->test_poses(query, poses, intersects); });
 }
 
 Status World::find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
-                              std::span<Clearance> clearances) {
-    return catch_to_status([&] { implementation_->find_clearances(query, poses, clearances); });
+                              std::span<Clearance> clearances, const Limits& limits) {
+    return catch_within(limits,
+                        [&] { implementation_->find_clearances(query, poses, clearances); });
 }
 
 Status World::find_nearest(const NearestQuery& query, std::span<const Vector2> points,
-                           std::span<NearestHit> hits) {
-    return catch_to_status([&] { implementation_->find_nearest(query, points, hits); });
+                           std::span<NearestHit> hits, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_nearest(query, points, hits); });
 }
 
 Status World::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
-                        const WorldFilter& filter) {
-    return catch_to_status([&] { implementation_->cast_rays(segments, hits, filter); });
+                        const WorldFilter& filter, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->cast_rays(segments, hits, filter); });
 }
 
-Status World::cast_rays(std::span<const Segment> segments, RayHits& hits,
-                        const WorldFilter& filter) {
-    return catch_to_status([&] { implementation_->cast_rays(segments, hits, filter); });
+Status World::cast_rays(std::span<const Segment> segments, RayHits& hits, const WorldFilter& filter,
+                        const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->cast_rays(segments, hits, filter); });
 }
 
 Status World::cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
-                         std::span<ShapeCastHit> hits) {
-    return catch_to_status([&] { implementation_->cast_shape(query, sweeps, hits); });
+                         std::span<ShapeCastHit> hits, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->cast_shape(query, sweeps, hits); });
 }
 
 Status World::find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
-                            const WorldFilter& filter) {
-    return catch_to_status([&] { implementation_->find_overlaps(rectangles, lists, filter); });
+                            const WorldFilter& filter, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_overlaps(rectangles, lists, filter); });
 }
 
 Status World::find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
-                            const WorldFilter& filter) {
-    return catch_to_status([&] { implementation_->find_overlaps(points, lists, filter); });
+                            const WorldFilter& filter, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_overlaps(points, lists, filter); });
 }
 
 Status World::find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
-                            InstanceLists& lists) {
-    return catch_to_status([&] { implementation_->find_overlaps(query, poses, lists); });
+                            InstanceLists& lists, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_overlaps(query, poses, lists); });
 }
 
 std::uint64_t World::memory_use() const noexcept {

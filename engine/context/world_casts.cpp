@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
 #include <engine/toi/motion.hpp>
@@ -65,6 +66,7 @@ void World::Implementation::run_batch() {
     if (!status.ok()) {
         throw StatusException(status);
     }
+    checkpoint();  // what was cut must not look whole
 }
 
 void World::Implementation::answer_candidates(std::span<ShapeCastHit> hits) {
@@ -118,6 +120,7 @@ void World::Implementation::cast_shape(const ShapeCastQuery& query, std::span<co
     candidates_.clear();
     std::fill(hits.begin(), hits.end(), ShapeCastHit{});
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        checkpoint();
         find_candidates(query, polygon, sweeps[i], i);
         if (candidates_.size() >= queries_at_a_time || i + 1 == sweeps.size()) {
             answer_candidates(hits);

@@ -1,3 +1,4 @@
+#include <engine/base/interruption.hpp>
 #include <engine/base/unknown_shape.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
@@ -84,12 +85,15 @@ void World::Implementation::test_poses(const PoseTestQuery& query, std::span<con
     const geometry::Polygon& polygon = shape(query.shape, "test_poses");
     require_poses("test_poses", poses);
     prepare(query.filter, "test_poses");
+    expect_answers(poses.size());
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
         queries.begin(instances_, polygon, query.filter);
         for (std::size_t i = first; i < end; ++i) {
+            checkpoint();
             intersects[i] = queries.intersects(poses[i]) ? 1 : 0;
         }
+        finish_answers(end - first);
     });
 }
 
@@ -105,12 +109,15 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
     }
     require_poses("find_clearances", poses);
     prepare(query.filter, "find_clearances");
+    expect_answers(poses.size());
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
         queries.begin(instances_, polygon, query.filter);
         for (std::size_t i = first; i < end; ++i) {
+            checkpoint();
             clearances[i] = queries.clearance(poses[i], query);
         }
+        finish_answers(end - first);
     });
 }
 
@@ -131,6 +138,7 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
     }
     require_points("find_nearest", points);
     prepare(query.filter, "find_nearest");
+    expect_answers(points.size());
     for (std::size_t block = 0; block < points.size(); block += sorted_at_a_time) {
         const auto some = points.subspan(block, std::min(sorted_at_a_time, points.size() - block));
         const auto order = hilbert_order_.sort(some);
@@ -138,9 +146,11 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
             world::NearestQueries& queries = scratch_[job].nearest;
             queries.begin(instances_, query);
             for (std::size_t i = first; i < end; ++i) {
+                checkpoint();
                 const std::size_t point = order[i].second;
                 queries.find(some[point], hits.subspan((block + point) * query.count, query.count));
             }
+            finish_answers(end - first);
         };
         jobs_.divide(some.size(), part, answer);
     }
@@ -151,12 +161,15 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
     require_lengths("cast_rays", "segments", segments.size(), hits.size());
     require_segments("cast_rays", segments);
     prepare(filter, "cast_rays");
+    expect_answers(segments.size());
     jobs_.divide(segments.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::RayQueries& queries = scratch_[job].rays;
         queries.begin(instances_, filter);
         for (std::size_t i = first; i < end; ++i) {
+            checkpoint();
             hits[i] = queries.first(segments[i]);
         }
+        finish_answers(end - first);
     });
 }
 
@@ -168,9 +181,12 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, RayHits
     hits.hits.clear();
     world::RayQueries& queries = scratch_.front().rays;
     queries.begin(instances_, filter);
+    expect_answers(segments.size());
     for (const Segment& segment : segments) {
+        checkpoint();
         queries.find_all(segment, hits.hits);
         hits.offsets.push_back(static_cast<std::uint32_t>(hits.hits.size()));
+        finish_answers(1);
     }
 }
 
@@ -179,7 +195,9 @@ void World::Implementation::write_lists(std::size_t count, InstanceLists& lists,
     lists.offsets.assign(1, 0);
     lists.instances.clear();
     std::vector<std::uint32_t>& found = scratch_.front().found;
+    expect_answers(count);
     for (std::size_t i = 0; i < count; ++i) {
+        checkpoint();
         found.clear();
         find(i, found);
         std::sort(found.begin(), found.end(), [this](std::uint32_t a, std::uint32_t b) {
@@ -189,6 +207,7 @@ void World::Implementation::write_lists(std::size_t count, InstanceLists& lists,
             lists.instances.push_back(instances_.handle(index));
         }
         lists.offsets.push_back(static_cast<std::uint32_t>(lists.instances.size()));
+        finish_answers(1);
     }
 }
 

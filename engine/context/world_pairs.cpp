@@ -1,3 +1,4 @@
+#include <engine/context/call_within.hpp>
 #include <engine/context/pair_table_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
@@ -222,32 +223,32 @@ void World::Implementation::update(PairTable<Query>& table) {
     }
 }
 
-Status World::update(PairTable<PenetrationQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<PenetrationQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<ContactQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<ContactQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<IntersectionQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<IntersectionQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<ClosestPointQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<ClosestPointQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<SeparationQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<SeparationQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<IntersectionTestQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<IntersectionTestQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
-Status World::update(PairTable<SeparationVectorQuery>& table) {
-    return catch_to_status([&] { implementation_->update(table); });
+Status World::update(PairTable<SeparationVectorQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
 }
 
 }  // namespace nearfield

@@ -1,8 +1,9 @@
-#include <engine/base/status_exception.hpp>
+#include <engine/base/interruption.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/base/unknown_shape.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/compute_work.hpp>
+#include <engine/plan/empty_result.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
 #include <engine/plan/region.hpp>
@@ -25,51 +26,6 @@ constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0
 // Memory per sample while all samples of a boundary are kept at once and none is planned: its
 // position, the nearest feature, the potential contact.
 constexpr double bytes_of_kept_sample = 256.0;
-
-/// Returns an empty result of the right kind that keeps the memory of the last one.
-template <class Result>
-Result& reuse(AnyResult& any) {
-    if (!std::holds_alternative<Result>(any)) {
-        any.emplace<Result>();
-    }
-    auto& result = std::get<Result>(any);
-    if (!result.status.ok()) {
-        result.status = {};
-    }
-    result.error_bound = 0.0;
-    result.intersects = false;
-    result.regions.clear();
-    result.localization = {};
-    if constexpr (std::is_same_v<Result, PenetrationResult>) {
-        result.count = 0;
-        result.deepest = {};
-        result.records.clear();
-    } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
-        result.count = 0;
-        result.area = 0.0;
-        result.box = {};
-        result.samples.clear();
-    } else if constexpr (std::is_same_v<Result, DistanceFieldResult>) {
-        result.origin = {};
-        result.width = result.height = 0;
-        result.values.clear();
-        result.features.clear();
-        result.gradients.clear();
-        result.unique.clear();
-        result.points.clear();
-        result.gradient_error_bound = 0.0;
-        result.gradient_format = "";
-    } else if constexpr (std::is_same_v<Result, ContactResult>) {
-        result.count = 0;
-        result.manifold.clear();
-        result.records.clear();
-    } else {
-        std::vector<Region> regions = std::move(result.regions);
-        result = {};
-        result.regions = std::move(regions);
-    }
-    return result;
-}
 
 }  // namespace
 
@@ -102,6 +58,21 @@ void Planner::plan(std::span<const AnyQuery> queries, std::span<const QueryShape
     plan.max_jobs = static_cast<std::uint32_t>(std::clamp(with_room, 1.0, 1.0 * max_jobs));
 }
 
+void Planner::plan_nothing(std::span<const AnyQuery> queries, const Status& status, Plan& plan,
+                           std::vector<AnyResult>& results) {
+    plan.clear();
+    plan.queries.assign(queries.size(), {});
+    results.resize(queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        std::visit(
+            [&](const auto& query) {
+                using Result = typename std::decay_t<decltype(query)>::Result;
+                make_empty<Result>(results[i]).status = status;
+            },
+            queries[i]);
+    }
+}
+
 void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
                        Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
     plan.clear();
@@ -111,6 +82,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     results.resize(queries.size());
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
+        checkpoint();
         PlannedQuery& planned = plan.queries[query_];
         planned = {};
         query_bytes_ = 0.0;
@@ -118,7 +90,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
         std::visit(
             [&](const auto& query) {
                 using Query = std::decay_t<decltype(query)>;
-                auto& result = reuse<typename Query::Result>(results[query_]);
+                auto& result = make_empty<typename Query::Result>(results[query_]);
                 if constexpr (requires { query.tolerance; }) {
                     result.tolerance = query.tolerance;
                 }
@@ -252,6 +224,7 @@ void Planner::cut_into_tiles(std::uint32_t region, TileKind kind, std::uint32_t 
     const Grid& grid = grids_[region];
     std::vector<Tile>& tiles = plan_->queries[query_].on_cpu ? plan_->cpu_tiles : plan_->tiles;
     for (std::uint64_t row = 0; row < grid.height; row += side) {
+        checkpoint();
         for (std::uint64_t column = 0; column < grid.width; column += side) {
             Tile& tile = tiles.emplace_back();
             tile.query = query_;

@@ -60,6 +60,11 @@ public:
     void plan(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes, Plan& plan,
               std::vector<AnyResult>& results, Submissions submissions = Submissions::any);
 
+    /// In place of plan(), where the call ends before: nothing is planned, and all results are
+    /// empty and have this status.
+    static void plan_nothing(std::span<const AnyQuery> queries, const Status& status, Plan& plan,
+                             std::vector<AnyResult>& results);
+
     /// Milliseconds that the last plan() spent in hierarchies.
     [[nodiscard]] double localize_milliseconds() const { return localize_milliseconds_; }
 

@@ -1,4 +1,6 @@
+#include <engine/base/interruption.hpp>
 #include <engine/localize/overlap.hpp>
+#include <engine/plan/empty_result.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/records/intersection_samples.hpp>
 #include <engine/results/query_answers.hpp>
@@ -135,19 +137,29 @@ std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::
             continue;
         }
         ++count;
-        const Asked asked{plan, static_cast<std::uint32_t>(i), words, fields};
-        if (on_cpu) {
-            find_points(asked);
+        try {
+            write({plan, static_cast<std::uint32_t>(i), words, fields}, on_cpu, results[i]);
+        } catch (const Interrupted& interrupted) {
+            plan::cut_short(interrupted.status(), results[i]);
         }
-        std::visit(
-            [&](auto& result) {
-                if (result.status.ok()) {
-                    answer(asked, result);
-                }
-            },
-            results[i]);
     }
     return count;
+}
+
+void QueryAnswers::write(const Asked& asked, bool on_cpu, AnyResult& any) {
+    std::visit(
+        [&](auto& result) {
+            if (!result.status.ok()) {
+                return;
+            }
+            checkpoint();
+            if (on_cpu) {
+                find_points(asked);
+            }
+            answer(asked, result);
+            finish_answers(1);
+        },
+        any);
 }
 
 }  // namespace nearfield::results

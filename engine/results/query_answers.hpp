@@ -36,7 +36,8 @@ public:
     /// Writes the results of the queries of the batch from `first` up to, but without, `end`:
     /// either those that the CPU answers or the others; returns their number. `words`: the device's
     /// results, by point of the plan; for queries that the CPU answers, they are written here.
-    /// Passes the largest field value to the field decoder.
+    /// Passes the largest field value to the field decoder. Once the call is interrupted, results
+    /// are empty and say so.
     std::size_t write(const plan::Plan& plan, std::size_t first, std::size_t end, bool on_cpu,
                       std::span<std::uint32_t> words, decode::FieldDecoder& fields,
                       std::vector<AnyResult>& results);
@@ -52,6 +53,7 @@ private:
         [[nodiscard]] const plan::PlannedQuery& planned() const { return plan.queries[query]; }
     };
 
+    void write(const Asked& asked, bool on_cpu, AnyResult& any);
     /// Returns whether the shapes of a query share a point.
     [[nodiscard]] bool shapes_intersect(const Asked& asked, ResultSummary& result);
     void find_points(const Asked& asked);

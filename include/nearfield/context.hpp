@@ -5,6 +5,7 @@
 #include <nearfield/fill.hpp>
 #include <nearfield/host.hpp>
 #include <nearfield/jobs.hpp>
+#include <nearfield/limits.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
 #include <nearfield/resident.hpp>
@@ -187,18 +188,19 @@ public:
     /// or than one buffer of the device holds), out_of_memory, device_lost, device_error; the
     /// results are undefined then. An error of one query (invalid_query, unknown_shape,
     /// unsupported_strategy, ...) is the status of that query's result, and the other queries are
-    /// answered.
-    Status run(const Batch& batch, Results& results);
+    /// answered. If `limits` end the call, the queries that are not done say so in the same way.
+    Status run(const Batch& batch, Results& results, const Limits& limits = {});
 
     /// Answers one query: run() with a batch of one. An error of the query is the returned status.
     /// A program with many queries per frame puts them into one Batch, which is submitted once and
     /// keeps its memory.
     template <class Query>
-    [[nodiscard]] Expected<typename Query::Result> answer(const Query& query) {
+    [[nodiscard]] Expected<typename Query::Result> answer(const Query& query,
+                                                          const Limits& limits = {}) {
         Batch batch;
         const QueryHandle<Query> handle = batch.add(query);
         Results results;
-        if (Status status = run(batch, results); !status.ok()) {
+        if (Status status = run(batch, results, limits); !status.ok()) {
             return status;
         }
         auto& result = *std::get_if<typename Query::Result>(&results.results[handle.index]);
@@ -218,8 +220,10 @@ public:
     ///
     /// Fails with ring_full if Settings::batches_in_flight batches are not yet collected, with
     /// invalid_submission if a semaphore cannot be used (the message names it and the reason), and
-    /// as run() does; there is no ticket then and nothing to collect.
-    [[nodiscard]] Expected<Ticket> submit(const Batch& batch, const Submission& submission = {});
+    /// as run() does; there is no ticket then and nothing to collect. If `limits` end the call
+    /// while it plans, no query needs the device. They hold for this call alone.
+    [[nodiscard]] Expected<Ticket> submit(const Batch& batch, const Submission& submission = {},
+                                          const Limits& limits = {});
 
     /// Records a batch into a command buffer of the host, which submits it; this call submits
     /// nothing and waits for nothing. When it returns, the device's input has been written and
@@ -246,8 +250,10 @@ public:
     /// them on the CPU. There is always space for all samples of intersections.
     ///
     /// Fails with invalid_submission if `commands` is null or the frame is already complete, and as
-    /// submit() does; nothing has been recorded then, and there is no ticket.
-    [[nodiscard]] Expected<Ticket> record(const Batch& batch, const Recording& recording);
+    /// submit() does; nothing has been recorded then, and there is no ticket. `limits` as for
+    /// submit(); what the host's queue does afterwards has none.
+    [[nodiscard]] Expected<Ticket> record(const Batch& batch, const Recording& recording,
+                                          const Limits& limits = {});
 
     /// States that the device has finished all of the host's frames up to `frame`, or will never
     /// execute them. Batches recorded for these frames can be collected; those whose commands were
@@ -274,9 +280,12 @@ public:
     /// has the space), and contacts with gradient normals (ContactNormals::gradient), whose field
     /// can only be requested once the contacts are known.
     ///
+    /// `limits` hold for this call alone. The wait for the device is not cut; if they end the call,
+    /// the queries that are not done say so, and the ticket is used up.
+    ///
     /// Fails as run() does; the ticket is used up all the same. Once the device is lost, every
     /// ticket in flight fails with device_lost.
-    Status collect(Ticket ticket, Results& results);
+    Status collect(Ticket ticket, Results& results, const Limits& limits = {});
 
     /// The results that a query with `resident` set leaves on the device, from submit() or record()
     /// until the batch is collected. They are valid once the device has executed the commands;

@@ -2,6 +2,7 @@
 
 #include <nearfield/context.hpp>
 #include <nearfield/export.hpp>
+#include <nearfield/limits.hpp>
 #include <nearfield/result.hpp>
 #include <nearfield/shape.hpp>
 #include <nearfield/status.hpp>
@@ -195,6 +196,10 @@ class PairTable;
 /// Errors: a call that fails changes nothing, and leaves its output undefined. Invalid numbers in a
 /// query or pose are invalid_query, and the message names the first; handles of shapes are
 /// unknown_shape, handles of instances unknown_instance.
+///
+/// Limits: every query can be given Limits (limits.hpp). If they end it, the call fails (cancelled
+/// or budget_exhausted), so that no output looks whole that is not. The time that a world takes to
+/// make and refit boxes counts; it is not divided by checkpoints.
 class NEARFIELD_EXPORT World {
 public:
     /// An empty world.
@@ -229,12 +234,12 @@ public:
     /// Exact up to the rounding of transformed vertices, as IntersectionTestQuery. Memory does not
     /// depend on the number of poses. Fails (invalid_query) if the spans differ in length.
     Status test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
-                      std::span<std::uint8_t> intersects);
+                      std::span<std::uint8_t> intersects, const Limits& limits = {});
 
     /// For each pose, the least distance of the shape there from the world. Neighbouring poses in
     /// sequence are faster than poses in random order. Otherwise as test_poses().
     Status find_clearances(const ClearanceQuery& query, std::span<const Pose> poses,
-                           std::span<Clearance> clearances);
+                           std::span<Clearance> clearances, const Limits& limits = {});
 
     /// For each point, the nearest instances or edges in ascending order of NearestHit::distance:
     /// the instances that the point is inside come first, the deepest at the head. Of equally near
@@ -242,50 +247,50 @@ public:
     /// hits[i * count] to hits[i * count + count - 1]. Fails (invalid_query) if there are not
     /// `count` times as many hits as points.
     Status find_nearest(const NearestQuery& query, std::span<const Vector2> points,
-                        std::span<NearestHit> hits);
+                        std::span<NearestHit> hits, const Limits& limits = {});
 
     /// For each segment, the first hit. Of several at the same place, the one of the instance added
     /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.
     Status cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
-                     const WorldFilter& filter = {});
+                     const WorldFilter& filter = {}, const Limits& limits = {});
     /// For each segment, all hits. A vertex where the segment passes from one edge to the next is
     /// one hit of each. An edge along the segment is hit where they first meet. Edges without
     /// length, between repeated vertices, are never hit.
     Status cast_rays(std::span<const Segment> segments, RayHits& hits,
-                     const WorldFilter& filter = {});
+                     const WorldFilter& filter = {}, const Limits& limits = {});
 
     /// For each motion of a shape, when it first touches the world. Fails (invalid_query) if the
     /// spans differ in length, or if the tolerance is too small for the coordinates of what a
     /// motion comes near; and as Context::run(), with ring_full if all batches are in flight.
     Status cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
-                      std::span<ShapeCastHit> hits);
+                      std::span<ShapeCastHit> hits, const Limits& limits = {});
 
     /// For each rectangle, the instances with which it shares a point.
     Status find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
-                         const WorldFilter& filter = {});
+                         const WorldFilter& filter = {}, const Limits& limits = {});
     /// For each point, the instances that it lies in; unspecified for points on a boundary.
     Status find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
-                         const WorldFilter& filter = {});
+                         const WorldFilter& filter = {}, const Limits& limits = {});
     /// For each pose, the instances with which the shape there shares a point.
     Status find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
-                         InstanceLists& lists);
+                         InstanceLists& lists, const Limits& limits = {});
 
     /// Brings a table of pairs (world_pairs.hpp) up to date. Fails with invalid_query if its reach
-    /// or query is invalid, and as Context::run(); the table is empty then. Errors of single
-    /// pairs are the status of their rows.
-    Status update(PairTable<PenetrationQuery>& table);
+    /// or query is invalid, if `limits` end the call, and as Context::run(); the table is empty
+    /// then. Errors of single pairs are the status of their rows.
+    Status update(PairTable<PenetrationQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<ContactQuery>& table);
+    Status update(PairTable<ContactQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<IntersectionQuery>& table);
+    Status update(PairTable<IntersectionQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<ClosestPointQuery>& table);
+    Status update(PairTable<ClosestPointQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<SeparationQuery>& table);
+    Status update(PairTable<SeparationQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<IntersectionTestQuery>& table);
+    Status update(PairTable<IntersectionTestQuery>& table, const Limits& limits = {});
     /// Likewise.
-    Status update(PairTable<SeparationVectorQuery>& table);
+    Status update(PairTable<SeparationVectorQuery>& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <engine/base/catch_to_status.hpp>
+#include <engine/base/interruption.hpp>
+#include <engine/context/read_structures.hpp>
+
+#include <limits>
+#include <optional>
+
+namespace nearfield {
+
+/// Calls `action`, which returns a Status or an Expected, within the limits of a call; returns the
+/// same, or the error of limits that cannot be used.
+template <class Action>
+auto call_within(const Limits& limits, const Action& action) -> decltype(action()) {
+    std::optional<Interruption> interruption;
+    Status status = catch_to_status([&] {
+        const Limits own = read_versioned(limits);
+        if (own.cancel != nullptr || own.progress != nullptr ||
+            own.seconds != std::numeric_limits<double>::infinity()) {
+            interruption.emplace(own);
+        }
+    });
+    if (!status.ok()) {
+        return status;
+    }
+    const InterruptionScope scope(interruption ? &*interruption : nullptr);
+    return action();
+}
+
+/// The same for an action that throws, as catch_to_status().
+template <class Action>
+Status catch_within(const Limits& limits, const Action& action) {
+    return call_within(limits, [&] { return catch_to_status(action); });
+}
+
+}  // namespace nearfield

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <nearfield/result.hpp>
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// Returns an empty result of the right kind that keeps the memory of the last one.
+template <class Result>
+Result& make_empty(AnyResult& any) {
+    if (!std::holds_alternative<Result>(any)) {
+        any.emplace<Result>();
+    }
+    auto& result = std::get<Result>(any);
+    if (!result.status.ok()) {
+        result.status = {};
+    }
+    result.error_bound = 0.0;
+    result.intersects = false;
+    result.regions.clear();
+    result.localization = {};
+    if constexpr (std::is_same_v<Result, PenetrationResult>) {
+        result.count = 0;
+        result.deepest = {};
+        result.records.clear();
+    } else if constexpr (std::is_same_v<Result, IntersectionResult>) {
+        result.count = 0;
+        result.area = 0.0;
+        result.box = {};
+        result.samples.clear();
+    } else if constexpr (std::is_same_v<Result, DistanceFieldResult>) {
+        result.origin = {};
+        result.width = result.height = 0;
+        result.values.clear();
+        result.features.clear();
+        result.gradients.clear();
+        result.unique.clear();
+        result.points.clear();
+        result.gradient_error_bound = 0.0;
+        result.gradient_format = "";
+    } else if constexpr (std::is_same_v<Result, ContactResult>) {
+        result.count = 0;
+        result.manifold.clear();
+        result.records.clear();
+    } else {
+        std::vector<Region> regions = std::move(result.regions);
+        result = {};
+        result.regions = std::move(regions);
+    }
+    return result;
+}
+
+/// Gives a result that is not done a status, and takes from it what was found so far.
+inline void cut_short(const Status& status, AnyResult& any) {
+    std::visit(
+        [&](auto& result) { make_empty<std::decay_t<decltype(result)>>(any).status = status; },
+        any);
+}
+
+}  // namespace nearfield::plan
