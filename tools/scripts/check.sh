@@ -43,10 +43,12 @@ check_sanitized() {
     )
     configure sanitize >/dev/null
     build sanitize --target test_driver test_geometry test_localize test_simd test_narrowphase \
-        test_grid test_cpu test_plan test_graph test_mtv test_worlds test_reload
+        test_grid test_cpu test_plan test_graph test_mtv test_worlds test_limits test_reload
     printf '%s\n' "${runs[@]}" | xargs -P "$jobs" -L 1 \
         bash -c '"$0/$1" --gtest_brief=1 --gtest_filter="$2"' "$root/build/sanitize/tests"
-    # Shader reload, which only debug builds have. It runs on a device, so without leak detection.
+    # On a device, so without leak detection: calls that are ended at every stage, and shader reload,
+    # which only debug builds have.
+    ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/limits/test_limits" --gtest_brief=1
     ASAN_OPTIONS=detect_leaks=0 "$root/build/sanitize/tests/reload/test_reload" --gtest_brief=1
 }
 

@@ -1,0 +1,271 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/limits/cut.hpp>
+#include <tests/support/polygons.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::uint64_t dense = 8;
+#else
+constexpr std::uint64_t dense = 24;
+#endif
+
+using Numbers = std::vector<double>;
+
+void append(Numbers& numbers, const Vector2& point) {
+    numbers.insert(numbers.end(), {point.x, point.y});
+}
+
+/// A world of stars, its queries, and the numbers of their answers.
+class Stars {
+public:
+    Stars() : context_(*Context::create_cpu()), world_(*World::create(context_)), random_(5) {
+        for (int i = 0; i < 30; ++i) {
+            WorldInstance instance;
+            instance.shape = *context_.add_shape(star(random_, 60, 0.5));
+            instance.pose = {{1.3 * (i % 6), 1.3 * (i / 6)}, random_.between(0.0, 6.0)};
+            EXPECT_TRUE(world_.add(instance).has_value());
+        }
+        shape_ = *context_.add_shape(star(random_, 60, 0.5));
+        for (int i = 0; i < 40; ++i) {
+            const Vector2 at{random_.between(-1.0, 8.0), random_.between(-1.0, 7.0)};
+            const Vector2 to{random_.between(-1.0, 8.0), random_.between(-1.0, 7.0)};
+            poses_.push_back({at, random_.between(0.0, 6.0)});
+            points_.push_back(at);
+            segments_.push_back({at, to});
+            rectangles_.push_back({at, {at.x + 0.5, at.y + 0.5}});
+            sweeps_.push_back({poses_.back(), {to, 0.0}});
+        }
+    }
+
+    /// A query of the world: writes the numbers of its answer.
+    using Query = std::function<Status(Stars&, const Limits&, Numbers&)>;
+
+    Status test_poses(const Limits& limits, Numbers& numbers) {
+        std::vector<std::uint8_t> hits(poses_.size());
+        Status status = world_.test_poses({shape_, {}}, poses_, hits, limits);
+        numbers.assign(hits.begin(), hits.end());
+        return status;
+    }
+    Status find_clearances(const Limits& limits, Numbers& numbers) {
+        std::vector<Clearance> clearances(poses_.size());
+        ClearanceQuery query;
+        query.shape = shape_;
+        Status status = world_.find_clearances(query, poses_, clearances, limits);
+        for (const Clearance& clearance : clearances) {
+            numbers.insert(numbers.end(), {clearance.distance, clearance.error_bound});
+            append(numbers, clearance.point);
+            append(numbers, clearance.nearest);
+        }
+        return status;
+    }
+    Status find_nearest(const Limits& limits, Numbers& numbers) {
+        std::vector<NearestHit> hits(3 * points_.size());
+        NearestQuery query;
+        query.count = 3;
+        Status status = world_.find_nearest(query, points_, hits, limits);
+        for (const NearestHit& hit : hits) {
+            numbers.push_back(hit.distance);
+            append(numbers, hit.nearest);
+        }
+        return status;
+    }
+    Status cast_rays(const Limits& limits, Numbers& numbers) {
+        std::vector<RayHit> hits(segments_.size());
+        Status status = world_.cast_rays(segments_, hits, {}, limits);
+        for (const RayHit& hit : hits) {
+            numbers.push_back(hit.parameter);
+        }
+        return status;
+    }
+    Status cast_all_rays(const Limits& limits, Numbers& numbers) {
+        RayHits hits;
+        Status status = world_.cast_rays(segments_, hits, {}, limits);
+        for (const RayHit& hit : hits.hits) {
+            numbers.push_back(hit.parameter);
+        }
+        return status;
+    }
+    Status cast_shape(const Limits& limits, Numbers& numbers) {
+        std::vector<ShapeCastHit> hits(sweeps_.size());
+        Status status = world_.cast_shape({shape_, {}, 1e-4, 0.0}, sweeps_, hits, limits);
+        for (const ShapeCastHit& hit : hits) {
+            numbers.insert(numbers.end(), {hit.time, hit.time_error_bound});
+        }
+        return status;
+    }
+    template <class Input>
+    Status find_overlaps(const Input& input, const Limits& limits, Numbers& numbers) {
+        InstanceLists lists;
+        Status status = world_.find_overlaps(input, lists, {}, limits);
+        return add(lists, std::move(status), numbers);
+    }
+    Status find_shape_overlaps(const Limits& limits, Numbers& numbers) {
+        InstanceLists lists;
+        Status status = world_.find_overlaps({shape_, {}}, poses_, lists, limits);
+        return add(lists, std::move(status), numbers);
+    }
+    template <class Table>
+    Status update(Table table, const Limits& limits, Numbers& numbers) {
+        Status status = world_.update(table, limits);
+        if (!status.ok()) {
+            EXPECT_TRUE(table.rows().empty());
+            EXPECT_TRUE(table.records().empty());
+            EXPECT_EQ(table.candidates(), 0U);
+            Status again = world_.update(table);  // a table that was cut is brought up to date
+            EXPECT_TRUE(again.ok()) << again.text();
+        }
+        for (const auto& row : table.rows()) {
+            EXPECT_EQ(row.status, StatusCode::ok);
+            numbers.insert(numbers.end(), {1.0 * row.intersects, row.error_bound,
+                                           static_cast<double>(row.record_count)});
+        }
+        return status;
+    }
+
+    [[nodiscard]] const std::vector<Vector2>& points() const { return points_; }
+    [[nodiscard]] const std::vector<Rectangle>& rectangles() const { return rectangles_; }
+
+private:
+    static Status add(const InstanceLists& lists, Status status, Numbers& numbers) {
+        numbers.insert(numbers.end(), lists.offsets.begin(), lists.offsets.end());
+        for (const InstanceHandle& instance : lists.instances) {
+            numbers.push_back(instance.index);
+        }
+        return status;
+    }
+
+    Context context_;
+    World world_;
+    Random random_;
+    ShapeHandle shape_;
+    std::vector<Pose> poses_;
+    std::vector<Vector2> points_;
+    std::vector<Segment> segments_;
+    std::vector<Rectangle> rectangles_;
+    std::vector<Sweep> sweeps_;
+};
+
+struct NamedQuery {
+    std::string name;
+    Stars::Query ask;
+};
+
+template <class Query>
+Stars::Query table_of(const Query& query) {
+    return [query](Stars& stars, const Limits& limits, Numbers& numbers) {
+        return stars.update(PairTable<Query>(query, {0.1}), limits, numbers);
+    };
+}
+
+std::vector<NamedQuery> all_queries() {
+    PenetrationQuery penetration;
+    penetration.tolerance = 0.02;
+    ContactQuery contacts;
+    contacts.tolerance = 0.02;
+    contacts.contact_distance = 0.05;
+    IntersectionQuery intersection;
+    intersection.tolerance = 0.02;
+    ClosestPointQuery closest;
+    closest.tolerance = 0.02;
+    SeparationQuery separation;
+    separation.tolerance = 0.02;
+    SeparationVectorQuery vector;
+    vector.tolerance = 0.02;
+    return {
+        {"test_poses", &Stars::test_poses},
+        {"find_clearances", &Stars::find_clearances},
+        {"find_nearest", &Stars::find_nearest},
+        {"cast_rays", &Stars::cast_rays},
+        {"cast_rays, all hits", &Stars::cast_all_rays},
+        {"cast_shape", &Stars::cast_shape},
+        {"find_overlaps of poses", &Stars::find_shape_overlaps},
+        {"find_overlaps of points",
+         [](Stars& stars, const Limits& limits, Numbers& numbers) {
+             return stars.find_overlaps(std::span<const Vector2>(stars.points()), limits, numbers);
+         }},
+        {"find_overlaps of rectangles",
+         [](Stars& stars, const Limits& limits, Numbers& numbers) {
+             return stars.find_overlaps(std::span<const Rectangle>(stars.rectangles()), limits,
+                                        numbers);
+         }},
+        {"update of penetration", table_of(penetration)},
+        {"update of contacts", table_of(contacts)},
+        {"update of intersection", table_of(intersection)},
+        {"update of closest points", table_of(closest)},
+        {"update of separations", table_of(separation)},
+        {"update of intersection tests", table_of(IntersectionTestQuery{})},
+        {"update of separation vectors", table_of(vector)},
+    };
+}
+
+Numbers whole_answer(Stars& stars, const NamedQuery& query) {
+    Numbers numbers;
+    const Status status = query.ask(stars, {}, numbers);
+    EXPECT_TRUE(status.ok()) << status.text();
+    EXPECT_FALSE(numbers.empty());
+    return numbers;
+}
+
+TEST(WorldLimits, CutEveryQueryAtEveryStage) {
+    Stars stars;
+    for (const NamedQuery& query : all_queries()) {
+        SCOPED_TRACE(query.name);
+        const Numbers whole = whole_answer(stars, query);
+        const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t n) {
+            SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
+            Cut cut(n);
+            Numbers numbers;
+            const Status status = query.ask(stars, cut.limits(), numbers);
+            if (cut.has_cut()) {
+                EXPECT_EQ(status.code(), StatusCode::cancelled) << status.text();
+            } else {
+                EXPECT_TRUE(status.ok()) << status.text();
+                EXPECT_EQ(numbers, whole);
+            }
+            EXPECT_EQ(whole_answer(stars, query), whole);
+            return cut.has_cut() && !HasFailure();
+        });
+        EXPECT_GE(cuts, 12U);
+    }
+}
+
+TEST(WorldLimits, OfNoTimeAnswerNothing) {
+    Stars stars;
+    Limits limits;
+    limits.seconds = 0.0;
+    for (const NamedQuery& query : all_queries()) {
+        SCOPED_TRACE(query.name);
+        Numbers numbers;
+        const Status status = query.ask(stars, limits, numbers);
+        EXPECT_EQ(status.code(), StatusCode::budget_exhausted) << status.text();
+    }
+    limits.seconds = -1.0;
+    for (const NamedQuery& query : all_queries()) {
+        SCOPED_TRACE(query.name);
+        Numbers numbers;
+        const Status status = query.ask(stars, limits, numbers);
+        EXPECT_EQ(status.code(), StatusCode::invalid_settings) << status.text();
+    }
+}
+
+TEST(WorldLimits, CountWhatIsDone) {
+    Stars stars;
+    Numbers numbers;
+    Cut none(0);
+    ASSERT_TRUE(stars.cast_all_rays(none.limits(), numbers).ok());
+    EXPECT_EQ(none.count(), 40U);
+    EXPECT_EQ(none.done(), 39U) << "at the last checkpoint, before the last segment";
+}
+
+}  // namespace
+}  // namespace nearfield::test
