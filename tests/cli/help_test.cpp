@@ -82,7 +82,8 @@ protected:
             EXPECT_LE(line.size(), 80U) << command_line(arguments) << '\n' << line;
         }
         EXPECT_NE(
-            outcome.out.find("0 done, 2 bad input or usage, 3 no usable device, 1 anything else"),
+            outcome.out.find("0 done, 2 bad input or usage, 3 no usable device, 1 anything else,\n"
+                             "130 stopped by Ctrl-C."),
             std::string::npos)
             << outcome.out;
         return outcome.out;

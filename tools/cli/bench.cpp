@@ -7,6 +7,7 @@
 #include <tools/cli/paper_tables.hpp>
 #include <tools/cli/scene.hpp>
 #include <tools/cli/standard_table.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
@@ -45,6 +46,7 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
         if (show_progress) {
             std::cerr << "\rframe " << frame + 1 << " of " << all << std::flush;
         }
+        stop_after_ctrl_c();
         const double milliseconds =
             runner.run_frame(arguments.keep ? FrameInput::poses : FrameInput::all);
         runner.require_results();
@@ -156,6 +158,7 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
 }
 
 void run_bench(const BenchArguments& arguments) {
+    catch_ctrl_c();
     if (arguments.paper) {
         run_paper_tables(parse_settings(arguments.settings), arguments.json, arguments.curves);
         return;

@@ -27,7 +27,7 @@ struct BenchArguments {
 CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments);
 
 /// Runs the scene as one batch per frame, or the standard table, and reports medians. Throws
-/// InputError, LibraryError or std::runtime_error.
+/// InputError, LibraryError (cancelled, after Ctrl-C) or std::runtime_error.
 void run_bench(const BenchArguments& arguments);
 
 }  // namespace nearfield::tools

@@ -39,7 +39,8 @@ int run(int count, char** arguments) {
     CLI::App program("2D proximity queries between polygons on a Vulkan GPU", "nearfield");
     program.set_version_flag("--version", std::string("nearfield ") + nearfield::version().text);
     program.footer(
-        "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else.");
+        "Exit status: 0 done, 2 bad input or usage, 3 no usable device, 1 anything else,\n"
+        "130 stopped by Ctrl-C.");
     program.formatter(std::make_shared<tools::HelpFormatter>(tools::HelpStyle{}));
     program.require_subcommand(1);
     tools::QueryArguments query_arguments;
@@ -75,15 +76,13 @@ int run(int count, char** arguments) {
         return fail(error, exit_status::bad_input);
     }
     if (query->parsed()) {
-        tools::run_query(query_arguments);
-        return exit_status::done;
+        return tools::run_query(query_arguments);
     }
     if (scene->parsed()) {
         return tools::run_scene(scene_arguments);
     }
     if (simulate->parsed()) {
-        tools::run_simulate(simulate_arguments);
-        return exit_status::done;
+        return tools::run_simulate(simulate_arguments);
     }
     if (bench->parsed()) {
         tools::run_bench(bench_arguments);

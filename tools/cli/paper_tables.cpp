@@ -2,6 +2,7 @@
 #include <tools/benchmark/outlines.hpp>
 #include <tools/cli/paper_tables.hpp>
 #include <tools/cli/query_times.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/drawing/line_chart.hpp>
 #include <tools/io/answer.hpp>
 #include <tools/io/json_writer.hpp>
@@ -58,8 +59,9 @@ struct Measured {
     std::vector<GrowthPoint> tolerances;  ///< by tolerance d
 };
 
-/// Shows the current measurement on a terminal.
+/// Shows the measurement that begins on a terminal; Ctrl-C ends the program before it.
 void show(const std::string& what) {
+    stop_after_ctrl_c();
     if (isatty(STDERR_FILENO) == 1) {
         std::cerr << "\r\x1b[K" << what << std::flush;
     }

@@ -4,6 +4,7 @@
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/query.hpp>
 #include <tools/common/add_shape.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/drawing/figure.hpp>
 #include <tools/io/input_error.hpp>
@@ -202,6 +203,17 @@ DistanceFieldQuery background_query(const Rectangle& detail, const Instance& b) 
     return query;
 }
 
+/// Runs a batch of one query until it is answered; Ctrl-C cancels it. `subject` is for the message.
+void run_one(Context& context, const Batch& batch, Results& results, const std::string& subject) {
+    const InterruptibleCalls calls("queries answered");
+    require(context.run(batch, results, calls.limits()), subject);
+    const Status& status = summary_of(results.results.front()).status;
+    if (status.code() == StatusCode::cancelled) {
+        stop_after_ctrl_c();
+    }
+    require(status, subject);
+}
+
 std::string draw_answer(Context& context, const Answer& answer, const PlacedOutline& a,
                         const PlacedOutline& b) {
     Figure figure = make_figure(answer, a, b);
@@ -216,8 +228,7 @@ std::string draw_answer(Context& context, const Answer& answer, const PlacedOutl
         Batch batch;
         const auto handle =
             batch.add(background_query(detail_rectangle(answer, figure.a, figure.b), drawn));
-        require(context.run(batch, background), "the field of the picture");
-        require(background[handle].status, "the field of the picture");
+        run_one(context, batch, background, "the field of the picture");
         figure.field = &background[handle];
     }
     return draw_figure(figure);
@@ -273,7 +284,7 @@ struct FieldFiles {
 
 }  // namespace
 
-void run_query(const QueryArguments& arguments) {
+int run_query(const QueryArguments& arguments) {
     QueryRequest request = make_request(arguments);
     const Settings settings = parse_settings(arguments.settings);
     if (arguments.file_a == "-" && arguments.file_b == "-") {
@@ -292,6 +303,7 @@ void run_query(const QueryArguments& arguments) {
                                             {b.rings, b.deviation, b.pose.translation});
     }
     check_files(arguments);
+    catch_ctrl_c();
     ReportTarget report(arguments.json);
     std::optional<OutputFile> image;
     FieldFiles field_files(arguments);
@@ -307,8 +319,8 @@ void run_query(const QueryArguments& arguments) {
     Batch batch;
     add_query(batch, request, instance_a, instance_b);
     Results results;
-    require(context.run(batch, results));
-    require(summary_of(results.results.front()).status);
+    run_one(context, batch, results, {});
+    const bool is_stopped = was_ctrl_c_pressed();
 
     std::vector<TileReport> tiles;
     if (arguments.tiles) {
@@ -328,6 +340,10 @@ void run_query(const QueryArguments& arguments) {
     }
     write_summary(report.summary(), answer);
     report.commit();
+    if (is_stopped) {
+        std::cerr << "nearfield: stopped by Ctrl-C; the bounds are those found until then\n";
+    }
+    return is_stopped ? exit_status::stopped : exit_status::done;
 }
 
 }  // namespace nearfield::tools

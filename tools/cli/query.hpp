@@ -37,8 +37,9 @@ struct QueryArguments {
     bool tiles = false;
 };
 
-/// Answers the query and writes the requested outputs. Throws InputError, LibraryError or
-/// std::runtime_error.
-void run_query(const QueryArguments& arguments);
+/// Answers the query and writes the requested outputs; returns the exit status. If Ctrl-C ends the
+/// search for a separation vector or time of impact, what it has found is written. Throws
+/// InputError, LibraryError (cancelled, if Ctrl-C ends any other query) or std::runtime_error.
+[[nodiscard]] int run_query(const QueryArguments& arguments);
 
 }  // namespace nearfield::tools

@@ -3,6 +3,7 @@
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/scene.hpp>
 #include <tools/cli/world_values_files.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
@@ -35,7 +36,18 @@ int report_problems(const SceneRunner& runner) {
         std::cerr << "nearfield: not answered because of what is listed above: " << count
                   << (count == 1 ? " query\n" : " queries\n");
     }
+    if (const std::size_t count = runner.cancelled_count(); count > 0) {
+        std::cerr << "nearfield: stopped by Ctrl-C: not answered: " << count
+                  << (count == 1 ? " query\n" : " queries\n");
+    }
     return status;
+}
+
+/// Answers the queries; returns whether Ctrl-C ended that.
+bool run_until_ctrl_c(SceneRunner& runner) {
+    const InterruptibleCalls calls("queries answered");
+    runner.run_what_fits(calls.limits());
+    return was_ctrl_c_pressed();
 }
 
 /// Options that a scene states itself.
@@ -181,11 +193,12 @@ int run_scene(const SceneArguments& arguments) {
     Scene scene = read_arguments(arguments);
     print_notes(scene);
     set_technique(scene, technique);
+    catch_ctrl_c();
     WorldValuesFiles values(scene, arguments.json);
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, scene.files.front(), context, BadEntries::recorded);
-    runner.run_what_fits();
+    const bool is_stopped = run_until_ctrl_c(runner);
     const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {
         write_scene_json(*json, answers, runner.timings(), context.device_name(),
@@ -196,7 +209,8 @@ int run_scene(const SceneArguments& arguments) {
     values.write(answers);
     values.commit();
     report.commit();
-    return report_problems(runner);
+    const int status = report_problems(runner);
+    return is_stopped ? exit_status::stopped : status;
 }
 
 }  // namespace nearfield::tools

@@ -3,6 +3,7 @@
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/simulate.hpp>
 #include <tools/cli/simulation_report.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
@@ -174,13 +175,14 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
     return command;
 }
 
-void run_simulate(const SimulateArguments& arguments) {
+int run_simulate(const SimulateArguments& arguments) {
     simulation::Scene scene = make_scene(arguments.scene, arguments.tolerance, arguments.bodies);
     const simulation::Response response = parse_response(arguments.response);
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);
     const Settings settings = parse_settings(arguments.settings);
     const View view = view_of(scene, frame_width);
+    catch_ctrl_c();
     ReportTarget target(arguments.json);
     Outputs outputs(arguments, scene, view);
     std::optional<DrawingDevice> device;
@@ -204,7 +206,11 @@ void run_simulate(const SimulateArguments& arguments) {
         }
         report.frames.push_back(world.advance());
         pictures.add(frame, context, world);
+        if (was_ctrl_c_pressed()) {
+            break;
+        }
     }
+    const bool is_stopped = was_ctrl_c_pressed();
     if (show_progress) {
         std::cerr << '\n';
     }
@@ -216,6 +222,7 @@ void run_simulate(const SimulateArguments& arguments) {
     }
     write_simulation_summary(target.summary(), report);
     target.commit();
+    return is_stopped ? exit_status::stopped : exit_status::done;
 }
 
 }  // namespace nearfield::tools

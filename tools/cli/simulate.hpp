@@ -28,8 +28,8 @@ struct SimulateArguments {
 /// Adds the command `simulate` to the program. Parsing fills `arguments`, which must outlive it.
 CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments);
 
-/// Runs a scene frame by frame, draws it and reports on it. Throws InputError, LibraryError or
-/// std::runtime_error.
-void run_simulate(const SimulateArguments& arguments);
+/// Runs a scene frame by frame, draws it and reports on it; returns the exit status. After Ctrl-C,
+/// on the frames that are done. Throws InputError, LibraryError or std::runtime_error.
+[[nodiscard]] int run_simulate(const SimulateArguments& arguments);
 
 }  // namespace nearfield::tools

@@ -3,6 +3,7 @@
 #include <tools/cli/standard_table.hpp>
 #include <tools/cli/table_report.hpp>
 #include <tools/cli/technique_race.hpp>
+#include <tools/common/interruptible.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/report_target.hpp>
 #include <unistd.h>
@@ -50,6 +51,7 @@ void run_standard_table(const std::string& filter, const Settings& settings,
             std::cerr << "row " << table.size() + 1 << " of " << rows.size() << ": " << row.name
                       << "\x1b[K\r" << std::flush;
         }
+        stop_after_ctrl_c();
         table.push_back(race.run(row));
         if (show_progress) {
             std::cerr << "\x1b[K" << std::flush;

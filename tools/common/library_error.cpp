@@ -12,6 +12,8 @@ int exit_status_of(StatusCode code) noexcept {
         case StatusCode::unsupported_device:
         case StatusCode::unsupported_technique:
             return exit_status::no_device;
+        case StatusCode::cancelled:
+            return exit_status::stopped;
         default:
             return exit_status::other_error;
     }

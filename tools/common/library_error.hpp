@@ -14,6 +14,7 @@ inline constexpr int done = 0;
 inline constexpr int other_error = 1;
 inline constexpr int bad_input = 2;
 inline constexpr int no_device = 3;
+inline constexpr int stopped = 130;  ///< by Ctrl-C: 128 and the number of SIGINT, as of a shell
 }  // namespace exit_status
 
 /// How the program ends after an error of the library.

@@ -132,21 +132,21 @@ double SceneRunner::run_frame(FrameInput input) {
     }
     add_queries();
     require(context_.run(batch_, results_), file_);
-    answer_world_queries();
+    answer_world_queries({});
     const auto end = std::chrono::steady_clock::now();
     return std::chrono::duration<double, std::milli>(end - start).count();
 }
 
-void SceneRunner::run_what_fits() {
+void SceneRunner::run_what_fits(const Limits& limits) {
     update_shapes();
     add_queries();
-    const Status status = context_.run(batch_, results_);
+    const Status status = context_.run(batch_, results_, limits);
     if (status.code() == StatusCode::too_large) {
-        answer_one_by_one();
+        answer_one_by_one(limits);
     } else {
         require(status, file_);
     }
-    answer_world_queries();
+    answer_world_queries(limits);
 }
 
 void SceneRunner::update_shapes() {
@@ -178,7 +178,7 @@ void SceneRunner::add_queries() {
 }
 
 /// Results as the batch would have had them; a query that is too large by itself has that status.
-void SceneRunner::answer_one_by_one() {
+void SceneRunner::answer_one_by_one(const Limits& limits) {
     Results all;
     for (const Entry& entry : entries_) {
         if (entry.is_refused || entry.is_world) {
@@ -187,7 +187,7 @@ void SceneRunner::answer_one_by_one() {
         Batch batch;
         Results one;
         add_to(batch, entry);
-        const Status status = context_.run(batch, one);
+        const Status status = context_.run(batch, one, limits);
         if (status.code() == StatusCode::too_large) {
             all.results.push_back(
                 refusal({status.code(), without_prefix(full_message(status), "query 0 with ")}));
@@ -267,13 +267,13 @@ void SceneRunner::add_world_query(std::size_t query) {
     }
 }
 
-void SceneRunner::answer_world_queries() {
+void SceneRunner::answer_world_queries(const Limits& limits) {
     const auto start = std::chrono::steady_clock::now();
     for (const Entry& entry : entries_) {
         if (!entry.is_world) {
             continue;
         }
-        const Status status = worlds_->answer(entry.query);
+        const Status status = worlds_->answer(entry.query, limits);
         std::visit([&status](auto& result) { result.status = status; },
                    outside_batch_[entry.result]);
     }
@@ -341,7 +341,7 @@ std::vector<Status> SceneRunner::problems() const {
         const Status& status = summary_of(result_of(entry)).status;
         if (entry.is_refused && !entry.is_dependent) {
             problems.push_back(status);
-        } else if (!entry.is_refused && !status.ok()) {
+        } else if (!entry.is_refused && !status.ok() && !is_cancelled(entry)) {
             problems.emplace_back(status.code(), place_of(entry.query) + ": " + status.text());
         }
     }
@@ -351,6 +351,16 @@ std::vector<Status> SceneRunner::problems() const {
 std::size_t SceneRunner::dependent_count() const {
     return static_cast<std::size_t>(std::count_if(
         entries_.begin(), entries_.end(), [](const Entry& entry) { return entry.is_dependent; }));
+}
+
+bool SceneRunner::is_cancelled(const Entry& entry) const {
+    return summary_of(result_of(entry)).status.code() == StatusCode::cancelled;
+}
+
+std::size_t SceneRunner::cancelled_count() const {
+    return static_cast<std::size_t>(
+        std::count_if(entries_.begin(), entries_.end(),
+                      [this](const Entry& entry) { return is_cancelled(entry); }));
 }
 
 const AnyResult& SceneRunner::result_of(const Entry& entry) const {

@@ -46,14 +46,17 @@ public:
     double run_frame(FrameInput input = FrameInput::all);
 
     /// As run_frame(), but where the batch as a whole is too large every query is answered by
-    /// itself, so that only those that are too large are not answered.
-    void run_what_fits();
+    /// itself, so that only those that are too large are not answered. Queries that the limits end
+    /// have the status cancelled.
+    void run_what_fits(const Limits& limits);
 
     /// What is wrong with shapes, instances and queries of the last frame, each with its place;
-    /// not with queries that merely need something bad.
+    /// not with queries that merely need something bad, or were cancelled.
     [[nodiscard]] std::vector<Status> problems() const;
     /// How many of the queries need a shape or an instance that is bad.
     [[nodiscard]] std::size_t dependent_count() const;
+    /// How many of the queries were cancelled.
+    [[nodiscard]] std::size_t cancelled_count() const;
 
     /// Throws LibraryError where a query of the last frame was refused.
     void require_results() const;
@@ -106,9 +109,10 @@ private:
     void add_moving_pairs(std::size_t query, const Selection& among);
     void add_selected(std::size_t query, const Selection& among, InstancePair pair);
     void add_world_query(std::size_t query);
-    void answer_world_queries();
-    void answer_one_by_one();
+    void answer_world_queries(const Limits& limits);
+    void answer_one_by_one(const Limits& limits);
     [[nodiscard]] const AnyResult& result_of(const Entry& entry) const;
+    [[nodiscard]] bool is_cancelled(const Entry& entry) const;
     [[nodiscard]] bool is_usable(std::size_t instance) const;
     /// "lid (shapes.box), left": with the shape where that is what is wrong.
     [[nodiscard]] std::string names_of_bad(const std::vector<std::size_t>& instances) const;

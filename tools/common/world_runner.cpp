@@ -103,20 +103,20 @@ void WorldRunner::add_world(Context& context, std::size_t first_group) {
     worlds_.push_back(std::move(grouped));
 }
 
-Status WorldRunner::answer(std::size_t query) {
+Status WorldRunner::answer(std::size_t query, const Limits& limits) {
     Entry& entry = entries_[query];
     World& world = worlds_[entry.group / groups_per_world].world;
     switch (entry.answer.request->type) {
         case WorldQueryType::poses:
-            return answer_poses(world, entry);
+            return answer_poses(world, entry, limits);
         case WorldQueryType::nearest:
-            return answer_nearest(world, entry);
+            return answer_nearest(world, entry, limits);
         case WorldQueryType::rays:
-            return answer_rays(world, entry);
+            return answer_rays(world, entry, limits);
         case WorldQueryType::cast:
-            return answer_cast(world, entry);
+            return answer_cast(world, entry, limits);
         case WorldQueryType::overlap:
-            return answer_overlap(world, entry);
+            return answer_overlap(world, entry, limits);
     }
     return {};
 }
@@ -125,7 +125,7 @@ ShapeHandle WorldRunner::shape_of(const Entry& entry) const {
     return shapes_[entry.answer.request->shape.value()];
 }
 
-Status WorldRunner::answer_poses(World& world, Entry& entry) const {
+Status WorldRunner::answer_poses(World& world, Entry& entry, const Limits& limits) const {
     const WorldRequest& request = *entry.answer.request;
     if (request.clearance) {
         auto& clearances = become<std::vector<Clearance>>(entry.answer.records);
@@ -135,11 +135,11 @@ Status WorldRunner::answer_poses(World& world, Entry& entry) const {
         query.filter = entry.filter;
         query.min_clearance = request.min_clearance;
         query.max_clearance = request.max_clearance;
-        return world.find_clearances(query, request.poses, clearances);
+        return world.find_clearances(query, request.poses, clearances, limits);
     }
     auto& intersects = become<std::vector<std::uint8_t>>(entry.answer.records);
     intersects.resize(request.poses.size());
-    return world.test_poses({shape_of(entry), entry.filter}, request.poses, intersects);
+    return world.test_poses({shape_of(entry), entry.filter}, request.poses, intersects, limits);
 }
 
 /// No more hits of a point are asked for than there can be.
@@ -161,7 +161,7 @@ std::uint32_t WorldRunner::wanted_hits(const Entry& entry) const {
 
 /// Asks about some points at a time, so that memory grows with the hits that there are, not with
 /// those that were wanted.
-Status WorldRunner::answer_nearest(World& world, Entry& entry) {
+Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& limits) {
     constexpr std::size_t hits_at_a_time = std::size_t{1} << 18U;
     const WorldRequest& request = *entry.answer.request;
     NearestQuery query;
@@ -177,7 +177,7 @@ Status WorldRunner::answer_nearest(World& world, Entry& entry) {
     for (std::size_t first = 0; first < points.size(); first += part) {
         const auto asked = points.subspan(first, std::min(part, points.size() - first));
         nearest_.resize(asked.size() * query.count);
-        if (Status status = world.find_nearest(query, asked, nearest_); !status.ok()) {
+        if (Status status = world.find_nearest(query, asked, nearest_, limits); !status.ok()) {
             return status;
         }
         for (std::size_t i = 0; i < nearest_.size(); ++i) {
@@ -192,18 +192,18 @@ Status WorldRunner::answer_nearest(World& world, Entry& entry) {
     return {};
 }
 
-Status WorldRunner::answer_rays(World& world, Entry& entry) const {
+Status WorldRunner::answer_rays(World& world, Entry& entry, const Limits& limits) const {
     const WorldRequest& request = *entry.answer.request;
     if (request.all_hits) {
         return world.cast_rays(request.segments, become<RayHits>(entry.answer.records),
-                               entry.filter);
+                               entry.filter, limits);
     }
     auto& hits = become<std::vector<RayHit>>(entry.answer.records);
     hits.resize(request.segments.size());
-    return world.cast_rays(request.segments, hits, entry.filter);
+    return world.cast_rays(request.segments, hits, entry.filter, limits);
 }
 
-Status WorldRunner::answer_cast(World& world, Entry& entry) const {
+Status WorldRunner::answer_cast(World& world, Entry& entry, const Limits& limits) const {
     const WorldRequest& request = *entry.answer.request;
     auto& hits = become<std::vector<ShapeCastHit>>(entry.answer.records);
     hits.resize(request.sweeps.size());
@@ -212,19 +212,21 @@ Status WorldRunner::answer_cast(World& world, Entry& entry) const {
     query.filter = entry.filter;
     query.tolerance = request.tolerance;
     query.contact_distance = request.contact_distance;
-    return world.cast_shape(query, request.sweeps, hits);
+    return world.cast_shape(query, request.sweeps, hits, limits);
 }
 
-Status WorldRunner::answer_overlap(World& world, Entry& entry) const {
+Status WorldRunner::answer_overlap(World& world, Entry& entry, const Limits& limits) const {
     const WorldRequest& request = *entry.answer.request;
     auto& lists = become<InstanceLists>(entry.answer.records);
     if (request.shape) {
-        return world.find_overlaps({shape_of(entry), entry.filter}, request.poses, lists);
+        return world.find_overlaps({shape_of(entry), entry.filter}, request.poses, lists, limits);
     }
     if (!request.points.empty()) {
-        return world.find_overlaps(std::span<const Vector2>(request.points), lists, entry.filter);
+        return world.find_overlaps(std::span<const Vector2>(request.points), lists, entry.filter,
+                                   limits);
     }
-    return world.find_overlaps(std::span<const Rectangle>(request.rectangles), lists, entry.filter);
+    return world.find_overlaps(std::span<const Rectangle>(request.rectangles), lists, entry.filter,
+                               limits);
 }
 
 }  // namespace nearfield::tools

@@ -22,7 +22,7 @@ public:
 
     /// Answers the scene's query with this index, which must be one of a world. An error is
     /// returned, and leaves the answer undefined.
-    [[nodiscard]] Status answer(std::size_t query);
+    [[nodiscard]] Status answer(std::size_t query, const Limits& limits);
 
     /// The last answer to a query. Valid until it is answered again.
     [[nodiscard]] const WorldAnswer& answer_of(std::size_t query) const {
@@ -48,11 +48,11 @@ private:
     /// The number of the group of these instances, which it gets when it is new.
     [[nodiscard]] std::size_t group_of(std::vector<std::size_t> instances);
 
-    [[nodiscard]] Status answer_poses(World& world, Entry& entry) const;
-    [[nodiscard]] Status answer_nearest(World& world, Entry& entry);
-    [[nodiscard]] Status answer_rays(World& world, Entry& entry) const;
-    [[nodiscard]] Status answer_cast(World& world, Entry& entry) const;
-    [[nodiscard]] Status answer_overlap(World& world, Entry& entry) const;
+    [[nodiscard]] Status answer_poses(World& world, Entry& entry, const Limits& limits) const;
+    [[nodiscard]] Status answer_nearest(World& world, Entry& entry, const Limits& limits);
+    [[nodiscard]] Status answer_rays(World& world, Entry& entry, const Limits& limits) const;
+    [[nodiscard]] Status answer_cast(World& world, Entry& entry, const Limits& limits) const;
+    [[nodiscard]] Status answer_overlap(World& world, Entry& entry, const Limits& limits) const;
     [[nodiscard]] std::uint32_t wanted_hits(const Entry& entry) const;
     [[nodiscard]] ShapeHandle shape_of(const Entry& entry) const;
 

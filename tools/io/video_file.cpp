@@ -27,8 +27,13 @@ int start(const std::vector<std::string>& arguments, int input, pid_t& process) 
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    // In a process group of its own: Ctrl-C must not end it before the video is complete.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     const int error =
-        posix_spawnp(&process, pointers.front(), &actions, nullptr, pointers.data(), environ);
+        posix_spawnp(&process, pointers.front(), &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return error;
 }
