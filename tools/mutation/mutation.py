@@ -1,0 +1,248 @@
+#!/usr/bin/env python3
+"""Puts mistakes into the code, one at a time, and tells which tests notice them.
+
+    mutation.py list [PATTERN...]        lists the mutants, of all or of those whose name has a match
+    mutation.py check                    fails if one of them no longer applies to the sources
+    mutation.py run [--again] [PATTERN...]
+                                         builds each mutant, runs the suites that use its module
+                                         until one fails, and writes the table of all results
+
+The mutants are in the folder `mutants`, a file per module (mutants.py has the format). They are
+built in build/mutants, from a copy of the sources. A run that was interrupted goes on where it was,
+unless the code has changed since; where only tests have changed, those that were noticed are left
+out. --again leaves out none. Fails if a mutant is noticed by no suite, and is not marked as
+equivalent, or cannot be built.
+"""
+
+import dataclasses
+import json
+import pathlib
+import re
+import sys
+import time
+
+sys.dont_write_bytecode = True
+import mutants  # noqa: E402
+import suites  # noqa: E402
+import workplace  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TABLE = ROOT / "docs" / "measurements" / "mutants.md"
+BUILD_LIMIT = 900.0  # seconds for what one mutant needs compiled and linked
+SOUND_LIMIT = 1200.0  # seconds for a suite without a mistake
+SURVIVED, BAD = "", "not built"
+
+
+HEAD = """# Mutants
+
+What `tools/mutation/mutation.py run` wrote ([how to read and use it](../../CONTRIBUTING.md#mutants)). A
+mutant is a mistake put into one file, chosen from the code before a look at the tests. *Noticed by*: the
+first suite that failed, and its first failed test; the suites of the mutant's own module come first.
+*Seconds* include compilation and linking.
+
+{run} of {listed} mutants were run{older}, in {minutes:.0f} minutes together; {equivalent} of them
+change no answer. Of the other {counted}, {noticed} were noticed ({share:.1f} %).
+
+| mutant | kind | noticed by | seconds |
+|---|---|---|---|
+"""
+
+
+@dataclasses.dataclass
+class Result:
+    """What became of a mutant, at a state of the code and of the tests."""
+
+    change: str
+    code: str
+    tests: str
+    noticed_by: str
+    seconds: float
+
+
+class Store:
+    """Results and the times of the suites, kept from run to run."""
+
+    def __init__(self, path):
+        self.path = path
+        kept = json.loads(path.read_text()) if path.is_file() else {}
+        self.results = {name: Result(**each) for name, each in kept.get("results", {}).items()}
+        # By group of suites: the state of code and tests at which they pass, and their times.
+        self.sound = kept.get("sound", {})
+
+    def save(self):
+        content = {
+            "results": {name: dataclasses.asdict(each) for name, each in self.results.items()},
+            "sound": self.sound,
+        }
+        part = self.path.with_suffix(".part")
+        part.write_text(json.dumps(content, indent=1))
+        part.replace(self.path)
+
+
+class Run:
+    """Mutants are built and tested in one place."""
+
+    def __init__(self):
+        self.place = workplace.Workplace(ROOT)
+        self.place.folder.mkdir(parents=True, exist_ok=True)
+        self.store = Store(self.place.folder / "results.json")
+        self.code, self.tests = self.place.refresh()
+        self.place.configure()
+        self.suites = suites.Suites(self.place)
+        self.sound = {}  # by group of suites: the seconds of each
+
+    def require_sound(self, stage):
+        """Builds a group of suites without a mistake and runs it once for each state of the code and
+        the tests: a suite that fails by itself notices nothing."""
+        if stage in self.sound:
+            return
+        known = self.store.sound.get(stage, {})
+        if known.get("state") != [self.code, self.tests]:
+            print(f"{stage}: without a mistake ...", flush=True)
+            if said := self.place.make([self.suites.target(stage)], None):
+                sys.exit(f"{stage} cannot be built:\n{said}")
+            every = self.suites.of(stage)
+            if failed := suites.run(every, self.place.folder / "logs", lambda _: SOUND_LIMIT):
+                sys.exit(f"{stage} fails without a mistake: {failed}")
+            seconds = {each.name: each.seconds for each in every}
+            known = {"state": [self.code, self.tests], "seconds": seconds}
+            self.store.sound[stage] = known
+            self.store.save()
+        self.sound[stage] = known["seconds"]
+
+    def limit_of(self, suite):
+        return 20.0 + 5.0 * self.seconds_of(suite)
+
+    def seconds_of(self, suite):
+        """How long a suite takes without a mistake."""
+        return self.sound[suite.stage][suite.name]
+
+    def notice(self, mutant):
+        """The test that fails with a mutant; SURVIVED if there is none, BAD if it is no program."""
+        for stage in self.suites.stages(mutant.module):
+            if said := self.place.make([self.suites.target(stage)], BUILD_LIMIT):
+                print(said[-2000:], flush=True)
+                return BAD
+            quickest_first = sorted(self.suites.of(stage), key=self.seconds_of)
+            logs = self.place.folder / "logs"
+            if noticed := suites.run(quickest_first, logs, self.limit_of):
+                return noticed
+        return SURVIVED
+
+    def run(self, mutant):
+        for stage in self.suites.stages(mutant.module):
+            self.require_sound(stage)
+        start = time.monotonic()
+        with self.place.mistake(mutant):
+            noticed = self.notice(mutant)
+        seconds = round(time.monotonic() - start, 1)
+        self.store.results[mutant.full_name] = Result(
+            mutant.digest, self.code, self.tests, noticed, seconds
+        )
+        self.store.save()
+        return noticed, seconds
+
+    def is_done(self, mutant):
+        """Whether its result holds: tests that have changed can only notice more."""
+        result = self.store.results.get(mutant.full_name)
+        return (
+            result
+            and (result.change, result.code) == (mutant.digest, self.code)
+            and (result.tests == self.tests or result.noticed_by not in (SURVIVED, BAD))
+        )
+
+
+def word_for(mutant, noticed):
+    if noticed == SURVIVED:
+        return "equivalent" if mutant.equivalent else "SURVIVED"
+    return f"NOT EQUIVALENT: {noticed}" if mutant.equivalent else noticed
+
+
+def is_fault(mutant, noticed):
+    return noticed == BAD or (noticed == SURVIVED) != bool(mutant.equivalent)
+
+
+def chosen(patterns, every):
+    if not patterns:
+        return every
+    return [each for each in every if any(re.search(p, each.full_name) for p in patterns)]
+
+
+def run(patterns, again):
+    every = mutants.read_all()
+    work = Run()
+    faults = 0
+    # Those of one file one after the other: it is compiled once for each, and once more at the end.
+    wanted = sorted(chosen(patterns, every), key=lambda each: (each.module, each.file))
+    for number, mutant in enumerate(wanted, 1):
+        if work.is_done(mutant) and not again:
+            noticed, seconds = work.store.results[mutant.full_name].noticed_by, 0.0
+        else:
+            noticed, seconds = work.run(mutant)
+        faults += is_fault(mutant, noticed)
+        said = f"{mutant.full_name}: {word_for(mutant, noticed)} ({seconds:.0f} s)"
+        print(f"{number}/{len(wanted)} {said}", flush=True)
+    TABLE.write_text(table(every, work))
+    return 1 if faults else 0
+
+
+def table(every, work):
+    """The latest result of each mutant, as a page of the documents."""
+    rows, seconds, noticed, equivalent, older = [], 0.0, 0, 0, 0
+    for mutant in every:
+        result = work.store.results.get(mutant.full_name)
+        if not result or result.change != mutant.digest:
+            continue
+        seconds += result.seconds
+        equivalent += bool(mutant.equivalent)
+        noticed += not mutant.equivalent and result.noticed_by not in (SURVIVED, BAD)
+        older += not work.is_done(mutant)
+        word = word_for(mutant, result.noticed_by).replace("|", "\\|")
+        rows.append(f"| {mutant.full_name} | {mutant.kind} | {word} | {result.seconds:.0f} |")
+    counted = len(rows) - equivalent
+    head = HEAD.format(
+        listed=len(every), run=len(rows), noticed=noticed, equivalent=equivalent, counted=counted,
+        share=100.0 * noticed / max(1, counted), minutes=seconds / 60.0,
+        older=f" ({older} of them with older code)" if older else "",
+    )
+    return head + "\n".join(rows) + "\n"
+
+
+def list_mutants(patterns):
+    for mutant in chosen(patterns, mutants.read_all()):
+        equivalent = f" [equivalent: {mutant.equivalent}]" if mutant.equivalent else ""
+        print(f"{mutant.full_name} ({mutant.kind}, {mutant.file}): {mutant.why}{equivalent}")
+    return 0
+
+
+def check():
+    every = mutants.read_all()
+    faults = mutants.faults(every, ROOT)
+    print("\n".join(faults) or f"{len(every)} mutants apply")
+    return 1 if faults else 0
+
+
+def main():
+    command, *rest = sys.argv[1:] or [""]
+    patterns = [word for word in rest if word != "--again"]
+    if any(word.startswith("-") for word in patterns):
+        command = ""
+    try:
+        if command == "list":
+            return list_mutants(patterns)
+        if command == "check" and not rest:
+            return check()
+        if command == "run":
+            return run(patterns, "--again" in rest)
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted; the next run goes on from here", file=sys.stderr)
+        return 130
+    print(__doc__, file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
