@@ -24,12 +24,13 @@ step() {
 current_step=
 trap '[[ -z $current_step ]] || printf "\n** FAILED: %s\n" "$current_step" >&2' EXIT
 
-# wants_setup ARGUMENT...: whether the arguments ask for the set-up; rejects unknown ones.
+# wants_setup ARGUMENT...: whether the arguments ask for the set-up; rejects unknown ones with the
+# script's usage, which is the first indented line of its head.
 wants_setup() {
     case "$*" in
         '') return 0 ;;
         --no-setup) return 1 ;;
-        *) die "usage: $(basename "$0") [--no-setup]" ;;
+        *) die "usage: $(sed --quiet '/^#   /{s///p;q}' "$0")" ;;
     esac
 }
 
