@@ -10,8 +10,7 @@ namespace nearfield::test {
 namespace {
 
 /// A round shape of many edges that is simplified by far, at every phase another.
-Rings wavy(double phase) {
-    constexpr int edges = 600;
+Rings wavy(int edges, double phase) {
     Ring ring;
     for (int i = 0; i < edges; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / edges;
@@ -32,26 +31,43 @@ protected:
     }
     static std::vector<double> answers(Context& context, ShapeHandle a, ShapeHandle b) {
         Results results;
-        const Status status = context.run(every_query(a, b, 1, false), results);
+        Batch batch = every_query(a, b, 1, false);
+        batch.add(distances(b));
+        const Status status = context.run(batch, results);
         EXPECT_TRUE(status.ok()) << status.text();
         return all_numbers(results);
+    }
+    /// Without features, so that the technique cpu simplifies the shape as well.
+    static DistanceFieldQuery distances(ShapeHandle shape) {
+        DistanceFieldQuery field;
+        field.b = {shape, {}};
+        field.tolerance = 0.1;
+        field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+        field.technique = Technique::cpu;
+        return field;
     }
 };
 
 TEST_F(DeformedShapes, AreAnsweredAsFreshOnesFromBatchToBatch) {
-    Context kept = *Context::create(host_device(), drawing());
-    const ShapeHandle a = *kept.add_shape(wavy(0.0));
-    const ShapeHandle b = *kept.add_shape(wavy(1.0));
-    std::vector<double> last;
-    for (const double phase : {0.0, 0.5, 2.0}) {
-        SCOPED_TRACE("phase " + std::to_string(phase));
-        // As many vertices as before: nothing but their places tells old from new.
-        ASSERT_TRUE(kept.update_shape(a, wavy(phase)).ok());
-        ASSERT_TRUE(kept.update_shape(b, wavy(1.0 + phase)).ok());
-        const std::vector<double> found = answers(kept, a, b);
-        EXPECT_TRUE(found == of_fresh_shapes(wavy(phase), wavy(1.0 + phase)));
-        EXPECT_TRUE(found != last);
-        last = found;
+    // Tiles see few edges as a whole, many by windows.
+    for (const int edges : {200, 600}) {
+        SCOPED_TRACE(std::to_string(edges) + " edges");
+        Context kept = *Context::create(host_device(), drawing());
+        const ShapeHandle a = *kept.add_shape(wavy(edges, 0.0));
+        const ShapeHandle b = *kept.add_shape(wavy(edges, 1.0));
+        std::vector<double> last;
+        for (const double phase : {0.0, 0.5, 2.0}) {
+            SCOPED_TRACE("phase " + std::to_string(phase));
+            // As many vertices as before: nothing but their places tells old from new.
+            const Rings next_a = wavy(edges, phase);
+            const Rings next_b = wavy(edges, 1.0 + phase);
+            ASSERT_TRUE(kept.update_shape(a, next_a).ok());
+            ASSERT_TRUE(kept.update_shape(b, next_b).ok());
+            const std::vector<double> found = answers(kept, a, b);
+            EXPECT_TRUE(found == of_fresh_shapes(next_a, next_b));
+            EXPECT_TRUE(found != last);
+            last = found;
+        }
     }
 }
 

@@ -100,7 +100,7 @@ class Run:
         if known.get("state") != [self.code, self.tests]:
             print(f"{stage}: without a mistake ...", flush=True)
             if said := self.place.make([self.suites.target(stage)], None):
-                sys.exit(f"{stage} cannot be built:\n{said}")
+                sys.exit(f"{stage} cannot be built:\n{said[-2000:]}")
             every = self.suites.of(stage)
             if failed := suites.run(every, self.place.folder / "logs", lambda _: SOUND_LIMIT):
                 sys.exit(f"{stage} fails without a mistake: {failed}")
@@ -117,27 +117,29 @@ class Run:
         """How long a suite takes without a mistake."""
         return self.sound[suite.stage][suite.name]
 
-    def notice(self, mutant):
-        """The test that fails with a mutant; SURVIVED if there is none, BAD if it is no program."""
-        for stage in self.suites.stages(mutant.module):
-            if said := self.place.make([self.suites.target(stage)], BUILD_LIMIT):
-                print(said[-2000:], flush=True)
-                return BAD
-            quickest_first = sorted(self.suites.of(stage), key=self.seconds_of)
-            logs = self.place.folder / "logs"
-            if noticed := suites.run(quickest_first, logs, self.limit_of):
-                return noticed
-        return SURVIVED
+    def notice(self, stage):
+        """The test of a group that fails with the mistake that is in place; SURVIVED if there is
+        none, BAD if it is no program."""
+        if said := self.place.make([self.suites.target(stage)], BUILD_LIMIT):
+            if "[-Werror=" in said:
+                return "a warning of the compiler"
+            print(said[-2000:], flush=True)
+            return BAD
+        quickest_first = sorted(self.suites.of(stage), key=self.seconds_of)
+        return suites.run(quickest_first, self.place.folder / "logs", self.limit_of)
 
     def run(self, mutant):
-        for stage in self.suites.stages(mutant.module):
-            self.require_sound(stage)
-        start = time.monotonic()
-        with self.place.mistake(mutant):
-            noticed = self.notice(mutant)
-        seconds = round(time.monotonic() - start, 1)
+        stages = self.suites.stages(mutant.module)
+        noticed, seconds = SURVIVED, 0.0
+        while stages and noticed == SURVIVED:
+            self.require_sound(stages[0])
+            start = time.monotonic()
+            with self.place.mistake(mutant):
+                while stages and stages[0] in self.sound and noticed == SURVIVED:
+                    noticed = self.notice(stages.pop(0))
+            seconds += time.monotonic() - start
         self.store.results[mutant.full_name] = Result(
-            mutant.digest, self.code, self.tests, noticed, seconds
+            mutant.digest, self.code, self.tests, noticed, round(seconds, 1)
         )
         self.store.save()
         return noticed, seconds

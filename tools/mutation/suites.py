@@ -72,14 +72,15 @@ class Suites:
 
     def __init__(self, place):
         self.place = place
-        listed = subprocess.run(
-            ["ctest", "--test-dir", place.build, "--show-only=json-v1"],
-            check=True, capture_output=True, text=True,
-        )
-        self.tests = json.loads(listed.stdout)["tests"]
-        first = next(test for test in self.tests if re.match(GROUPS["query"][0], test["name"]))
-        self.first_driver = self.changes_of(first)
+        query = [test for test in self.listed() if re.match(GROUPS["query"][0], test["name"])]
+        self.first_driver = self.changes_of(query[0])
         self.cache = {}
+
+    def listed(self):
+        """The tests as CTest knows them; those whose program is not built have no command."""
+        command = ["ctest", "--test-dir", self.place.build, "--show-only=json-v1"]
+        said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return json.loads(said)["tests"]
 
     @staticmethod
     def changes_of(test):
@@ -121,8 +122,8 @@ class Suites:
         pattern = GROUPS[stage][0]
         return [
             Suite(test["name"], stage, test["command"], self.changes_of(test))
-            for test in self.tests
-            if re.match(pattern, test["name"]) and test.get("command")
+            for test in self.listed()
+            if re.match(pattern, test["name"])
         ]
 
 

@@ -13,13 +13,10 @@ TESTS = ("tests/",)
 # As the tests are run, but file by file, so that a mistake costs one compilation, and with what
 # release builds leave out.
 OPTIONS = (
-    "-DCMAKE_BUILD_TYPE=Release",
+    "--preset", "release",
     "-DCMAKE_UNITY_BUILD=OFF",
-    "-DNEARFIELD_WARNINGS_AS_ERRORS=OFF",
     "-DNEARFIELD_SHADER_RELOAD=ON",
     "-DNEARFIELD_BUILD_EXAMPLES=OFF",
-    "-DNEARFIELD_BUILD_VIEWER=ON",
-    "-DNEARFIELD_INSTALL=OFF",
 )
 
 
@@ -30,7 +27,8 @@ class Workplace:
         self.root = root
         self.folder = root / "build" / "mutants"
         self.source = self.folder / "source"
-        self.build = self.folder / "build"
+        # As deep as a build folder of the user, so that a compiler cache knows what that one has.
+        self.build = self.source / "build" / "mutants"
         # Files of the copy are not to be taken for files of the repository around it.
         self.environment = os.environ | {"GIT_CEILING_DIRECTORIES": str(self.folder)}
 
@@ -53,12 +51,13 @@ class Workplace:
                 target.write_bytes(content)
                 shutil.copymode(self.root / name, target)
         for path in self.source.rglob("*"):
-            if path.is_file() and path.relative_to(self.source).as_posix() not in names:
+            name = path.relative_to(self.source).as_posix()
+            if path.is_file() and name not in names and not name.startswith("build/"):
                 path.unlink()
         return code.hexdigest()[:16], tests.hexdigest()[:16]
 
     def configure(self):
-        command = ["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja", *OPTIONS]
+        command = ["cmake", "-S", self.source, "-B", self.build, *OPTIONS]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=self.environment)
 
     def make(self, targets, timeout):
