@@ -1,5 +1,7 @@
 #pragma once
 
+#include <nearfield/export.hpp>
+
 #include <atomic>
 #include <cstdint>
 #include <limits>
