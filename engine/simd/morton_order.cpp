@@ -45,7 +45,7 @@ std::span<const std::uint32_t> MortonOrder::find(const geometry::Polygon& polygo
 /// One stable counting-sort pass: rings with the same byte keep their order.
 void MortonOrder::sort_by_byte(std::uint32_t byte) {
     const auto byte_of = [&](std::uint32_t ring) -> std::size_t {
-        return on_curve_[ring] >> (8U * byte) & 0xffU;
+        return std::uint32_t{on_curve_[ring]} >> (8U * byte) & 0xffU;
     };
     std::array<std::uint32_t, 257> begin{};
     for (const std::uint32_t ring : rings_) {
