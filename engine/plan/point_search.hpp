@@ -85,7 +85,7 @@ inline constexpr double max_searched_points = 1U << 21U;
 /// The shapes that the input of searches starts with.
 struct SearchShapes {
     std::span<const SearchUnit> units;
-    std::uint64_t revision = 0;  ///< another one: any of the units may have changed
+    std::uint64_t revision = 0;  ///< differs if a unit may have changed
 };
 
 /// Turns the searched queries of a plan into the device's input. Keeps what it makes of a shape

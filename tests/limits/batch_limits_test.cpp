@@ -5,34 +5,16 @@
 #include <tests/query/all_numbers.hpp>
 #include <tests/query/every_query.hpp>
 #include <tests/support/polygons.hpp>
+#include <tests/support/run_on_threads.hpp>
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <thread>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
-
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t dense = 8;
-#else
-constexpr std::uint64_t dense = 24;
-#endif
-
-using Job = void (*)(void* data, std::uint32_t number);
-
-void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
-    std::vector<std::thread> threads;
-    for (std::uint32_t i = 0; i < jobs; ++i) {
-        threads.emplace_back(job, data, i);
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-}
 
 const ResultSummary& summary_of(const AnyResult& any) {
     return std::visit([](const auto& result) -> const ResultSummary& { return result; }, any);

@@ -44,12 +44,19 @@ private:
     Limits limits_;
 };
 
-/// Calls `cut_at(n)` for n = 1, 2, 3, ..., from `dense` on in growing steps, until it returns
+/// Up to this checkpoint, most tests cut at every one.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr std::uint64_t dense = 8;
+#else
+inline constexpr std::uint64_t dense = 24;
+#endif
+
+/// Calls `cut_at(n)` for n = 1, 2, 3, ..., from `up_to` on in growing steps, until it returns
 /// false: the call was over before its checkpoint n. Returns how often it was cut.
 template <class CutAt>
-std::uint64_t cut_everywhere(std::uint64_t dense, const CutAt& cut_at) {
+std::uint64_t cut_everywhere(std::uint64_t up_to, const CutAt& cut_at) {
     std::uint64_t cuts = 0;
-    for (std::uint64_t n = 1; cut_at(n); n += n < dense ? 1 : n / 8 + 1) {
+    for (std::uint64_t n = 1; cut_at(n); n += n < up_to ? 1 : n / 8 + 1) {
         ++cuts;
     }
     return cuts;

@@ -13,12 +13,6 @@
 namespace nearfield::test {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t dense = 8;
-#else
-constexpr std::uint64_t dense = 24;
-#endif
-
 using Numbers = std::vector<double>;
 
 void append(Numbers& numbers, const Vector2& point) {

@@ -4,28 +4,17 @@
 #include <tests/query/all_numbers.hpp>
 #include <tests/support/allocations.hpp>
 #include <tests/support/polygons.hpp>
+#include <tests/support/run_on_threads.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace nearfield::test {
 namespace {
 
 using Job = void (*)(void* data, std::uint32_t number);
-
-/// Runs every job on its own thread.
-void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
-    std::vector<std::thread> threads;
-    for (std::uint32_t i = 0; i < jobs; ++i) {
-        threads.emplace_back(job, data, i);
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-}
 
 /// Runs the jobs one after the other, starting with a different one each time; reports their
 /// number.

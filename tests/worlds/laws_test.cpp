@@ -1,26 +1,16 @@
 #include "answers.hpp"
 
 #include <gtest/gtest.h>
+#include <tests/support/run_on_threads.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <thread>
 
 namespace nearfield::test {
 namespace {
 
 using Job = void (*)(void* data, std::uint32_t number);
-
-void run_on_threads(void* /*user*/, std::uint32_t jobs, Job job, void* data) {
-    std::vector<std::thread> threads;
-    for (std::uint32_t i = 0; i < jobs; ++i) {
-        threads.emplace_back(job, data, i);
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-}
 
 void run_backwards(void* user, std::uint32_t jobs, Job job, void* data) {
     for (std::uint32_t i = jobs; i-- > 0;) {
