@@ -63,9 +63,10 @@ hash_program() {
     find "$root"/tools/{hash,simulation} "$root"/tools/benchmark/outlines.cpp \
         "$root"/tools/common/library_error.cpp "$root"/tools/io/{geojson,json_document,skipped_parts,text_file}.cpp \
         -name '*.cpp' ! -name simulation_choice.cpp -print0 |
-        xargs -0 -P "$jobs" -I FILE sh -c '"$@" -o "$0/$(basename FILE .cpp).o" -c FILE' \
-            "$folder/objects" "$compiler" -std=c++20 $flags "${same[@]}" -I"$root" -I"$root/include" \
-            -I"$folder/generated"
+        xargs -0 -P "$jobs" -I FILE \
+            sh -c 'file=$1 && shift && "$@" -o "$0/$(basename "$file" .cpp).o" -c "$file"' \
+            "$folder/objects" FILE "$compiler" -std=c++20 $flags "${same[@]}" -I"$root" \
+            -I"$root/include" -I"$folder/generated"
     "$compiler" -o "$folder/hashes" "$folder"/objects/*.o "$folder/libnearfield.a" \
         "${libraries[@]}" -ldl -lpthread
 }
