@@ -28,6 +28,37 @@ inline int side_of(const Place& a, const Place& b, const Place& p) {
     return (left > right ? 1 : 0) - (left < right ? 1 : 0);
 }
 
+/// A place and a small offset, in units: a point between the places.
+struct Spot {
+    Place place;
+    long double dx = 0.0L;
+    long double dy = 0.0L;
+
+    /// A coordinate relative to this one. Exact for places no farther than 2^63.
+    [[nodiscard]] long double x_of(const Place& p) const {
+        return static_cast<long double>(p.x - place.x) - dx;
+    }
+    [[nodiscard]] long double y_of(const Place& p) const {
+        return static_cast<long double>(p.y - place.y) - dy;
+    }
+};
+
+/// The same for a spot. Exact without an offset; otherwise wrong at most for spots that are closer
+/// to the line than 2^-40 of the offset.
+inline int side_of(const Place& a, const Place& b, const Spot& spot) {
+    const Wide left = static_cast<Wide>(b.x - a.x) * (spot.place.y - a.y);
+    const Wide right = static_cast<Wide>(b.y - a.y) * (spot.place.x - a.x);
+    const long double by = static_cast<long double>(b.x - a.x) * spot.dy -
+                           static_cast<long double>(b.y - a.y) * spot.dx;
+    const Wide at_place = left - right;
+    if (at_place > -(Wide{1} << 62) && at_place < (Wide{1} << 62)) {
+        const long double sum = static_cast<long double>(at_place) + by;
+        return (sum > 0 ? 1 : 0) - (sum < 0 ? 1 : 0);
+    }
+    const Wide sum = at_place + static_cast<Wide>(by);
+    return (sum > 0 ? 1 : 0) - (sum < 0 ? 1 : 0);
+}
+
 /// Rings in units, with their parts.
 class WindingOracle {
 public:
@@ -55,13 +86,15 @@ public:
     [[nodiscard]] const std::vector<std::vector<Place>>& rings() const { return rings_; }
 
     /// 1 inside the region, 0 outside, -1 on an edge (of the region or inside it).
-    [[nodiscard]] int side(const Place& p) const {
+    [[nodiscard]] int side(const Place& p) const { return side(Spot{p}); }
+    /// The same between the places.
+    [[nodiscard]] int side(const Spot& spot) const {
         int total = 0;
         bool in_part = false;
         bool in_any = false;
         for (std::size_t r = 0; r < rings_.size(); ++r) {
             int winding = 0;
-            if (!add_winding(rings_[r], p, winding)) {
+            if (!add_winding(rings_[r], spot, winding)) {
                 return -1;
             }
             total += winding;
@@ -107,7 +140,8 @@ public:
             }
             return false;
         });
-        return found || rim_has(p, radius, wanted) || corner_has(p, radius, wanted);
+        return found || rim_has(p, radius, wanted) || rim_has(p, 0.5 * radius, wanted) ||
+               corner_has(p, radius, wanted);
     }
 
     /// The distance from p to the nearest edge, in units, up to rounding.
@@ -132,32 +166,33 @@ public:
     }
 
 private:
-    /// Adds the winding number of one ring; false if p is on it.
-    static bool add_winding(const std::vector<Place>& ring, const Place& p, int& winding) {
+    /// Adds the winding number of one ring; false if the spot is on it.
+    static bool add_winding(const std::vector<Place>& ring, const Spot& spot, int& winding) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Place& a = ring[i];
             const Place& b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            if (std::max(a.y, b.y) < p.y || std::min(a.y, b.y) > p.y || std::max(a.x, b.x) < p.x) {
+            const long double from = spot.y_of(a);
+            const long double to = spot.y_of(b);
+            if (std::max(from, to) < 0 || std::min(from, to) > 0 ||
+                std::max(spot.x_of(a), spot.x_of(b)) < 0) {
                 continue;
             }
-            const int side = side_of(a, b, p);
-            if (side == 0 && std::min(a.x, b.x) <= p.x) {
+            const int side = side_of(a, b, spot);
+            if (side == 0 && std::min(spot.x_of(a), spot.x_of(b)) <= 0) {
                 return false;
             }
-            if (a.y <= p.y && b.y > p.y && side > 0) {
+            if (from <= 0 && to > 0 && side > 0) {
                 ++winding;
-            } else if (b.y <= p.y && a.y > p.y && side < 0) {
+            } else if (to <= 0 && from > 0 && side < 0) {
                 --winding;
             }
         }
         return true;
     }
 
-    [[nodiscard]] bool is(const Place& p, double dx, double dy, double radius, int wanted) const {
-        const Place place{p.x + std::llround(dx), p.y + std::llround(dy)};
-        return std::hypot(static_cast<double>(place.x - p.x), static_cast<double>(place.y - p.y)) <=
-                   radius &&
-               side(place) == wanted;
+    [[nodiscard]] bool is(const Place& p, long double dx, long double dy, double radius,
+                          int wanted) const {
+        return std::hypot(dx, dy) <= radius && side(Spot{p, dx, dy}) == wanted;
     }
 
     /// Looks beside the part of an edge that is within the radius.
@@ -180,8 +215,8 @@ private:
         for (int i = -8; i <= 8; ++i) {
             const long double at = std::clamp(along + half * i / 8.2L, 0.0L, length);
             for (const long double beside : {-1.5L, 1.5L, -3.0L, 3.0L}) {
-                const auto x = static_cast<double>((at * dx - beside * dy) / length - px);
-                const auto y = static_cast<double>((at * dy + beside * dx) / length - py);
+                const long double x = (at * dx - beside * dy) / length - px;
+                const long double y = (at * dy + beside * dx) / length - py;
                 if (is(p, x, y, radius, wanted)) {
                     return true;
                 }
@@ -194,6 +229,7 @@ private:
     struct Chord {
         long double x, y;    // where it begins
         long double dx, dy;  // to its end
+        long double cross;   // x dy - y dx, rounded once
     };
 
     [[nodiscard]] std::vector<Chord> chords(const Place& p) const {
@@ -202,9 +238,12 @@ private:
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const Place& a = ring[i];
                 const Place& b = ring[(i + 1) % ring.size()];
+                const Wide cross = static_cast<Wide>(a.x - p.x) * (b.y - a.y) -
+                                   static_cast<Wide>(a.y - p.y) * (b.x - a.x);
                 result.push_back(
                     {static_cast<long double>(a.x - p.x), static_cast<long double>(a.y - p.y),
-                     static_cast<long double>(b.x - a.x), static_cast<long double>(b.y - a.y)});
+                     static_cast<long double>(b.x - a.x), static_cast<long double>(b.y - a.y),
+                     static_cast<long double>(cross)});
             }
         }
         return result;
@@ -215,23 +254,26 @@ private:
         const long double inner = radius - 1.0L;
         std::vector<long double> angles;
         for (const Chord& chord : chords(p)) {
-            const long double squared = chord.dx * chord.dx + chord.dy * chord.dy;
-            const long double along = -(chord.x * chord.dx + chord.y * chord.dy);
-            const long double across = chord.x * chord.dy - chord.y * chord.dx;
-            const long double half = inner * inner * squared - across * across;
-            if (squared == 0 || half < 0) {
+            const long double length = std::hypot(chord.dx, chord.dy);
+            if (length == 0 || std::abs(chord.cross) > inner * length) {
                 continue;
             }
-            for (const long double way : {-1.0L, 1.0L}) {
-                const long double part = (along + way * std::sqrt(half)) / squared;
-                angles.push_back(std::atan2(chord.y + part * chord.dy, chord.x + part * chord.dx));
+            // From the foot of the perpendicular along the edge, either way.
+            const long double beside = chord.cross / length;
+            const long double half = std::sqrt(inner * inner - beside * beside);
+            for (const long double way : {-half, half}) {
+                angles.push_back(std::atan2(way * chord.dy - beside * chord.dx,
+                                            way * chord.dx + beside * chord.dy));
             }
         }
+        if (angles.empty()) {
+            return false;
+        }
         std::sort(angles.begin(), angles.end());
+        angles.push_back(angles.front() + 6.28318530717958647692L);
         for (std::size_t i = 1; i < angles.size(); ++i) {
             const long double middle = (angles[i - 1] + angles[i]) / 2;
-            if (is(p, static_cast<double>(inner * std::cos(middle)),
-                   static_cast<double>(inner * std::sin(middle)), radius, wanted)) {
+            if (is(p, inner * std::cos(middle), inner * std::sin(middle), radius, wanted)) {
                 return true;
             }
         }
@@ -267,8 +309,7 @@ private:
         for (const double by : {2.0, 6.0, 40.0, 300.0, 2000.0, 15000.0}) {
             for (int i = 0; i < 48; ++i) {
                 const double angle = 0.01 + 0.1309 * i;
-                if (is(p, static_cast<double>(x) + by * std::cos(angle),
-                       static_cast<double>(y) + by * std::sin(angle), radius, wanted)) {
+                if (is(p, x + by * std::cos(angle), y + by * std::sin(angle), radius, wanted)) {
                     return true;
                 }
             }
