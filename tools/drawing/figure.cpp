@@ -166,9 +166,10 @@ void draw_header(Canvas& canvas, const Figure& figure) {
     const std::string facts =
         std::visit([](const auto& result) { return facts_of(result); }, figure.answer.result);
     const double tolerance = figure.answer.request.tolerance;
+    const std::string& device = figure.answer.device;  // empty for technique cpu
     const std::string line =
         (tolerance > 0.0 ? "d = " + short_number(tolerance) + " \u00B7 " : std::string()) + facts +
-        " \u00B7 " + figure.answer.device;
+        (device.empty() ? "" : " \u00B7 " + device);
     canvas.text({margin, 132.0}, canvas.shortened(line, 24.0, width), 24.0, palette::quiet_text);
 }
 
