@@ -149,6 +149,20 @@ TEST(PolygonAssign, DropsTheClosingVertexAndKeepsOtherRepeats) {
     EXPECT_EQ(polygon.next(4), 0U);
 }
 
+TEST(PolygonAssign, CountsItsRevisions) {
+    Polygon polygon;
+    const std::uint64_t first = polygon.revision();
+    ASSERT_TRUE(polygon.assign(samples::Rings{square}).ok());
+    const std::uint64_t second = polygon.revision();
+    EXPECT_NE(second, first);
+    // The same rings may be an update of something else that depends on them.
+    ASSERT_TRUE(polygon.assign(samples::Rings{square}).ok());
+    EXPECT_NE(polygon.revision(), second);
+    const std::uint64_t third = polygon.revision();
+    ASSERT_FALSE(polygon.assign(samples::Rings{}).ok());
+    EXPECT_EQ(polygon.revision(), third) << "nothing was replaced";
+}
+
 TEST(PolygonAssign, ReusesItsMemory) {
     samples::Random random(2);
     Polygon polygon = samples::polygon({samples::star(random, 100, 0.5, 1.0), square});

@@ -120,5 +120,35 @@ TEST(SegmentsIntersect, RandomSegmentsMeetWhereTheirDistanceIsZero) {
     EXPECT_GT(together, 2000);
 }
 
+TEST(SegmentsMeet, WhereTheirDistanceIsWithinTheMargin) {
+    samples::Random random(3);
+    int within = 0;
+    int without = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const Vector a(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        const Vector b(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+        // Nearly parallel in every third round, so that they lie beside each other.
+        const double gap = random.between(-0.2, 0.2);
+        const double turn = round % 3 == 0 ? 0.01 : 1.0;
+        const auto beside = [&](const Vector& p) {
+            return Vector(p.x() - gap * (b - a).y() + turn * random.between(-0.5, 0.5),
+                          p.y() + gap * (b - a).x() + turn * random.between(-0.5, 0.5));
+        };
+        const Vector c = beside(a);
+        const Vector d = beside(b);
+        const double margin = random.between(0.0, 0.2);
+        const double distance = std::sqrt(closest_of_segments(a, b, c, d).squared_distance);
+        if (std::abs(distance - margin) < 1e-9) {
+            continue;
+        }
+        const bool expected = distance < margin;
+        (expected ? within : without) += 1;
+        EXPECT_EQ(segments_meet(a, b, c, d, margin), expected) << round;
+        EXPECT_EQ(first_meeting(a, b, c, d, margin).has_value(), expected) << round;
+    }
+    EXPECT_GT(within, 2000);
+    EXPECT_GT(without, 2000);
+}
+
 }  // namespace
 }  // namespace nearfield::geometry
