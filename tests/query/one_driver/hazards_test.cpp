@@ -1,0 +1,132 @@
+#include <tests/query/every_query.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/buffer_hazards.hpp>
+#include <tests/support/host_frames.hpp>
+#include <tests/support/vulkan_host.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::BufferAccesses;
+using test_support::Dependency;
+using test_support::find_hazards;
+
+/// The queries whose results can stay on the device, with results that do.
+Batch resident(const Batch& every) {
+    Batch batch;
+    for (const AnyQuery& query : every.queries()) {
+        std::visit(
+            [&](auto kept) {
+                if constexpr (requires { kept.resident; }) {
+                    if (kept.technique != Technique::cpu) {
+                        kept.resident = true;
+                        batch.add(kept);
+                    }
+                }
+            },
+            query);
+    }
+    return batch;
+}
+
+/// Every barrier between accesses to buffers, those of the render graph and those beside it.
+class Hazards : public testing::Test {
+protected:
+    void SetUp() override {
+        loader_.emplace(host_.device(), BufferAccesses::lies());
+        Settings settings;
+        settings.batches_in_flight = 1;
+        Expected<Context> made = Context::create(loader_->host(), drawing(settings));
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        context_.emplace(std::move(*made));
+        Random random(23000);
+        a_ = *context_->add_shape(coast(random, 100, 0.5));
+        b_ = *context_->add_shape(with_holes(random, 3));
+    }
+    void TearDown() override {
+        context_.reset();
+        loader_.reset();
+        EXPECT_EQ(host_.close(), std::vector<std::string>{});
+    }
+
+    [[nodiscard]] Batch every(bool recordable) const { return every_query(a_, b_, 0, recordable); }
+
+    void run(const Batch& batch) {
+        Results results;
+        const Status status = context_->run(batch, results);
+        EXPECT_TRUE(status.ok()) << status.text();
+    }
+
+    void record(const Batch& batch) {
+        test_support::HostFrames frames(host_.device(), 1);
+        const Expected<Ticket> ticket =
+            context_->record(batch, {.commands = frames.begin(0), .frame = 0});
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+        frames.submit(0);
+        frames.wait(0);
+        context_->frame_completed(0);
+        Results results;
+        const Status status = context_->collect(*ticket, results);
+        EXPECT_TRUE(status.ok()) << status.text();
+    }
+
+    /// What was recorded has no hazard, and would have one without any of its dependencies.
+    static void check() {
+        const auto recordings = BufferAccesses::recordings();
+        EXPECT_EQ(find_hazards(recordings), std::vector<std::string>{});
+        int checked = 0;
+        const std::vector<Dependency> all = test_support::dependencies(recordings);
+        for (const Dependency& dependency : all) {
+            const std::string buffer = BufferAccesses::name_of(dependency.buffer);
+            if (buffer == "nearfield resident words" &&
+                dependency.destination == VK_ACCESS_HOST_READ_BIT) {
+                continue;  // the same graph serves results that the host reads
+            }
+            // Two resources of a graph can stand in one buffer, whose barriers cover both.
+            const bool is_covered = std::any_of(all.begin(), all.end(), [&](const auto& other) {
+                return other != dependency && other.buffer == dependency.buffer &&
+                       other.source == dependency.source && dependency.source != 0 &&
+                       (other.destination & dependency.destination) == dependency.destination;
+            });
+            if (is_covered) {
+                continue;
+            }
+            EXPECT_NE(find_hazards(recordings, &dependency), std::vector<std::string>{})
+                << "needless: access " << dependency.source << " to " << dependency.destination
+                << " of " << (buffer.empty() ? "all buffers" : buffer);
+            ++checked;
+        }
+        EXPECT_GT(checked, 5);
+    }
+
+private:
+    test_support::VulkanHost host_;
+    std::optional<test_support::FakeLoader> loader_;
+    std::optional<Context> context_;
+    ShapeHandle a_;
+    ShapeHandle b_;
+};
+
+TEST_F(Hazards, AreInNoBatch) {
+    run(every(false));
+    check();
+}
+
+TEST_F(Hazards, AreInNoBatchWhoseResultsStay) {
+    run(resident(every(true)));
+    check();
+}
+
+TEST_F(Hazards, AreInNoFrameOfAHost) {
+    record(every(true));
+    check();
+}
+
+}  // namespace
+}  // namespace nearfield::test
