@@ -61,16 +61,10 @@ graph::Handle Masks::declare_clear(graph::Graph& graph, graph::Handle scratch) c
     return scratch;
 }
 
+// The scratch memory belongs to the tile batch, whose former use has been waited for.
 void Masks::record_clear(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     const plan::ComputeWork& work = context_->round->compute;
-    VkMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    functions.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-                                   VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &barrier, 0, nullptr, 0,
-                                   nullptr);
     const auto fill = [&](std::uint64_t first, std::uint64_t words, std::uint32_t value) {
         if (words > 0) {
             functions.vkCmdFillBuffer(commands, context_->scratch, first * sizeof(value),
