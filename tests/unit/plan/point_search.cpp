@@ -36,8 +36,22 @@ protected:
     void build(const Rings& a, const Rings& b) {
         ASSERT_TRUE(a_.assign(a).ok());
         ASSERT_TRUE(b_.assign(b).ok());
+        build();
+    }
+    void build() {
         ASSERT_EQ(builder_.build(plan_, searches_), 1U);
         ASSERT_EQ(search().directions.size(), 1U);
+    }
+
+    /// The next build is of other polygons.
+    void use(const geometry::Polygon& a, const geometry::Polygon& b) {
+        plan_.queries.front().a = &a;
+        plan_.queries.front().b = &b;
+    }
+    void ask_for_contacts_within(double distance) {
+        ContactQuery contacts;
+        contacts.contact_distance = distance;
+        query_ = contacts;
     }
 
     [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units.size(); }
@@ -129,6 +143,47 @@ TEST_F(PointSearchInput, FollowsShapesThatGrowShrinkAndMove) {
     }
     // No more is left behind than a few times what is in use.
     EXPECT_LT(largest, 4096U + 4 * 2 * 2 * (300 + 40));
+}
+
+TEST_F(PointSearchInput, ForgetsShapesThatAreNoLongerUsed) {
+    Random random(20);
+    std::vector<geometry::Polygon> polygons(300);
+    for (geometry::Polygon& polygon : polygons) {
+        ASSERT_TRUE(polygon.assign(test::star(random, 100, 0.3)).ok());
+    }
+    std::size_t largest = 0;
+    for (std::size_t frame = 1; frame < polygons.size(); ++frame) {
+        use(polygons[frame - 1], polygons[frame]);
+        build();
+        largest = std::max(largest, builder_size());
+    }
+    // A shape of 100 edges takes less than 100 units for edges and boxes, and 50 for its samples.
+    EXPECT_LT(largest, 4096U + 5 * 4 * 150);
+}
+
+TEST_F(PointSearchInput, ReachesTheContactDistance) {
+    Random random(21);
+    for (int i = 0; i < 100; ++i) {
+        const double distance = random.between(1e-3, 2.0);
+        ask_for_contacts_within(distance);
+        build(test::star(random, 20, 0.3), test::star(random, 20, 0.3));
+        const double unit = std::ldexp(1.0, std::ilogb(b_.radius()));
+        EXPECT_GE(static_cast<double>(search().directions.front().reach) * unit, distance);
+        EXPECT_LE(static_cast<double>(search().directions.front().reach) * unit,
+                  distance * (1.0 + 1e-6));
+    }
+}
+
+TEST_F(PointSearchInput, MarginCoversSixteenRoundings) {
+    Random random(22);
+    for (int i = 0; i < 100; ++i) {
+        build(test::star(random, 20, 0.3), test::star(random, 20, 0.3));
+        const double unit = std::ldexp(1.0, std::ilogb(b_.radius()));
+        const double extent = a_.radius() + b_.radius();  // the centres coincide
+        const double rounding = std::ldexp(extent, -24);
+        EXPECT_GE(static_cast<double>(search().directions.front().margin) * unit, 16.0 * rounding);
+        EXPECT_LE(static_cast<double>(search().directions.front().margin) * unit, 17.0 * rounding);
+    }
 }
 
 }  // namespace
