@@ -115,6 +115,22 @@ TEST(ClosestPair, IsThatOfBruteForceFarAndNear) {
     EXPECT_GT(apart, 20);
 }
 
+TEST(OverlapTest, ShapesThatTouchUpToRoundingMeet) {
+    const Polygon square = samples::polygon({samples::rectangle(-0.5, -0.5, 0.5, 0.5)});
+    OverlapTest overlap_test;
+    for (const double far : {0.0, 1e3, 1e6}) {
+        const PlacedPair one(square, {{far, far}, 0.0}, square, {{far + 1.0, far}, 0.0});
+        const double rounding = one.a().rounding + one.b().rounding;
+        const PlacedPair near(square, {{far, far}, 0.0}, square,
+                              {{far + 1.0 + 0.5 * rounding, far}, 0.0});
+        ASSERT_FALSE(near.a().box.intersects(near.b().box));
+        EXPECT_TRUE(overlap_test.intersect(near.a(), near.b())) << far;
+        const PlacedPair apart(square, {{far, far}, 0.0}, square,
+                               {{far + 1.0 + 9.0 * rounding, far}, 0.0});
+        EXPECT_FALSE(overlap_test.intersect(apart.a(), apart.b())) << far;
+    }
+}
+
 TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     const Polygon wall = samples::polygon({samples::rectangle(0.0, 0.0, 10.0, 1.0)});
     ClosestPairFinder finder;
@@ -129,6 +145,25 @@ TEST(ClosestPair, UniqueUnlessAnotherIsAsClose) {
     EXPECT_TRUE(unique({samples::rectangle(2.0, 2.0, 2.4, 4.0)}));
     EXPECT_FALSE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0009}, {3.0, 5.0}}}));
     EXPECT_TRUE(unique({{{1.0, 2.0}, {3.0, 4.0}, {5.0, 2.0011}, {3.0, 5.0}}}));
+}
+
+TEST(ClosestPair, UniqueForEitherShape) {
+    // A's tips are close together, the two walls of B are not.
+    const Polygon thin = samples::polygon({{{-0.1, 0.0}, {0.0, -2.0}, {0.1, 0.0}, {0.0, 2.0}}});
+    const Polygon walls = samples::polygon(
+        {samples::rectangle(-3.0, -3.0, -2.0, 3.0), samples::rectangle(2.0, -3.0, 3.0, 3.0)});
+    ClosestPairFinder finder;
+    for (const bool swapped : {false, true}) {
+        const PlacedPair placed(swapped ? walls : thin, {}, swapped ? thin : walls, {});
+        const ClosestPair closest = finder.find(placed.a(), placed.b(), infinity, 1e-3);
+        EXPECT_NEAR(closest.squared_distance, 1.9 * 1.9, 1e-12);
+        EXPECT_FALSE(finder.is_unique(closest, Side::either, 1e-3, 0.5));
+        EXPECT_EQ(finder.is_unique(closest, Side::a, 1e-3, 0.5), !swapped);
+    }
+    // Nearer to one wall.
+    const PlacedPair beside(thin, {{0.01, 0.0}, 0.0}, walls, {});
+    const ClosestPair closest = finder.find(beside.a(), beside.b(), infinity, 1e-3);
+    EXPECT_TRUE(finder.is_unique(closest, Side::either, 1e-3, 0.5));
 }
 
 /// A rectangle whose upper and lower sides are divided into `edges` edges.
