@@ -46,6 +46,16 @@ void check_jobs(const JobSystem& jobs) {
     }
 }
 
+/// Two functions of a host that belong together.
+void check_both(const char* member, bool first, const char* first_name, bool second,
+                const char* second_name) {
+    if (first != second) {
+        refuse_setting(std::string("HostDevice::") + member + "." +
+                       (first ? second_name : first_name) + " is null, and " +
+                       (first ? first_name : second_name) + " is set; give both or neither");
+    }
+}
+
 }  // namespace
 
 HostDevice read_versioned(const HostDevice& given) {
@@ -53,13 +63,16 @@ HostDevice read_versioned(const HostDevice& given) {
         read_versioned(given, "HostDevice",
                        {offsetof(HostDevice, debug_utils), offsetof(HostDevice, allocator),
                         offsetof(HostDevice, pipeline_cache), offsetof(HostDevice, queue_access),
-                        offsetof(HostDevice, log), offsetof(HostDevice, completion_by_timeline)});
+                        offsetof(HostDevice, log), offsetof(HostDevice, completion_by_timeline),
+                        offsetof(HostDevice, memory)});
     const QueueAccess& access = host.queue_access;
-    if ((access.lock == nullptr) != (access.unlock == nullptr)) {
-        const bool locks = access.lock != nullptr;
-        refuse_setting(std::string("HostDevice::queue_access.") + (locks ? "unlock" : "lock") +
-                       " is null, and " + (locks ? "lock" : "unlock") +
-                       " is set; give both or neither");
+    check_both("queue_access", access.lock != nullptr, "lock", access.unlock != nullptr, "unlock");
+    const MemoryFunctions& memory = host.memory;
+    check_both("memory", memory.allocate != nullptr, "allocate", memory.free != nullptr, "free");
+    if (host.resident_families == nullptr && host.resident_family_count > 0) {
+        refuse_setting("HostDevice::resident_family_count is " +
+                       std::to_string(host.resident_family_count) +
+                       ", and resident_families is null");
     }
     if (host.completion_by_timeline && !host.timeline_semaphore) {
         refuse_setting(

@@ -3,6 +3,7 @@
 #include <engine/gpu/memory.hpp>
 #include <engine/gpu/requirements.hpp>
 
+#include <algorithm>
 #include <bit>
 
 namespace nearfield::gpu {
@@ -77,9 +78,33 @@ Device::Device(const HostDevice& host)
                                               host.physical_device, host.logic_op);
     gradient_format_ =
         find_gradient_format(functions_.vkGetPhysicalDeviceFormatProperties, host.physical_device);
-    timestamp_bits_ = queue_families(functions_.vkGetPhysicalDeviceQueueFamilyProperties,
-                                     host.physical_device)[host.queue_family]
-                          .timestampValidBits;
+    const std::vector<VkQueueFamilyProperties> families =
+        queue_families(functions_.vkGetPhysicalDeviceQueueFamilyProperties, host.physical_device);
+    timestamp_bits_ = families[host.queue_family].timestampValidBits;
+    queue_flags_ = families[host.queue_family].queueFlags;
+    set_resident_families(families.size());
+}
+
+void Device::set_resident_families(std::size_t family_count) {
+    resident_families_.push_back(host_.queue_family);
+    for (std::uint32_t i = 0; i < host_.resident_family_count; ++i) {
+        const std::uint32_t family = host_.resident_families[i];
+        if (family >= family_count) {
+            throw StatusException({StatusCode::invalid_settings,
+                                   "HostDevice::resident_families[" + std::to_string(i) + "] is " +
+                                       std::to_string(family) + ", and device '" + name_ +
+                                       "' has " + std::to_string(family_count) +
+                                       " queue families"});
+        }
+        if (std::find(resident_families_.begin(), resident_families_.end(), family) ==
+            resident_families_.end()) {
+            resident_families_.push_back(family);
+        }
+    }
+    if (resident_families_.size() == 1) {
+        resident_families_.clear();
+    }
+    host_.resident_families = nullptr;  // borrowed for the constructor
 }
 
 void Device::load_instance_functions(std::vector<std::string>& missing) {
@@ -142,20 +167,29 @@ bool Device::has_memory_type(std::uint32_t allowed, VkMemoryPropertyFlags requir
     return type < memory_.memoryTypeCount;
 }
 
-std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
-                                  VkMemoryPropertyFlags preferred) const {
-    if (!has_memory_type(allowed, required)) {
+std::uint32_t Device::usable_types(std::uint32_t allowed, VkMemoryPropertyFlags required) const {
+    std::uint32_t usable = 0;
+    for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+        usable |= is_usable_type(type, allowed, required) ? 1U << type : 0U;
+    }
+    if (usable == 0) {
         throw StatusException(
             Status(StatusCode::device_error, "device '" + name_ +
                                                  "' has no memory type with property flags " +
                                                  std::to_string(required) + " among the types " +
                                                  std::to_string(allowed) + " (bit mask)"));
     }
+    return usable;
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                  VkMemoryPropertyFlags preferred) const {
+    const std::uint32_t usable = usable_types(allowed, required);
     std::uint32_t best = 0;
     int best_score = -1;
     for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
         const int score = std::popcount(memory_flags(type) & preferred);
-        if (is_usable_type(type, allowed, required) && score > best_score) {
+        if (((usable >> type) & 1U) != 0 && score > best_score) {
             best = type;
             best_score = score;
         }

@@ -66,6 +66,19 @@ public:
     [[nodiscard]] MemoryCount& memory_count() const { return memory_count_; }
     /// The memory of all buffers and images.
     [[nodiscard]] MemoryBlocks& memory() const { return *memory_blocks_; }
+    /// The host's allocator of device memory, or null.
+    [[nodiscard]] const MemoryFunctions* host_memory() const {
+        return host_.memory.allocate != nullptr ? &host_.memory : nullptr;
+    }
+    /// What the queue family can do.
+    [[nodiscard]] VkQueueFlags queue_flags() const { return queue_flags_; }
+    /// The queue family draws; otherwise there is no Technique::raster.
+    [[nodiscard]] bool draws() const { return (queue_flags_ & VK_QUEUE_GRAPHICS_BIT) != 0; }
+    /// All queue families that use resident results, without repetition; empty if only
+    /// queue_family() does.
+    [[nodiscard]] const std::vector<std::uint32_t>& resident_families() const {
+        return resident_families_;
+    }
 #ifdef NEARFIELD_SHADER_RELOAD
     [[nodiscard]] ShaderWords& shader_words() const {
         return shader_words_;
@@ -101,9 +114,12 @@ public:
         return timestamp_bits_;
     }
 
+    /// The memory types among `allowed` (bit mask) that have all of `required`, without those that
+    /// need a feature or a protected allocation. Throws StatusException if there is none.
+    [[nodiscard]] std::uint32_t usable_types(std::uint32_t allowed,
+                                             VkMemoryPropertyFlags required) const;
     /// The memory type among `allowed` that has all of `required` and most of `preferred`; the
-    /// first one on a tie. Skips types that need a feature or a protected allocation. Throws
-    /// StatusException if no type has what is required.
+    /// first one on a tie. Skips types and throws as usable_types() does.
     [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                             VkMemoryPropertyFlags preferred) const;
     /// Returns whether such a memory type exists.
@@ -142,6 +158,8 @@ private:
     /// Each fills functions_ and appends the names of missing entry points.
     void load_instance_functions(std::vector<std::string>& missing);
     void load_device_functions(std::vector<std::string>& missing);
+    /// Throws StatusException (invalid_settings) if the device does not have one of the host's.
+    void set_resident_families(std::size_t family_count);
 
     HostDevice host_;
     std::optional<VkAllocationCallbacks> allocator_;
@@ -158,6 +176,8 @@ private:
     StrategySupport strategy_support_;
     VkFormat gradient_format_ = VK_FORMAT_UNDEFINED;
     std::uint32_t timestamp_bits_ = 0;
+    VkQueueFlags queue_flags_ = 0;
+    std::vector<std::uint32_t> resident_families_;
 };
 
 /// Throws StatusException (device_lost, out_of_memory or device_error) unless the result is a

@@ -1,23 +1,29 @@
+#include <engine/gpu/host_memory.hpp>
 #include <engine/gpu/memory.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace nearfield::gpu {
 
-/// One allocation. Its pieces are in ascending order and do not overlap.
+/// One allocation, of the library's or the host's. Its pieces are in ascending order and do not
+/// overlap.
 struct MemoryBlock {
     struct Piece {
         std::uint64_t offset;
         std::uint64_t size;
     };
 
-    Owned<VkDeviceMemory> memory;
+    Owned<VkDeviceMemory> own;
+    std::optional<HostMemory> given;  // instead, where the host has an allocator
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::uint64_t start = 0;  // of the block in its memory
     CountedBytes counted;
     std::uint64_t bytes = 0;
     std::uint32_t type = 0;
     MemoryKind kind{};
     VkMemoryPropertyFlags flags = 0;
-    std::byte* data = nullptr;  // mapped for as long as it lives
+    std::byte* data = nullptr;  // at `start`, mapped for as long as it lives
     std::vector<Piece> pieces;
 };
 
@@ -46,11 +52,12 @@ bool is_out_of_memory(VkResult result) {
 }  // namespace
 
 VkDeviceMemory DeviceMemory::get() const {
-    return block_ == nullptr ? VK_NULL_HANDLE : block_->memory.get();
+    return block_ == nullptr ? VK_NULL_HANDLE : block_->memory;
 }
 
 std::byte* DeviceMemory::data() const {
-    return block_ == nullptr || block_->data == nullptr ? nullptr : block_->data + offset_;
+    return block_ == nullptr || block_->data == nullptr ? nullptr
+                                                        : block_->data + (offset_ - block_->start);
 }
 
 VkMemoryPropertyFlags DeviceMemory::flags() const {
@@ -75,6 +82,9 @@ DeviceMemory MemoryBlocks::allocate(const VkMemoryRequirements& needs, const Mem
             std::max<std::uint64_t>(64, device_->limits().nonCoherentAtomSize);
         piece.size = rounded_up(needs.size, atom);
         piece.alignment = std::max(needs.alignment, atom);
+    }
+    if (device_->host_memory() != nullptr) {
+        return take(ask_host(piece, wish, kind, what), piece);
     }
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     // Device-local memory is limited, and its host-visible part is often small; the next best type
@@ -122,7 +132,8 @@ VkResult MemoryBlocks::add_block(std::uint32_t type, MemoryKind kind, std::uint6
     if (result != VK_SUCCESS) {
         return result;
     }
-    block->memory = Owned<VkDeviceMemory>(*device_, memory);
+    block->own = Owned<VkDeviceMemory>(*device_, memory);
+    block->memory = memory;
     block->counted = CountedBytes(*device_, bytes);
     block->bytes = bytes;
     block->type = type;
@@ -139,6 +150,33 @@ VkResult MemoryBlocks::add_block(std::uint32_t type, MemoryKind kind, std::uint6
     return VK_SUCCESS;
 }
 
+/// A block for one piece, from the host's allocator.
+MemoryBlock& MemoryBlocks::ask_host(const VkMemoryRequirements& needs, const MemoryWish& wish,
+                                    MemoryKind kind, const std::string& what) {
+    MemoryRequest request;
+    request.requirements = needs;
+    request.requirements.memoryTypeBits =
+        device_->usable_types(needs.memoryTypeBits, wish.required);
+    request.required = wish.required;
+    request.preferred = wish.preferred;
+    request.optimal_images = kind == MemoryKind::image;
+    request.name = what.c_str();
+    auto block = std::make_unique<MemoryBlock>();
+    block->given.emplace(*device_->host_memory(), request);
+    const MemoryAllocation& given = block->given->allocation();
+    block->memory = given.memory;
+    block->start = given.offset;
+    block->counted = CountedBytes(*device_, needs.size);
+    block->bytes = needs.size;
+    block->type = given.memory_type;
+    block->kind = kind;
+    block->flags = device_->memory_flags(given.memory_type);
+    if (kind == MemoryKind::mapped_buffer) {
+        block->data = static_cast<std::byte*>(given.mapped);
+    }
+    return *blocks_.emplace_back(std::move(block));
+}
+
 DeviceMemory MemoryBlocks::take_from_any(std::uint32_t type, MemoryKind kind,
                                          const VkMemoryRequirements& needs) {
     for (const auto& block : blocks_) {
@@ -153,14 +191,14 @@ DeviceMemory MemoryBlocks::take_from_any(std::uint32_t type, MemoryKind kind,
 
 /// The first gap that is large enough; nothing if there is none.
 DeviceMemory MemoryBlocks::take(MemoryBlock& block, const VkMemoryRequirements& needs) {
-    std::uint64_t start = 0;
+    std::uint64_t start = block.start;
     auto next = block.pieces.begin();
     while (next != block.pieces.end() && start + needs.size > next->offset) {
         start = rounded_up(next->offset + next->size, needs.alignment);
         ++next;
     }
     DeviceMemory taken;
-    if (start + needs.size <= block.bytes) {
+    if (start + needs.size <= block.start + block.bytes) {
         block.pieces.insert(next, {start, needs.size});
         taken.blocks_ = this;
         taken.block_ = &block;

@@ -97,7 +97,8 @@ private:
 };
 
 /// The device memory of a context: a few blocks (vkAllocateMemory), from which buffers and images
-/// take pieces, the first gap that fits. A block that is no longer used is freed at once.
+/// take pieces, the first gap that fits. A block that is no longer used is freed at once. Where the
+/// host has an allocator (HostDevice::memory), it gives a block for each piece.
 class MemoryBlocks {
 public:
     explicit MemoryBlocks(const Device& device);
@@ -106,8 +107,8 @@ public:
     MemoryBlocks& operator=(const MemoryBlocks&) = delete;
 
     /// Takes a piece that meets these requirements, of the type that fits the wish best; if that
-    /// type is exhausted, of the next one. Throws StatusException (out_of_memory) if every type is.
-    /// `what`: for the message.
+    /// type is exhausted, of the next one. Throws StatusException (out_of_memory) if every type is;
+    /// for what the host's allocator does wrong see HostMemory. `what`: for the message.
     [[nodiscard]] DeviceMemory allocate(const VkMemoryRequirements& needs, const MemoryWish& wish,
                                         MemoryKind kind, const std::string& what);
 
@@ -120,6 +121,8 @@ private:
 
     [[nodiscard]] DeviceMemory take_from_any(std::uint32_t type, MemoryKind kind,
                                              const VkMemoryRequirements& needs);
+    [[nodiscard]] MemoryBlock& ask_host(const VkMemoryRequirements& needs, const MemoryWish& wish,
+                                        MemoryKind kind, const std::string& what);
     [[nodiscard]] DeviceMemory take(MemoryBlock& block, const VkMemoryRequirements& needs);
     [[nodiscard]] VkResult add_block(std::uint32_t type, MemoryKind kind, std::uint64_t bytes,
                                      const std::string& what);

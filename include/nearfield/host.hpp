@@ -51,6 +51,50 @@ struct QueueAccess {
                        VkFence fence) = nullptr;
 };
 
+/// A request for device memory, to MemoryFunctions::allocate.
+struct MemoryRequest {
+    /// Size, alignment and allowed memory types (bit mask); types that need a feature or protected
+    /// memory are not among them. Of memory that is to be mapped, size and alignment are multiples
+    /// of nonCoherentAtomSize and of 64 bytes.
+    VkMemoryRequirements requirements{};
+    /// Property flags that the memory type must have. VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT is among
+    /// them if and only if the memory has to be mapped.
+    VkMemoryPropertyFlags required = 0;
+    VkMemoryPropertyFlags preferred = 0;  ///< property flags that it should have
+    /// For images with optimal tiling, otherwise for one buffer: what bufferImageGranularity
+    /// separates. Images that are never in use at the same time share memory.
+    bool optimal_images = false;
+    const char* name = "";  ///< what it is for; valid during the call
+};
+
+/// Device memory that a host gave: bytes `offset` to `offset` + requirements.size of `memory`.
+struct MemoryAllocation {
+    VkDeviceMemory memory = VK_NULL_HANDLE;  ///< of HostDevice::device; may hold other data too
+    VkDeviceSize offset = 0;                 ///< a multiple of requirements.alignment
+    std::uint32_t memory_type = 0;           ///< that `memory` was allocated from
+    /// Where the host sees the byte at `offset`, if the memory has to be mapped; it stays mapped
+    /// until it is freed. Otherwise ignored.
+    void* mapped = nullptr;
+    void* handle = nullptr;  ///< the host's own, for `free`; not read
+};
+
+/// A host's allocator of device memory. Both functions or neither. They are called by the thread
+/// that called the library, during any call that may allocate or free (Context::create, submit,
+/// record, resident_layout, trim, collect, the destructor, ...), must not throw and must not call
+/// the context.
+struct MemoryFunctions {
+    void* user = nullptr;  ///< passed to each function
+    /// Fills in `allocation` (which has its defaults) and returns VK_SUCCESS, or returns an error,
+    /// which fails the call of the library as that of vkAllocateMemory would. Which of the allowed
+    /// types is taken, and what happens if one is exhausted, is up to the function. An allocation
+    /// that contradicts the request is given back and fails with StatusCode::invalid_settings.
+    VkResult (*allocate)(void* user, const MemoryRequest* request,
+                         MemoryAllocation* allocation) = nullptr;
+    /// Takes back what `allocate` gave, with the same values; once for every success. Everything
+    /// bound to it was destroyed, and the device no longer uses it.
+    void (*free)(void* user, const MemoryAllocation* allocation) = nullptr;
+};
+
 /// A host's Vulkan objects. nearfield borrows them: they must outlive the context, which never
 /// destroys them.
 ///
@@ -59,8 +103,9 @@ struct QueueAccess {
 /// fences of their own work, never for a queue or a device to become idle.
 ///
 /// Nothing needs to be enabled on the device: the base is Vulkan 1.1 without features or
-/// extensions. The queue family must have VK_QUEUE_GRAPHICS_BIT and VK_QUEUE_COMPUTE_BIT.
-/// requirements() (requirements.hpp) checks all of this before the device is created.
+/// extensions. The queue family must have VK_QUEUE_COMPUTE_BIT; without VK_QUEUE_GRAPHICS_BIT there
+/// is no Technique::raster. requirements() (requirements.hpp) checks all of this before the device
+/// is created.
 struct HostDevice {
     std::uint32_t structure_size = sizeof(HostDevice);  ///< leave unchanged
     std::uint32_t queue_family = 0;        ///< of `queue` and of command buffers to record into
@@ -101,6 +146,16 @@ struct HostDevice {
     /// `queue_access.submit` has a fence of its own for every submission. Needs
     /// `timeline_semaphore` (StatusCode::invalid_settings otherwise).
     bool completion_by_timeline = false;
+
+    /// Where all device memory comes from. Default: blocks that the library allocates.
+    MemoryFunctions memory = {};
+    /// Queue families other than `queue_family` whose commands read resident results
+    /// (resident.hpp). Their images and buffers are then shared by these families and
+    /// `queue_family` (VK_SHARING_MODE_CONCURRENT), so a semaphore is all that a queue of another
+    /// family needs. Default: exclusive to `queue_family`. The array is copied; `device` must have
+    /// been created with queues of each.
+    const std::uint32_t* resident_families = nullptr;
+    std::uint32_t resident_family_count = 0;  ///< length of `resident_families`
 };
 
 /// Selects the device of a headless context.

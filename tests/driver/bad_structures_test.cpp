@@ -99,6 +99,19 @@ TEST_F(BadStructures, AllocationCallbacksWithoutFunctions) {
     try_without(&VkAllocationCallbacks::pfnInternalFree, "pfnInternalFree");
 }
 
+TEST_F(BadStructures, HalfAnAllocatorOfDeviceMemory) {
+    HostDevice host = driver_.host();
+    host.memory.allocate = [](void*, const MemoryRequest*, MemoryAllocation*) {
+        return VK_SUCCESS;
+    };
+    expect_refused(Context::create(host).error(), StatusCode::invalid_settings,
+                   "HostDevice::memory.free is null, and allocate is set");
+    host.memory.allocate = nullptr;
+    host.memory.free = [](void*, const MemoryAllocation*) {};
+    expect_refused(Context::create(host).error(), StatusCode::invalid_settings,
+                   "HostDevice::memory.allocate is null, and free is set");
+}
+
 TEST_F(BadStructures, CostsThatAreNoTimes) {
     for (const double bad : {-1.0, not_a_number, infinity, -infinity}) {
         const auto try_cost = [&](auto TechniqueCost::*kind, double WorkCost::*part,
@@ -140,8 +153,9 @@ TEST_F(BadStructures, SizesThatCutAMemberInTwo) {
         expect_refused(status, StatusCode::invalid_settings, name + "::structure_size is ");
     };
     HostDevice host = driver_.host();
-    for (const std::size_t size : {offsetof(HostDevice, device), offsetof(HostDevice, log) + 8,
-                                   offsetof(HostDevice, queue_access) + 8}) {
+    for (const std::size_t size :
+         {offsetof(HostDevice, device), offsetof(HostDevice, log) + 8,
+          offsetof(HostDevice, queue_access) + 8, offsetof(HostDevice, memory) + 8}) {
         host.structure_size = static_cast<std::uint32_t>(size);
         expect(Context::create(host).error(), "HostDevice");
     }

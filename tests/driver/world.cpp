@@ -99,7 +99,9 @@ void World::take_all_before(Step step) {
 }
 
 Status World::create() {
-    Expected<Context> made = Context::create(driver_.host());
+    HostDevice host = driver_.host();
+    host.memory = memory_;
+    Expected<Context> made = Context::create(host);
     if (made.has_value()) {
         context_.emplace(std::move(*made));
     }

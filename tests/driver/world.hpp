@@ -62,6 +62,9 @@ public:
     [[nodiscard]] Context& context() { return *context_; }
     [[nodiscard]] bool has_context() const { return context_.has_value(); }
 
+    /// Contexts made from now on take their device memory from these functions.
+    void use_memory(const MemoryFunctions& memory) { memory_ = memory; }
+
     /// Takes one step.
     Status take(Step step);
     /// Takes all steps before `step`; each must succeed.
@@ -108,6 +111,7 @@ private:
     test_support::MockDriver driver_;
     VkSemaphore before_;
     VkSemaphore after_;
+    MemoryFunctions memory_;
     std::optional<Context> context_;
     ShapeHandle a_;
     ShapeHandle b_;
