@@ -25,11 +25,13 @@ plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings
     limits.memory = settings.memory_limit;
     limits.hierarchy_height = settings.hierarchy_height;
     limits.bounding_volume = settings.bounding_volume;
-    limits.techniques = {true, settings.techniques.raster, settings.techniques.compute};
+    limits.techniques = {.device = device != nullptr,
+                         .raster = settings.techniques.raster,
+                         .compute = settings.techniques.compute};
     if (device == nullptr) {
-        limits.techniques.device = false;
         return limits;
     }
+    limits.techniques.draws = device->draws();
     limits.subpixel = subpixel_grid(*device);
     limits.largest_atlas = std::min(limits.largest_atlas, device->limits().maxImageDimension2D);
     limits.largest_image = device->limits().maxImageDimension2D;
@@ -49,6 +51,12 @@ CostModel costs_of(const gpu::Device* device, const Settings& settings) {
 
 Settings without_device(Settings settings) {
     settings.techniques = {.raster = false, .compute = false};
+    return settings;
+}
+
+/// Without the raster where the queue family does not draw.
+Settings on_device(Settings settings, const gpu::Device& device) {
+    settings.techniques.raster = settings.techniques.raster && device.draws();
     return settings;
 }
 
@@ -82,7 +90,7 @@ Context::Implementation::Implementation(std::unique_ptr<gpu::HeadlessDevice> own
                                         const HostDevice& host, const Settings& settings)
     : own_device_(std::move(own)),
       device_(std::make_unique<gpu::Device>(host)),
-      settings_(settings),
+      settings_(on_device(settings, *device_)),
       costs_(costs_of(device_.get(), settings)),
       machinery_(make_machinery()),
       lost_device_(lost_device()) {

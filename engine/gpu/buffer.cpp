@@ -1,5 +1,6 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/gpu/buffer.hpp>
+#include <engine/gpu/sharing.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -22,8 +23,12 @@ VkMemoryPropertyFlags preferred_memory(Direction direction) {
 }  // namespace
 
 MappedBuffer::MappedBuffer(const Device& device, VkBufferUsageFlags usage, Direction direction,
-                           std::string name)
-    : device_(&device), usage_(usage), direction_(direction), name_(std::move(name)) {}
+                           std::string name, std::span<const std::uint32_t> families)
+    : device_(&device),
+      usage_(usage),
+      direction_(direction),
+      name_(std::move(name)),
+      families_(families) {}
 
 bool MappedBuffer::reserve(std::uint64_t bytes) {
     bytes = std::max<std::uint64_t>(bytes, 1);
@@ -59,7 +64,7 @@ void MappedBuffer::create_buffer(std::uint64_t bytes) {
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = bytes;
     info.usage = usage_;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    share(info, families_);
     // Composed first: if this allocation fails, no buffer may leak.
     const std::string what = "buffer '" + name_ + "'";
     VkBuffer buffer = VK_NULL_HANDLE;

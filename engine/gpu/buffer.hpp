@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace nearfield::gpu {
@@ -18,8 +19,9 @@ enum class Direction { upload, readback, none };
 /// A buffer that only grows; permanently mapped if the host accesses it.
 class MappedBuffer {
 public:
+    /// `families`: the queue families that share the buffer, borrowed; fewer than two: exclusive.
     MappedBuffer(const Device& device, VkBufferUsageFlags usage, Direction direction,
-                 std::string name);
+                 std::string name, std::span<const std::uint32_t> families = {});
 
     /// Grows the buffer to `bytes` (at least one) if it is smaller. Growing discards its content
     /// and must not happen while the device uses the buffer. Returns true if the buffer was
@@ -47,6 +49,7 @@ private:
     VkBufferUsageFlags usage_;
     Direction direction_;
     std::string name_;
+    std::span<const std::uint32_t> families_;
     DeviceMemory memory_;  // declared before the buffer bound to it, so it is freed after
     Owned<VkBuffer> buffer_;
     std::byte* data_ = nullptr;

@@ -1,4 +1,5 @@
 #include <engine/gpu/image.hpp>
+#include <engine/gpu/sharing.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -37,7 +38,7 @@ void KeptImage::create_image(VkExtent2D extent) {
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage =
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    share(info, device_->resident_families());
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImage image = VK_NULL_HANDLE;
     check(

@@ -53,6 +53,22 @@ void add(Requirements& requirements, const char* name, const char* unlocks, Reas
     requirements.optional.push_back({name, unlocks, available, std::move(missing)});
 }
 
+void add_raster(const PhysicalDevice& device, Requirements& requirements) {
+    const auto get = find_function<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+        device, "vkGetPhysicalDeviceQueueFamilyProperties");
+    Reasons missing;
+    if (get == nullptr || !requirements.queue_family) {
+        missing.emplace_back("VK_QUEUE_GRAPHICS_BIT: there is no queue family to ask");
+    } else if ((queue_families(get, device.physical_device)[*requirements.queue_family].queueFlags &
+                VK_QUEUE_GRAPHICS_BIT) == 0) {
+        missing.push_back("VK_QUEUE_GRAPHICS_BIT: queue family " +
+                          std::to_string(*requirements.queue_family) +
+                          " lacks it, so it computes and does not draw");
+    }
+    add(requirements, "VK_QUEUE_GRAPHICS_BIT", "Technique::raster; compute and cpu work without",
+        std::move(missing));
+}
+
 void add_strategies(const PhysicalDevice& device, Requirements& requirements) {
     requirements.features.logicOp = offered_features(device).logicOp;
     StrategySupport support{requirements.features.logicOp == VK_TRUE, 0};
@@ -138,6 +154,7 @@ void add_debug_utils(const PhysicalDevice& device, Requirements& requirements) {
 }  // namespace
 
 void survey_optional_parts(const PhysicalDevice& device, Requirements& requirements) {
+    add_raster(device, requirements);
     add_strategies(device, requirements);
     add_timeline_semaphores(device, requirements);
     add_timestamps(device, requirements);

@@ -105,34 +105,37 @@ void check_version(const PhysicalDevice& device, const VkPhysicalDevicePropertie
     }
 }
 
-/// Selects the requested family. If none is requested: the first family that meets all requirements
-/// or, if there is none, the first of all, whose missing capabilities are then reported.
+/// The first family that can do all of it.
+std::optional<std::uint32_t> find_family(const std::vector<VkQueueFamilyProperties>& families,
+                                         VkQueueFlags needed) {
+    const auto found = std::find_if(families.begin(), families.end(), [needed](const auto& each) {
+        return (each.queueFlags & needed) == needed;
+    });
+    return found == families.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::uint32_t>(found - families.begin()));
+}
+
+/// Selects the requested family. If none is requested: the first family that computes and draws;
+/// otherwise the first that computes; otherwise the first of all, whose missing capability is then
+/// reported.
 void choose_queue_family(const PhysicalDevice& device,
                          const std::vector<VkQueueFamilyProperties>& families,
                          Requirements& requirements) {
     const VkQueueFlags needed = requirements.queue_flags;
     std::uint32_t family = device.queue_family;
     if (family == PhysicalDevice::any_queue_family) {
-        const auto found = std::find_if(
-            families.begin(), families.end(),
-            [needed](const auto& each) { return (each.queueFlags & needed) == needed; });
-        family = found == families.end() ? 0 : static_cast<std::uint32_t>(found - families.begin());
+        family = find_family(families, needed | VK_QUEUE_GRAPHICS_BIT)
+                     .value_or(find_family(families, needed).value_or(0));
     }
     const std::string name = "queue family " + std::to_string(family);
     if (family >= families.size()) {
         requirements.unmet.push_back(name + ": the device has " + std::to_string(families.size()) +
                                      " queue families");
-        return;
-    }
-    const VkQueueFlags flags = families[family].queueFlags;
-    const std::string reason = ": " + name + " lacks it, and one queue has to draw and compute";
-    if ((flags & VK_QUEUE_GRAPHICS_BIT) == 0) {
-        requirements.unmet.push_back("VK_QUEUE_GRAPHICS_BIT" + reason);
-    }
-    if ((flags & VK_QUEUE_COMPUTE_BIT) == 0) {
-        requirements.unmet.push_back("VK_QUEUE_COMPUTE_BIT" + reason);
-    }
-    if ((flags & needed) == needed) {
+    } else if ((families[family].queueFlags & needed) != needed) {
+        requirements.unmet.push_back("VK_QUEUE_COMPUTE_BIT: " + name +
+                                     " lacks it, and every technique of a device computes");
+    } else {
         requirements.queue_family = family;
     }
 }

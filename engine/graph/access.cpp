@@ -12,6 +12,14 @@ constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADE
                                                   VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 
+// What a queue family has that computes and does not draw, of all that the table names.
+constexpr VkPipelineStageFlags stages_without_drawing = VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                                                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                                        VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkAccessFlags accesses_without_drawing =
+    VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+    VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+
 // Attachments are read as well as written: load operations, blending, logic operations and tests
 // depend on the previous content. All reads of images share one layout, and all reads of one kind
 // of resource differ in their stages; so a read after a read needs no check of the layout.
@@ -98,6 +106,16 @@ constexpr std::array<AccessTraits, 13> accesses = {{
 
 const AccessTraits& traits(Access access) noexcept {
     return accesses[static_cast<std::size_t>(access)];
+}
+
+AccessTraits traits(Access access, VkQueueFlags queue) noexcept {
+    AccessTraits on_queue = traits(access);
+    if ((queue & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        on_queue.stages &= stages_without_drawing;
+        on_queue.read_access &= accesses_without_drawing;
+        on_queue.write_access &= accesses_without_drawing;
+    }
+    return on_queue;
 }
 
 }  // namespace nearfield::graph

@@ -23,4 +23,8 @@ struct AccessTraits {
 
 [[nodiscard]] const AccessTraits& traits(Access access) noexcept;
 
+/// The same on a queue family with these flags: without the stages and accesses that a family that
+/// does not draw lacks. Nothing is left of an access by drawing.
+[[nodiscard]] AccessTraits traits(Access access, VkQueueFlags queue) noexcept;
+
 }  // namespace nearfield::graph

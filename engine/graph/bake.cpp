@@ -29,8 +29,8 @@ void find_attachments(const Graph& graph, const BakedGraph& baked, std::uint32_t
 
 }  // namespace
 
-Expected<BakedGraph> bake(const Graph& graph) {
-    if (Status status = check_declarations(graph); !status.ok()) {
+Expected<BakedGraph> bake(const Graph& graph, VkQueueFlags queue) {
+    if (Status status = check_declarations(graph, queue); !status.ok()) {
         return status;
     }
     const Expected<std::vector<std::uint32_t>> order = order_passes(graph);
@@ -42,7 +42,7 @@ Expected<BakedGraph> bake(const Graph& graph) {
         baked.passes.emplace_back().pass = pass;
     }
     find_lifetimes(graph, baked);
-    place_barriers(graph, baked);
+    place_barriers(graph, queue, baked);
     for (std::uint32_t position = 0; position < baked.passes.size(); ++position) {
         BakedPass& pass = baked.passes[position];
         if (graph.passes()[pass.pass].kind == PassKind::graphics) {

@@ -60,11 +60,15 @@ struct BakedGraph {
     std::uint32_t memory_slots = 0;
 };
 
-/// Bakes a graph. Rejects, naming pass and resource: a cycle; a read of a version that nothing
+/// The queue family that can execute any graph.
+inline constexpr VkQueueFlags universal_queue = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+
+/// Bakes a graph for a queue family with these flags: barriers name only stages and accesses that
+/// it has. Rejects, naming pass and resource: a cycle; a read of a version that nothing
 /// wrote; two passes that write the same version; a read of a version that is not the newest but
 /// whose successor's writer comes before (a stale handle); an access that does not fit the kind of
-/// resource or pass; attachments of different extents; a graphics pass without attachment; a pass
-/// that uses one resource twice.
-[[nodiscard]] Expected<BakedGraph> bake(const Graph& graph);
+/// resource or pass; a graphics pass where the family does not draw; attachments of different
+/// extents; a graphics pass without attachment; a pass that uses one resource twice.
+[[nodiscard]] Expected<BakedGraph> bake(const Graph& graph, VkQueueFlags queue = universal_queue);
 
 }  // namespace nearfield::graph

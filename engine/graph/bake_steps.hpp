@@ -12,8 +12,9 @@
 /// The steps of bake(), in order of execution.
 namespace nearfield::graph {
 
-/// Rejects errors of a single resource or pass: formats, accesses, attachments.
-[[nodiscard]] Status check_declarations(const Graph& graph);
+/// Rejects errors of a single resource or pass: formats, accesses, attachments, passes that the
+/// queue family cannot execute.
+[[nodiscard]] Status check_declarations(const Graph& graph, VkQueueFlags queue);
 
 /// Indices of the passes in the order of execution. A reader of a version comes after the pass that
 /// produced it and before the pass that replaces it; otherwise passes keep the order of
@@ -23,8 +24,9 @@ namespace nearfield::graph {
 /// Fills in the lifetimes and assigns memory slots to the images. Requires the order.
 void find_lifetimes(const Graph& graph, BakedGraph& baked);
 
-/// Places the barriers before the passes and after the last one. Requires order and lifetimes.
-void place_barriers(const Graph& graph, BakedGraph& baked);
+/// Places the barriers before the passes and after the last one, with the stages and accesses of
+/// the queue family. Requires order and lifetimes.
+void place_barriers(const Graph& graph, VkQueueFlags queue, BakedGraph& baked);
 
 /// An error in a graph. Graphs are built by the library itself, so this is never the host's
 /// mistake.

@@ -44,10 +44,10 @@ Barrier make_barrier(std::uint32_t resource, Source source, const AccessTraits& 
 }
 
 /// The history that the last use before the graph leaves.
-History history_of(const ExternalAccess& outside) {
+History history_of(const ExternalAccess& outside, VkQueueFlags queue) {
     History history;
     if (outside.before) {
-        const AccessTraits& former = traits(*outside.before);
+        const AccessTraits former = traits(*outside.before, queue);
         if (former.writes) {
             history.write_stages = former.stages;
             history.write_access = former.write_access;
@@ -61,8 +61,7 @@ History history_of(const ExternalAccess& outside) {
 /// The barrier that a write needs, if any. The first use of an image is a write; it always needs a
 /// barrier for the layout, whose source is filled in later, when all histories are known. The first
 /// write of a buffer needs none: the buffer's owner has waited for the fence of its former use.
-std::optional<Barrier> write(History& history, std::uint32_t resource, Access access) {
-    const AccessTraits& wanted = traits(access);
+std::optional<Barrier> write(History& history, std::uint32_t resource, const AccessTraits& wanted) {
     const Source source = before_write(history);
     const Barrier barrier = make_barrier(resource, source, wanted, history);
     history = {.write_stages = wanted.stages,
@@ -77,8 +76,8 @@ std::optional<Barrier> write(History& history, std::uint32_t resource, Access ac
 /// The barrier that a read needs, if any. None if an earlier read of the same kind has waited for
 /// the write. None if there was no write: then the host wrote the buffer, and vkQueueSubmit makes
 /// earlier host writes visible to all the commands it submits.
-std::optional<Barrier> read(History& history, std::uint32_t resource, Access access) {
-    const AccessTraits& wanted = traits(access);
+std::optional<Barrier> read(History& history, std::uint32_t resource, Access access,
+                            const AccessTraits& wanted) {
     const std::uint32_t reader = 1U << static_cast<std::uint32_t>(access);
     const bool synchronised = (history.readers & reader) != 0 || history.write_stages == 0;
     const Barrier barrier =
@@ -120,10 +119,10 @@ void wait_for_memory(BakedGraph& baked, const std::vector<History>& histories,
 
 }  // namespace
 
-void place_barriers(const Graph& graph, BakedGraph& baked) {
+void place_barriers(const Graph& graph, VkQueueFlags queue, BakedGraph& baked) {
     std::vector<History> histories;
     for (const Resource& resource : graph.resources()) {
-        histories.push_back(history_of(resource.outside));
+        histories.push_back(history_of(resource.outside, queue));
     }
     std::vector<std::vector<std::uint32_t>> images_in_slot(baked.memory_slots);
     for (std::uint32_t position = 0; position < baked.passes.size(); ++position) {
@@ -134,9 +133,10 @@ void place_barriers(const Graph& graph, BakedGraph& baked) {
             if (lifetime.memory_slot != no_memory_slot && lifetime.first == position) {
                 images_in_slot[lifetime.memory_slot].push_back(resource);
             }
+            const AccessTraits wanted = traits(use.access, queue);
             const std::optional<Barrier> barrier =
-                use.write ? write(histories[resource], resource, use.access)
-                          : read(histories[resource], resource, use.access);
+                use.write ? write(histories[resource], resource, wanted)
+                          : read(histories[resource], resource, use.access, wanted);
             if (barrier) {
                 pass.barriers.push_back(*barrier);
             }
@@ -150,7 +150,7 @@ void place_barriers(const Graph& graph, BakedGraph& baked) {
         const std::optional<Access> after = graph.resources()[resource].outside.after;
         if (after && baked.lifetimes[resource].used) {
             baked.to_host.push_back(
-                make_barrier(resource, before_write(history), traits(*after), history));
+                make_barrier(resource, before_write(history), traits(*after, queue), history));
         }
         if (graph.resources()[resource].buffer.read_by_host && history.write_stages != 0) {
             baked.to_host.push_back({.resource = resource,

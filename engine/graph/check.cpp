@@ -119,7 +119,7 @@ Status check_attachments(const Graph& graph, const Pass& pass) {
 
 }  // namespace
 
-Status check_declarations(const Graph& graph) {
+Status check_declarations(const Graph& graph, VkQueueFlags queue) {
     for (const Resource& resource : graph.resources()) {
         if (!resource.is_image) {
             continue;
@@ -134,6 +134,10 @@ Status check_declarations(const Graph& graph) {
         }
         if (pass.kind != PassKind::graphics) {
             continue;
+        }
+        if ((queue & VK_QUEUE_GRAPHICS_BIT) == 0) {
+            return graph_error("pass " + quoted(pass.name) +
+                               " is a graphics pass, and the queue family does not draw");
         }
         if (Status status = check_attachments(graph, pass); !status.ok()) {
             return status;

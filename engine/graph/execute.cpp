@@ -303,7 +303,7 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
 }
 
 std::unique_ptr<Executor> make_executor(const gpu::Device& device, const Graph& graph) {
-    Expected<BakedGraph> baked = bake(graph);
+    Expected<BakedGraph> baked = bake(graph, device.queue_flags());
     if (!baked) {
         throw StatusException(baked.error());
     }

@@ -109,23 +109,36 @@ Status check_field(const DistanceFieldQuery& query) {
 
 Status no_technique(Technique technique, const AvailableTechniques& available) {
     const std::string needs = std::string("the technique ") + to_string(technique);
+    if (!available.device) {
+        return {StatusCode::unsupported_technique,
+                needs +
+                    " needs a Vulkan device, and this context has none (Context::create_cpu); ask "
+                    "for cpu or automatic"};
+    }
+    if (technique == Technique::raster && !available.draws) {
+        return {StatusCode::unsupported_technique,
+                needs +
+                    " draws, and the host's queue family does not (it lacks "
+                    "VK_QUEUE_GRAPHICS_BIT); ask for compute, cpu or automatic"};
+    }
     return {StatusCode::unsupported_technique,
-            available.device ? "this context was made without " + needs +
-                                   " (Settings::techniques); add it there, or ask for automatic"
-                             : needs +
-                                   " needs a Vulkan device, and this context has none "
-                                   "(Context::create_cpu); ask for cpu or automatic"};
+            "this context was made without " + needs +
+                " (Settings::techniques); add it there, or ask for automatic"};
 }
 
 /// The error for a query that uses `what`, which none of this context's techniques answers.
 Status none_answers(const char* what, const AvailableTechniques& available) {
-    return {
-        StatusCode::unsupported_technique,
-        available.device
-            ? std::string("no technique that this context has (Settings::techniques) answers ") +
-                  what
-            : std::string("only a Vulkan device answers ") + what +
-                  ", and this context has none (Context::create_cpu)"};
+    if (!available.device) {
+        return {StatusCode::unsupported_technique,
+                std::string("only a Vulkan device answers ") + what +
+                    ", and this context has none (Context::create_cpu)"};
+    }
+    return {StatusCode::unsupported_technique,
+            std::string("no technique that this context has (Settings::techniques") +
+                (available.draws ? ""
+                                 : "; the host's queue family lacks VK_QUEUE_GRAPHICS_BIT, so "
+                                   "raster is not among them") +
+                ") answers " + what};
 }
 
 template <class Query>

@@ -50,7 +50,7 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
       records_(device,
                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                    VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-               gpu::Direction::none, "nearfield resident records") {}
+               gpu::Direction::none, "nearfield resident records", device.resident_families()) {}
 
 void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
     resident_ = &resident;
@@ -309,8 +309,10 @@ passes::ExportHeaders::Item ResidentBuffers::headers_item() const {
 }
 
 ResidentState ResidentBuffers::state(graph::Access access) const {
-    const graph::AccessTraits& traits = graph::traits(access);
-    return {traits.stages, traits.access(), traits.layout, device_->queue_family()};
+    const graph::AccessTraits traits = graph::traits(access, device_->queue_flags());
+    const bool exclusive = device_->resident_families().empty();
+    return {traits.stages, traits.access(), traits.layout,
+            exclusive ? device_->queue_family() : VK_QUEUE_FAMILY_IGNORED};
 }
 
 ResidentField ResidentBuffers::field(std::size_t i) const {

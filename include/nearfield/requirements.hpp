@@ -72,15 +72,16 @@ struct Requirements {
     /// device created without any feature or extension.
     std::vector<std::string> unmet;
 
-    std::uint32_t api_version = VK_API_VERSION_1_1;                           ///< minimum
-    VkQueueFlags queue_flags = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;  ///< of one family
-    /// The queue family to use: the one given, or the first that suffices.
+    std::uint32_t api_version = VK_API_VERSION_1_1;   ///< minimum
+    VkQueueFlags queue_flags = VK_QUEUE_COMPUTE_BIT;  ///< of one family
+    /// The queue family to use: the one given, or the first that also draws, or the first that
+    /// suffices.
     std::optional<std::uint32_t> queue_family;
     std::vector<RequiredLimit> limits;    ///< required and offered limits
     std::vector<RequiredFormat> formats;  ///< required and offered formats
 
-    /// The optional parts: each intersection strategy outside the base, precise blended gradients,
-    /// timeline semaphores, pass times, names and labels.
+    /// The optional parts: Technique::raster, each intersection strategy outside the base, precise
+    /// blended gradients, timeline semaphores, pass times, names and labels.
     std::vector<OptionalPart> optional;
     /// The optional features that the device offers, for VkDeviceCreateInfo; everything else is
     /// off. If they are enabled, HostDevice::logic_op is features.logicOp.

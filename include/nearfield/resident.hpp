@@ -25,12 +25,14 @@ namespace nearfield {
 /// The synchronisation state in which the host's commands find a resident output.
 struct ResidentState {
     /// Vertex, fragment and compute shader; of buffers also vertex input and indirect commands.
+    /// Only those that the host's queue family has.
     VkPipelineStageFlags stages = 0;
     /// VK_ACCESS_SHADER_READ_BIT; of buffers also the reading of vertex attributes and of indirect
-    /// commands.
+    /// commands, likewise.
     VkAccessFlags access = 0;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< of images
-    std::uint32_t queue_family = 0;                    ///< the owner; sharing is exclusive
+    /// The owner; VK_QUEUE_FAMILY_IGNORED if shared with HostDevice::resident_families.
+    std::uint32_t queue_family = 0;
 };
 
 /// Where the header of a resident output lies (ResidentHeaderData): what there is, for shaders, and

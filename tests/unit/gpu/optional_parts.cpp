@@ -32,7 +32,8 @@ TEST_F(GpuOptionalParts, AreThoseThatTheDriverOffers) {
     EXPECT_EQ(all.find("no such part"), nullptr);
     // The driver's parts, after the host reports those enabled on the instance.
     const test_support::Enabled offered = host_.offered();
-    ASSERT_EQ(all.optional.size(), 6U);
+    ASSERT_EQ(all.optional.size(), 7U);
+    EXPECT_TRUE(all.find("VK_QUEUE_GRAPHICS_BIT")->available);
     EXPECT_EQ(all.features.logicOp, offered.features.logicOp);
     EXPECT_EQ(all.find("logicOp")->available, offered.features.logicOp == VK_TRUE);
     EXPECT_EQ(all.find("blending of VK_FORMAT_R32G32_SFLOAT")->available,

@@ -168,21 +168,63 @@ TEST_F(GpuRequirements, OldVulkanIsRefused) {
     expect_one_reason(status_with(host_.device(), lies), {"Vulkan 1.1", "1.0"});
 }
 
-TEST_F(GpuRequirements, QueueFamilyMustDrawAndCompute) {
-    for (const auto& [flag, name] : {std::pair{VK_QUEUE_GRAPHICS_BIT, "VK_QUEUE_GRAPHICS_BIT"},
-                                     std::pair{VK_QUEUE_COMPUTE_BIT, "VK_QUEUE_COMPUTE_BIT"}}) {
-        SCOPED_TRACE(name);
-        Lies lies;
-        lies.queue_families = [flag = flag](std::vector<VkQueueFamilyProperties>& families) {
-            for (VkQueueFamilyProperties& family : families) {
-                family.queueFlags &= ~static_cast<VkQueueFlags>(flag);
-            }
-        };
-        expect_one_reason(status_with(host_.device(), lies), {name, "queue family"});
-    }
+/// Takes a capability from all queue families.
+Lies without_flag(VkQueueFlags flag) {
+    Lies lies;
+    lies.queue_families = [flag](std::vector<VkQueueFamilyProperties>& families) {
+        for (VkQueueFamilyProperties& family : families) {
+            family.queueFlags &= ~flag;
+        }
+    };
+    return lies;
+}
+
+TEST_F(GpuRequirements, QueueFamilyMustCompute) {
+    expect_one_reason(status_with(host_.device(), without_flag(VK_QUEUE_COMPUTE_BIT)),
+                      {"VK_QUEUE_COMPUTE_BIT", "queue family"});
     HostDevice host = host_.device();
     host.queue_family = 99;
     expect_one_reason(status_of(host), {"queue family 99"});
+}
+
+TEST_F(GpuRequirements, QueueFamilyThatDoesNotDrawSufficesForComputing) {
+    EXPECT_TRUE(gpu::Device(host_.device()).draws());
+    const FakeLoader fake(host_.device(), without_flag(VK_QUEUE_GRAPHICS_BIT));
+    const gpu::Device device(fake.host());
+    EXPECT_FALSE(device.draws());
+    const Requirements found = requirements_of(fake.host());
+    EXPECT_TRUE(found.met());
+    EXPECT_EQ(found.queue_flags, VkQueueFlags{VK_QUEUE_COMPUTE_BIT});
+    EXPECT_EQ(found.queue_family, fake.host().queue_family);
+    const OptionalPart* const raster = found.find("VK_QUEUE_GRAPHICS_BIT");
+    ASSERT_NE(raster, nullptr);
+    EXPECT_FALSE(raster->available);
+    ASSERT_EQ(raster->missing.size(), 1U);
+    EXPECT_NE(raster->missing[0].find("queue family " + std::to_string(fake.host().queue_family) +
+                                      " lacks it"),
+              std::string::npos)
+        << raster->missing[0];
+    EXPECT_NE(std::string(raster->unlocks).find("Technique::raster"), std::string::npos);
+}
+
+TEST_F(GpuRequirements, FamiliesThatShareResidentResultsMustExist) {
+    const std::uint32_t own = host_.device().queue_family;
+    const std::uint32_t families[] = {own, own, 7};
+    HostDevice host = host_.device();
+    host.resident_families = families;
+    host.resident_family_count = 2;
+    EXPECT_TRUE(gpu::Device(host).resident_families().empty()) << "one family shares with none";
+    host.resident_family_count = 3;
+    const Status status = status_of(host);
+    EXPECT_EQ(status.code(), StatusCode::invalid_settings);
+    EXPECT_NE(status.message().find("HostDevice::resident_families[2] is 7"), std::string::npos)
+        << status.message();
+    Lies lies;
+    lies.queue_families = [](std::vector<VkQueueFamilyProperties>& all) {
+        all.resize(8, all.front());
+    };
+    const FakeLoader fake(host, lies);
+    EXPECT_EQ(gpu::Device(fake.host()).resident_families(), (std::vector<std::uint32_t>{own, 7}));
 }
 
 TEST_F(GpuRequirements, EveryMissingEntryPointIsNamed) {
@@ -236,16 +278,20 @@ TEST_F(GpuRequirements, NameAQueueFamilyWhereNoneIsGiven) {
     lies.queue_families = [](std::vector<VkQueueFamilyProperties>& families) {
         VkQueueFamilyProperties transfer = families.front();
         transfer.queueFlags = VK_QUEUE_TRANSFER_BIT;
-        families.insert(families.begin(), {transfer, transfer});
+        VkQueueFamilyProperties compute = families.front();
+        compute.queueFlags = VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+        families.insert(families.begin(), {transfer, compute});
     };
     const FakeLoader fake(host_.device(), lies);
     PhysicalDevice device = physical(fake.host());
     device.queue_family = PhysicalDevice::any_queue_family;
     EXPECT_EQ(requirements_of(device).queue_family, 2U);
     device.queue_family = 1;
+    EXPECT_EQ(requirements_of(device).queue_family, 1U);
+    device.queue_family = 0;
     const Requirements found = requirements_of(device);
     EXPECT_FALSE(found.queue_family.has_value());
-    EXPECT_EQ(found.unmet.size(), 2U);
+    EXPECT_EQ(found.unmet.size(), 1U);
 }
 
 TEST_F(GpuRequirements, OfAnInstanceForVulkan10AreUnmet) {

@@ -69,6 +69,34 @@ Need need(Access access) {
     return {};
 }
 
+// What Vulkan lets a queue family name that computes and does not draw (the tables "Supported
+// pipeline stage flags" and "Supported access types").
+constexpr VkPipelineStageFlags compute_stages =
+    VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT | VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT |
+    VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+    VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_HOST_BIT |
+    VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+constexpr VkAccessFlags compute_accesses =
+    VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+    VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+    VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT | VK_ACCESS_MEMORY_READ_BIT |
+    VK_ACCESS_MEMORY_WRITE_BIT;
+
+bool has(VkQueueFlags queue, VkPipelineStageFlags stages, VkAccessFlags accesses) {
+    return (queue & VK_QUEUE_GRAPHICS_BIT) != 0 ||
+           ((stages & ~compute_stages) == 0 && (accesses & ~compute_accesses) == 0);
+}
+
+/// The part of an access that happens on such a queue.
+Need need(Access access, VkQueueFlags queue) {
+    Need all = need(access);
+    if ((queue & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        all.stages &= compute_stages;
+        all.access &= compute_accesses;
+    }
+    return all;
+}
+
 /// A past access or layout transition, and the effect of later barriers on it.
 struct Event {
     std::uint32_t resource = 0;
@@ -144,14 +172,16 @@ struct Memory {
 
 class Simulation {
 public:
-    Simulation(const Graph& graph, const BakedGraph& baked)
+    Simulation(const Graph& graph, const BakedGraph& baked, const Execution& execution)
         : graph_(graph),
           baked_(baked),
+          execution_(execution),
+          is_owned_(graph.resources().size(), true),
           memory_(baked.memory_slots + graph.resources().size()),
           layouts_(graph.resources().size(), VK_IMAGE_LAYOUT_UNDEFINED) {}
 
     std::string run() {
-        for (int execution = 0; execution < 2 && breach_.empty(); ++execution) {
+        for (int round = 0; round < 2 && breach_.empty(); ++round) {
             versions_.assign(graph_.resources().size(), 0);
             begin_imported();
             for (const BakedPass& pass : baked_.passes) {
@@ -194,7 +224,7 @@ private:
             }
             memory_of(i).events.clear();
             if (resource.outside.before) {
-                add_event(i, need(*resource.outside.before));
+                add_event(i, need(*resource.outside.before, execution_.queue));
             }
         }
     }
@@ -214,9 +244,13 @@ private:
             if (!after || !baked_.lifetimes[i].used) {
                 continue;
             }
-            const Need wanted = need(*after);
+            const Need wanted = need(*after, execution_.queue);
             expect(!is_image(i) || layouts_[i] == wanted.layout, i,
                    "is exported in another layout");
+            if (execution_.read_by_other_family) {
+                read_by_other_family(i);
+                continue;
+            }
             for (const Event& event : memory_of(i).events) {
                 expect(!event.writes || event.is_settled_for(i, wanted.stages, wanted.access), i,
                        "is exported with a write that is not to be seen");
@@ -224,10 +258,22 @@ private:
         }
     }
 
+    /// A semaphore makes all writes before it available, and visible to the stages that wait.
+    void read_by_other_family(std::uint32_t resource) {
+        expect(execution_.waits, resource, "is read by a queue that does not wait");
+        if (!execution_.concurrent) {
+            expect(execution_.transferred, resource, "is read by a family that does not own it");
+            is_owned_[resource] = false;
+        }
+    }
+
     void apply(const std::vector<Barrier>& barriers) {
         for (const Barrier& barrier : barriers) {
             expect(barrier.source_stages != 0 && barrier.destination_stages != 0, barrier.resource,
                    "a barrier without stages");
+            expect(has(execution_.queue, barrier.source_stages | barrier.destination_stages,
+                       barrier.source_access | barrier.destination_access),
+                   barrier.resource, "a barrier for stages that the queue family does not have");
             Memory& memory = memory_of(barrier.resource);
             const std::vector<Event> former = memory.events;
             for (Event& event : memory.events) {
@@ -266,6 +312,12 @@ private:
     void access(const Use& use, const std::string& pass) {
         const std::uint32_t resource = use.handle.resource;
         const Need wanted = need(use.access);
+        expect(has(execution_.queue, wanted.stages, wanted.access), resource,
+               pass + " does what the queue family cannot do");
+        // Without a transfer back the content is lost, which a first write does not mind.
+        expect(is_owned_[resource] || use.write, resource,
+               pass + " reads what another family owns");
+        is_owned_[resource] = true;
         Memory& memory = memory_of(resource);
         expect(versions_[resource] == use.handle.version, resource, pass + " sees another version");
         if (is_image(resource)) {
@@ -296,6 +348,8 @@ private:
 
     const Graph& graph_;
     const BakedGraph& baked_;
+    const Execution execution_;
+    std::vector<bool> is_owned_;  // by the family that executes the graph
     std::vector<Memory> memory_;
     std::vector<VkImageLayout> layouts_;
     std::vector<std::uint32_t> versions_;
@@ -304,8 +358,8 @@ private:
 
 }  // namespace
 
-std::string simulate(const Graph& graph, const BakedGraph& baked) {
-    return Simulation(graph, baked).run();
+std::string simulate(const Graph& graph, const BakedGraph& baked, const Execution& execution) {
+    return Simulation(graph, baked, execution).run();
 }
 
 }  // namespace nearfield::graph::testing

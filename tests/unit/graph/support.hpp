@@ -55,6 +55,30 @@ public:
     explicit RandomGraph(unsigned seed, VkFormat depth_stencil = VK_FORMAT_D24_UNORM_S8_UINT)
         : random_(seed) {
         make_resources(depth_stencil);
+        make_passes();
+    }
+    /// One of compute passes alone, which write what is exported.
+    [[nodiscard]] static RandomGraph that_exports(unsigned seed) { return {seed, Exporting{}}; }
+
+    [[nodiscard]] const Graph& graph() const { return graph_; }
+
+private:
+    struct Exporting {};
+    RandomGraph(unsigned seed, Exporting) : random_(seed), draws_(false) {
+        make_buffers();
+        for (int i = 0, count = pick(1, 3); i < count; ++i) {
+            const std::string number = std::to_string(i);
+            buffers_.push_back(graph_.import_buffer(
+                {.name = "records" + number},
+                {.before = Access::exported_buffer, .after = Access::exported_buffer}));
+            images_.push_back(graph_.import_image(
+                {.name = "field" + number, .format = VK_FORMAT_R32_SFLOAT},
+                {.before = Access::exported_image, .after = Access::exported_image}));
+        }
+        make_passes();
+    }
+
+    void make_passes() {
         const int pass_count = pick(1, 14);
         for (int i = 0; i < pass_count; ++i) {
             make_pass(i);
@@ -67,9 +91,6 @@ public:
         }
     }
 
-    [[nodiscard]] const Graph& graph() const { return graph_; }
-
-private:
     int pick(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
     bool chance(int percent) { return pick(1, 100) <= percent; }
 
@@ -85,6 +106,10 @@ private:
                 color(graph_, "image" + std::to_string(i), formats[kind], {side, side}));
         }
         colors_.push_back(color(graph_, "fallback"));
+        make_buffers();
+    }
+
+    void make_buffers() {
         const int buffer_count = pick(1, 4);
         for (int i = 0; i < buffer_count; ++i) {
             buffers_.push_back(graph_.import_buffer({.name = "buffer" + std::to_string(i),
@@ -100,13 +125,19 @@ private:
     void make_pass(int number) {
         Pass pass;
         pass.name = "pass" + std::to_string(number);
-        pass.kind = chance(50) ? PassKind::graphics : PassKind::compute;
+        pass.kind = draws_ && chance(50) ? PassKind::graphics : PassKind::compute;
         if (pass.kind == PassKind::graphics) {
             use_attachments(pass);
         } else {
             use_sampled(pass);
         }
         use_buffers(pass);
+        for (Handle& image : images_) {
+            if (chance(40)) {
+                pass.uses.push_back(writes(image, Access::storage_image_in_compute));
+                image = next(image);
+            }
+        }
         passes_.push_back(std::move(pass));
     }
 
@@ -156,10 +187,12 @@ private:
     }
 
     std::mt19937 random_;
+    bool draws_ = true;
     Graph graph_;
     std::vector<Handle> colors_;
     std::vector<Handle> depths_;
     std::vector<Handle> buffers_;
+    std::vector<Handle> images_;  // that are exported
     std::vector<Pass> passes_;
 };
 
