@@ -80,7 +80,8 @@ void OwnDevice::choose(VkInstance instance, const CanPresent& can_present) {
             asked.get_instance_proc_addr = vkGetInstanceProcAddr;
             asked.api_version = VK_API_VERSION_1_1;
             const Requirements needed = value_of(requirements(asked));
-            if (needed.met() && can_present(device, family)) {
+            const bool draws = needed.find("VK_QUEUE_GRAPHICS_BIT")->available;
+            if (needed.met() && draws && can_present(device, family)) {
                 physical_device_ = device;
                 queue_family_ = family;
                 return;

@@ -116,7 +116,11 @@ Gpu::Gpu(const GpuInstance& instance, const CanPresent& can_present) {
             for (const std::string& unmet : needed.unmet) {
                 reasons += subject + unmet;
             }
-            if (!needed.met()) {
+            const OptionalPart& drawing = *needed.find("VK_QUEUE_GRAPHICS_BIT");
+            for (const std::string& missing : drawing.missing) {
+                reasons += subject + missing;
+            }
+            if (!needed.met() || !drawing.available) {
                 continue;
             }
             if (can_present && !can_present(device, family)) {
