@@ -73,14 +73,42 @@ void perform(Tag_vkCmdBindVertexBuffers tag, VkCommandBuffer commands, std::uint
     }
 }
 
-void perform(Tag_vkCmdPipelineBarrier tag, VkCommandBuffer commands, VkPipelineStageFlags,
-             VkPipelineStageFlags, VkDependencyFlags, std::uint32_t, const VkMemoryBarrier*,
-             std::uint32_t buffer_count, const VkBufferMemoryBarrier* buffers,
-             std::uint32_t image_count, const VkImageMemoryBarrier* images) {
+namespace {
+
+constexpr VkPipelineStageFlags stages_of_drawing =
+    VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+    VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+    VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT;
+constexpr VkAccessFlags accesses_of_drawing =
+    VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT |
+    VK_ACCESS_INPUT_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT |
+    VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+void check_barrier(std::string_view call, VkPipelineStageFlags stages, VkAccessFlags accesses) {
+    if ((stages & stages_of_drawing) != 0 || (accesses & accesses_of_drawing) != 0) {
+        driver().expect_drawing(call);
+    }
+}
+
+}  // namespace
+
+void perform(Tag_vkCmdPipelineBarrier tag, VkCommandBuffer commands, VkPipelineStageFlags source,
+             VkPipelineStageFlags destination, VkDependencyFlags, std::uint32_t memory_count,
+             const VkMemoryBarrier* memory, std::uint32_t buffer_count,
+             const VkBufferMemoryBarrier* buffers, std::uint32_t image_count,
+             const VkImageMemoryBarrier* images) {
+    check_barrier(tag.name, source | destination, 0);
+    for (std::uint32_t i = 0; i < memory_count; ++i) {
+        check_barrier(tag.name, 0, memory[i].srcAccessMask | memory[i].dstAccessMask);
+    }
     for (std::uint32_t i = 0; i < buffer_count; ++i) {
+        check_barrier(tag.name, 0, buffers[i].srcAccessMask | buffers[i].dstAccessMask);
         use(tag.name, commands, buffers[i].buffer);
     }
     for (std::uint32_t i = 0; i < image_count; ++i) {
+        check_barrier(tag.name, 0, images[i].srcAccessMask | images[i].dstAccessMask);
         use(tag.name, commands, images[i].image);
     }
 }

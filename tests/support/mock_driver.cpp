@@ -83,12 +83,22 @@ HostDevice MockDriver::host() const {
     host.physical_device = handle<VkPhysicalDevice>(state_->physical_device);
     host.device = handle<VkDevice>(state_->device);
     host.queue = handle<VkQueue>(state_->queue);
+    host.queue_family = state_->family;
     host.get_instance_proc_addr = &mock_instance_function;
     host.debug_utils = true;
     host.logic_op = true;
     host.timeline_semaphore = state_->timeline_semaphores;
     host.allocator = &state_->callbacks;
     return host;
+}
+
+void MockDriver::set_queue_families(std::vector<VkQueueFlags> families, std::uint32_t used) {
+    state_->families = std::move(families);
+    state_->family = used;
+}
+
+std::size_t MockDriver::shared_objects() const {
+    return state_->shared_objects;
 }
 
 void MockDriver::go_without_host() {

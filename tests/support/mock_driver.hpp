@@ -45,6 +45,12 @@ public:
     /// From now on there is no host whose allocation callbacks must be used.
     void go_without_host();
 
+    /// Sets the queue families of the device, by what they can do, and the one of the host's queue.
+    /// Default: one that draws and computes.
+    void set_queue_families(std::vector<VkQueueFlags> families, std::uint32_t used);
+    /// The number of buffers and images so far that were made for several queue families.
+    [[nodiscard]] std::size_t shared_objects() const;
+
     // Driver calls that a host makes without the library.
 
     /// A binary semaphore.

@@ -118,6 +118,25 @@ void MockDriver::State::destroy(std::string_view call, Number device_of_call, Nu
     objects.erase(gone);
 }
 
+void MockDriver::State::expect_drawing(std::string_view call) {
+    if ((families[family] & VK_QUEUE_GRAPHICS_BIT) == 0) {
+        breach(call, "something of drawing, on a queue family that does not");
+    }
+}
+
+void MockDriver::State::expect_families(std::string_view call, VkSharingMode mode,
+                                        std::span<const std::uint32_t> shared_by) {
+    if (mode != VK_SHARING_MODE_CONCURRENT) {
+        return;
+    }
+    ++shared_objects;
+    const std::set<std::uint32_t> different(shared_by.begin(), shared_by.end());
+    if (different.size() != shared_by.size() || different.size() < 2 ||
+        *different.rbegin() >= families.size() || !different.contains(family)) {
+        breach(call, "families that cannot share it");
+    }
+}
+
 void MockDriver::State::expect_childless(std::string_view call, Number parent) {
     for (const auto& [number, object] : objects) {
         if (object.parent == parent) {

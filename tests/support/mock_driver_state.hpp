@@ -104,7 +104,10 @@ struct MockDriver::State {
     Number queue = 0;
     Number host_fence = 0;             // for all submissions of the host
     bool timeline_semaphores = false;  // the host enabled them
-    bool headless = false;             // there is no host whose allocator would be used
+    std::vector<VkQueueFlags> families{VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT};
+    std::uint32_t family = 0;        // the host's
+    std::size_t shared_objects = 0;  // buffers and images of several families
+    bool headless = false;           // there is no host whose allocator would be used
     std::vector<Submitted> submissions;
     std::optional<Finding> finding;
 
@@ -116,6 +119,11 @@ struct MockDriver::State {
     VkResult enter(std::string_view call);
     void breach(std::string_view call, const std::string& what);
 
+    /// A breach if the host's queue family does not draw.
+    void expect_drawing(std::string_view call);
+    /// A breach if a buffer or image is shared by families that cannot be.
+    void expect_families(std::string_view call, VkSharingMode mode,
+                         std::span<const std::uint32_t> shared_by);
     /// The allocation callbacks of a call must be the host's.
     void use_allocator(std::string_view call, const VkAllocationCallbacks* used);
 

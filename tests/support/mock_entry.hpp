@@ -118,6 +118,8 @@ inline constexpr VkMemoryPropertyFlags memory_flags[memory_types]{
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
 };
 
+inline constexpr VkDeviceSize non_coherent_atom = 64;
+
 /// Object `index` among those that another refers to must exist and have memory.
 template <class Handle>
 void refer(std::string_view call, MockObject& from, std::uint64_t index, Handle to) {

@@ -1,6 +1,8 @@
 #include <tests/support/allocations.hpp>
 #include <tests/support/mock_entry.hpp>
 
+#include <algorithm>
+#include <iterator>
 #include <tuple>
 
 /// The behaviour of entry points according to their signatures, and the table of all by name.
@@ -19,9 +21,30 @@ constexpr bool makes_handle =
     std::is_pointer_v<Last> && !std::is_const_v<std::remove_pointer_t<Last>> &&
     VulkanHandle<std::remove_pointer_t<Last>>;
 
+/// Commands that only a queue family that draws has; those that bind something have a bind point.
+constexpr bool is_of_drawing(std::string_view call) {
+    constexpr std::string_view commands[] = {"RenderPass", "vkCmdDraw",       "VertexBuffers",
+                                             "vkCmdSet",   "vkCmdBeginQuery", "vkCmdEndQuery"};
+    return std::any_of(std::begin(commands), std::end(commands), [call](std::string_view part) {
+        return call.find(part) != std::string_view::npos;
+    });
+}
+
+template <class Argument>
+bool binds_for_drawing(Argument argument) {
+    if constexpr (std::is_same_v<Argument, VkPipelineBindPoint>) {
+        return argument == VK_PIPELINE_BIND_POINT_GRAPHICS;
+    } else {
+        return false;
+    }
+}
+
 template <class Tag, class First, class... Rest>
 auto act(First first, Rest... rest) {
     if constexpr (Tag::name.starts_with("vkCmd")) {
+        if (is_of_drawing(Tag::name) || (binds_for_drawing(rest) || ...)) {
+            driver().expect_drawing(Tag::name);
+        }
         const MockObject* const commands = driver().find(Tag::name, first);
         if (commands != nullptr && commands->commands != MockObject::Commands::recording) {
             driver().breach(Tag::name, "a command buffer that is not being recorded");

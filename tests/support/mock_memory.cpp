@@ -50,6 +50,9 @@ void expect_mapped(std::string_view call, std::uint32_t count, const VkMappedMem
         if (memory != nullptr && !memory->mapped) {
             driver().breach(call, "memory that is not mapped");
         }
+        if (ranges[i].offset % non_coherent_atom != 0 || ranges[i].size % non_coherent_atom != 0) {
+            driver().breach(call, "a range that is not of whole atoms");
+        }
     }
 }
 
@@ -67,6 +70,8 @@ VkResult perform(Tag_vkInvalidateMappedMemoryRanges tag, VkDevice, std::uint32_t
 
 VkResult perform(Tag_vkCreateBuffer tag, VkDevice device, const VkBufferCreateInfo* info,
                  const VkAllocationCallbacks*, VkBuffer* buffer) {
+    driver().expect_families(tag.name, info->sharingMode,
+                             {info->pQueueFamilyIndices, info->queueFamilyIndexCount});
     *buffer = driver().make<VkBuffer>(tag.name, number(device));
     MockObject& object = *driver().find(tag.name, *buffer);
     object.bytes = info->size;
@@ -77,6 +82,8 @@ VkResult perform(Tag_vkCreateBuffer tag, VkDevice device, const VkBufferCreateIn
 
 VkResult perform(Tag_vkCreateImage tag, VkDevice device, const VkImageCreateInfo* info,
                  const VkAllocationCallbacks*, VkImage* image) {
+    driver().expect_families(tag.name, info->sharingMode,
+                             {info->pQueueFamilyIndices, info->queueFamilyIndexCount});
     *image = driver().make<VkImage>(tag.name, number(device));
     driver().find(tag.name, *image)->bytes =
         std::uint64_t{8} * info->extent.width * info->extent.height;

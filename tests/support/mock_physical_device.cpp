@@ -18,7 +18,7 @@ void perform(Tag_vkGetPhysicalDeviceProperties, VkPhysicalDevice,
     limits.maxComputeWorkGroupInvocations = 1024;
     limits.subPixelPrecisionBits = 8;
     limits.minStorageBufferOffsetAlignment = 16;
-    limits.nonCoherentAtomSize = 64;
+    limits.nonCoherentAtomSize = non_coherent_atom;
     limits.timestampPeriod = 1.0F;
 }
 
@@ -35,10 +35,11 @@ void perform(Tag_vkGetPhysicalDeviceMemoryProperties, VkPhysicalDevice,
 
 void perform(Tag_vkGetPhysicalDeviceQueueFamilyProperties, VkPhysicalDevice, std::uint32_t* count,
              VkQueueFamilyProperties* families) {
-    *count = 1;
-    if (families != nullptr) {
-        *families = {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT, 1, 64, {1, 1, 1}};
+    const std::vector<VkQueueFlags>& all = driver().families;
+    for (std::uint32_t i = 0; families != nullptr && i < *count && i < all.size(); ++i) {
+        families[i] = {all[i], 1, 64, {1, 1, 1}};
     }
+    *count = static_cast<std::uint32_t>(all.size());
 }
 
 void perform(Tag_vkGetPhysicalDeviceFormatProperties, VkPhysicalDevice, VkFormat,
