@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace nearfield::test_support {
 
@@ -125,7 +126,24 @@ void HostGpu::submit(const std::function<void(VkCommandBuffer)>& record) {
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
+    const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    const VkSemaphore wait = std::exchange(wait_, VK_NULL_HANDLE);
+    const VkSemaphore signal = std::exchange(signal_, VK_NULL_HANDLE);
+    info.waitSemaphoreCount = wait != VK_NULL_HANDLE ? 1 : 0;
+    info.pWaitSemaphores = &wait;
+    info.pWaitDstStageMask = &all;
+    info.signalSemaphoreCount = signal != VK_NULL_HANDLE ? 1 : 0;
+    info.pSignalSemaphores = &signal;
     require(vkQueueSubmit(host_.queue, 1, &info, fence_), "vkQueueSubmit");
+}
+
+VkSemaphore HostGpu::make_semaphore() {
+    VkSemaphoreCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    require(vkCreateSemaphore(device(), &info, nullptr, &semaphore), "vkCreateSemaphore");
+    at_end([this, semaphore] { vkDestroySemaphore(device(), semaphore, nullptr); });
+    return semaphore;
 }
 
 void HostGpu::finish() {

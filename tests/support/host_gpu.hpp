@@ -36,6 +36,7 @@
     X(vkCreatePipelineLayout)        \
     X(vkCreateRenderPass)            \
     X(vkCreateSampler)               \
+    X(vkCreateSemaphore)             \
     X(vkCreateShaderModule)          \
     X(vkDestroyBuffer)               \
     X(vkDestroyCommandPool)          \
@@ -49,6 +50,7 @@
     X(vkDestroyPipelineLayout)       \
     X(vkDestroyRenderPass)           \
     X(vkDestroySampler)              \
+    X(vkDestroySemaphore)            \
     X(vkDestroyShaderModule)         \
     X(vkEndCommandBuffer)            \
     X(vkFreeMemory)                  \
@@ -85,6 +87,12 @@ public:
     /// Registers a destruction for the end of the lifetime; they run in reverse order.
     void at_end(std::function<void()> destroy) { at_end_.push_back(std::move(destroy)); }
 
+    /// A binary semaphore.
+    [[nodiscard]] VkSemaphore make_semaphore();
+
+    /// The next submission waits for this semaphore in all stages, or signals it.
+    void wait_for(VkSemaphore semaphore) { wait_ = semaphore; }
+    void signal(VkSemaphore semaphore) { signal_ = semaphore; }
     /// Records and submits to the host's queue; finish() waits for it. One at a time.
     void submit(const std::function<void(VkCommandBuffer)>& record);
     void finish();
@@ -111,6 +119,8 @@ private:
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
+    VkSemaphore wait_ = VK_NULL_HANDLE;    // of the next submission, if any
+    VkSemaphore signal_ = VK_NULL_HANDLE;  // the same
     std::vector<std::function<void()>> at_end_;
 };
 

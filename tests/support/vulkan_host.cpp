@@ -57,6 +57,10 @@ VulkanHost::VulkanHost(const Enabled& wanted) {
         require_layer();
         create_instance(wanted.best_practices);
         choose_physical_device();
+        drawing_device_.queue_family = device_.queue_family;
+        if (wanted.async_compute) {
+            choose_compute_family();
+        }
         const Enabled there = offered();
         create_device({common(wanted.features, there.features),
                        wanted.timeline_semaphore && there.timeline_semaphore});
@@ -190,6 +194,23 @@ void VulkanHost::choose_physical_device() {
          "mesa-vulkan-drivers has one that needs no graphics card)");
 }
 
+void VulkanHost::choose_compute_family() {
+    const auto get_families = function<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+        "vkGetPhysicalDeviceQueueFamilyProperties");
+    std::uint32_t count = 0;
+    get_families(device_.physical_device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    get_families(device_.physical_device, &count, families.data());
+    const auto found = std::find_if(families.begin(), families.end(), [](const auto& family) {
+        return (family.queueFlags & (VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT)) ==
+               VK_QUEUE_COMPUTE_BIT;
+    });
+    if (found == families.end()) {
+        fail("no queue family computes and does not draw (tests/async_compute/driver adds one)");
+    }
+    device_.queue_family = static_cast<std::uint32_t>(found - families.begin());
+}
+
 Enabled VulkanHost::offered() const {
     Enabled all;
     function<PFN_vkGetPhysicalDeviceFeatures>("vkGetPhysicalDeviceFeatures")(
@@ -221,10 +242,12 @@ void VulkanHost::create_device(const Enabled& enabled) {
     queue.queueFamilyIndex = device_.queue_family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    std::array<VkDeviceQueueCreateInfo, 2> queues{queue, queue};
+    queues[1].queueFamilyIndex = drawing_device_.queue_family;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
+    info.queueCreateInfoCount = device_.queue_family == drawing_device_.queue_family ? 1 : 2;
+    info.pQueueCreateInfos = queues.data();
     info.pEnabledFeatures = &enabled.features;
     VkPhysicalDeviceTimelineSemaphoreFeatures timeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES, nullptr, VK_TRUE};
@@ -237,10 +260,14 @@ void VulkanHost::create_device(const Enabled& enabled) {
     require(function<PFN_vkCreateDevice>("vkCreateDevice")(device_.physical_device, &info, nullptr,
                                                            &device_.device),
             "vkCreateDevice");
-    function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue")(device_.device, device_.queue_family, 0,
-                                                       &device_.queue);
+    const auto get_queue = function<PFN_vkGetDeviceQueue>("vkGetDeviceQueue");
+    get_queue(device_.device, device_.queue_family, 0, &device_.queue);
     device_.logic_op = enabled.features.logicOp == VK_TRUE;
     device_.timeline_semaphore = enabled.timeline_semaphore;
+    const std::uint32_t drawing_family = drawing_device_.queue_family;
+    drawing_device_ = device_;
+    drawing_device_.queue_family = drawing_family;
+    get_queue(device_.device, drawing_family, 0, &drawing_device_.queue);
 }
 
 void VulkanHost::destroy() {
@@ -254,7 +281,7 @@ void VulkanHost::destroy() {
     if (device_.instance != VK_NULL_HANDLE) {
         function<PFN_vkDestroyInstance>("vkDestroyInstance")(device_.instance, nullptr);
     }
-    device_ = HostDevice{};
+    device_ = drawing_device_ = HostDevice{};
     messenger_ = VK_NULL_HANDLE;
     library_.reset();
 }

@@ -15,6 +15,9 @@ struct Enabled {
     bool timeline_semaphore = false;  ///< through VK_KHR_timeline_semaphore
     /// The validation layer reports best practices too, which is no error.
     bool best_practices = false;
+    /// device() has a queue of a family that computes and does not draw, and drawing_device() has
+    /// one that does both; both are of one device. Throws if there is no such family.
+    bool async_compute = false;
 };
 
 /// A minimal renderer: a Vulkan 1.1 device with no extension and, by default, no feature enabled,
@@ -33,6 +36,8 @@ public:
     VulkanHost& operator=(const VulkanHost&) = delete;
 
     [[nodiscard]] const HostDevice& device() const { return device_; }
+    /// The same device with a queue that draws and computes.
+    [[nodiscard]] const HostDevice& drawing_device() const { return drawing_device_; }
     /// Everything that the physical device offers, according to its driver.
     [[nodiscard]] Enabled offered() const;
 
@@ -60,6 +65,7 @@ private:
     void require_layer() const;
     void create_instance(bool best_practices);
     void choose_physical_device();
+    void choose_compute_family();
     [[nodiscard]] bool has_extension(const char* name) const;
     void create_device(const Enabled& enabled);
     void destroy();
@@ -69,6 +75,7 @@ private:
     std::unique_ptr<void, CloseLibrary> library_;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     HostDevice device_;
+    HostDevice drawing_device_;
 };
 
 }  // namespace nearfield::test_support
