@@ -1,5 +1,8 @@
-// A host with Vulkan-Hpp and an allocator of its own: nearfield's contacts stay on the device, and
-// a shader of the host counts them, as many as there are, in the same command buffer.
+// A host with Vulkan-Hpp and an allocator of its own, which nearfield uses too: nearfield's
+// contacts stay on the device, and a shader of the host counts them, as many as there are, in the
+// same command buffer.
+#include "arena.hpp"
+
 #include <nearfield/nearfield.hpp>
 
 #include <count_contacts.hpp>
@@ -76,43 +79,21 @@ struct Engine {
     }
 };
 
-/// The host's allocator: mapped pieces of one block, one after the other.
-class Arena {
-public:
-    Arena(const Engine& engine, std::uint64_t bytes) : engine_(&engine) {
-        const auto properties = engine.physical_device.getMemoryProperties();
-        constexpr auto wanted =
-            vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
-        std::uint32_t type = 0;
-        while ((properties.memoryTypes[type].propertyFlags & wanted) != wanted) {
-            ++type;  // Vulkan guarantees that there is one
-        }
-        memory_ = vk::raii::DeviceMemory(engine.device, vk::MemoryAllocateInfo(bytes, type));
-        data_ = static_cast<std::byte*>(memory_.mapMemory(0, bytes));
-    }
+/// A mapped storage buffer of the host's.
+struct Buffer {
+    vk::raii::Buffer buffer = nullptr;
+    std::byte* data = nullptr;
 
-    struct Buffer {
-        vk::raii::Buffer buffer = nullptr;
-        std::byte* data = nullptr;
-    };
-    [[nodiscard]] Buffer make_buffer(std::uint64_t bytes) {
-        Buffer made;
-        made.buffer = vk::raii::Buffer(
-            engine_->device,
-            vk::BufferCreateInfo({}, bytes, vk::BufferUsageFlagBits::eStorageBuffer));
-        const vk::MemoryRequirements needs = made.buffer.getMemoryRequirements();
-        used_ = (used_ + needs.alignment - 1) / needs.alignment * needs.alignment;
-        made.buffer.bindMemory(*memory_, used_);
-        made.data = data_ + used_;
-        used_ += needs.size;
-        return made;
+    Buffer() = default;
+    Buffer(const Engine& engine, Arena& arena, std::uint64_t bytes)
+        : buffer(engine.device,
+                 vk::BufferCreateInfo({}, bytes, vk::BufferUsageFlagBits::eStorageBuffer)) {
+        const Arena::Piece piece = arena.take(
+            buffer.getMemoryRequirements(),
+            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0, false);
+        buffer.bindMemory(*piece.block->memory, piece.offset);
+        data = piece.data();
     }
-
-private:
-    const Engine* engine_;
-    vk::raii::DeviceMemory memory_ = nullptr;
-    std::byte* data_ = nullptr;
-    std::uint64_t used_ = 0;
 };
 
 struct Counts {
@@ -132,7 +113,7 @@ struct Frame {
 /// What the host has of each of nearfield's slots, which need not come in the order of the frames.
 struct Slot {
     vk::raii::DescriptorSet set = nullptr;
-    Arena::Buffer counts;
+    Buffer counts;
     std::uint64_t revision = 0;
 };
 
@@ -225,14 +206,16 @@ int run() {
     nearfield::Settings settings;
     settings.batches_in_flight = frames_in_flight;
     settings.techniques = {.raster = false};
-    nearfield::Context context = value_of(nearfield::Context::create(engine.host(), settings));
+    Arena arena(engine.physical_device, engine.device);
+    nearfield::HostDevice host = engine.host();
+    host.memory = arena.functions();
+    nearfield::Context context = value_of(nearfield::Context::create(host, settings));
     // The host's vertices, in single precision.
     const std::array square{0.0F, 0.0F, 1.0F, 0.0F, 1.0F, 1.0F, 0.0F, 1.0F};
     const nearfield::RingView ring(square);
     const nearfield::ShapeHandle a = value_of(context.add_shape(std::span(&ring, 1)));
     const nearfield::ShapeHandle b = value_of(context.add_shape(std::span(&ring, 1)));
 
-    Arena arena(engine, 1U << 16U);
     const CountingPass pass(engine);
     const vk::raii::CommandPool pool(
         engine.device, vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
@@ -250,7 +233,7 @@ int run() {
         frames[i].fence =
             vk::raii::Fence(engine.device, vk::FenceCreateInfo(vk::FenceCreateFlagBits::eSignaled));
         slots[i].set = pass.make_set();
-        slots[i].counts = arena.make_buffer(sizeof(Counts));
+        slots[i].counts = Buffer(engine, arena, sizeof(Counts));
         pass.write(slots[i], layout[i]);
     }
 
