@@ -55,18 +55,12 @@ graph::Handle ColorFill::declare(graph::Graph& graph, graph::Handle mesh, VkExte
 
 void ColorFill::record(VkCommandBuffer commands) const {
     const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::uint32_t value,
-                              plan::DrawRange plan::TileDraw::*range) {
-        renderer.bind(pipeline.get());
-        renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : context_->round->distance_draws) {
-            if (tile.sign == SignEncoding::color) {
-                renderer.draw(tile, tile.*range, 1.0F, value);
-            }
-        }
-    };
-    draw_all(clear_, black, &plan::TileDraw::rectangle);
-    draw_all(parity_, white_everywhere, &plan::TileDraw::b);
+    const plan::TileMeshes& meshes = context_->round->meshes;
+    renderer.stencil(0, 0, 0);
+    renderer.bind(clear_.get());
+    renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::color)), 1.0F, black);
+    renderer.bind(parity_.get());
+    renderer.draw(meshes.range(plan::fills_of(SignEncoding::color)), 1.0F, white_everywhere);
 }
 
 }  // namespace nearfield::passes

@@ -25,7 +25,7 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     return owned;
 }
 
-constexpr std::array<const char*, 6 + sign_encodings + intersection_strategies> names_of_round{
+constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies> names_of_round{
     "nearfield resolve points set",
     "nearfield field by stencil set",
     "nearfield field by color set",

@@ -5,6 +5,8 @@
 
 #include <shaders/mesh_vert.hpp>
 #include <shaders/number_frag.hpp>
+#include <shaders/number_in_tile_frag.hpp>
+#include <shaders/tile_mesh_vert.hpp>
 
 namespace nearfield::passes {
 
@@ -23,6 +25,8 @@ ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderP
     clear_ = gpu::make_graphics_pipeline(device, description);
 
     description.name = "nearfield distance mesh";
+    description.vertex_shader = shaders::tile_mesh_vert;
+    description.fragment_shader = shaders::number_in_tile_frag;
     description.depth_compare = VK_COMPARE_OP_LESS;
     draw_ = gpu::make_graphics_pipeline(device, description);
 }
@@ -45,17 +49,11 @@ void ConeMesh::record(VkCommandBuffer commands) const {
     const TileRenderer renderer(*device_, layout_, commands, *context_);
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
-    for (const plan::TileDraw& tile : context_->round->distance_draws) {
-        if (tile.sign != SignEncoding::feature_bit) {
-            renderer.draw(tile, tile.rectangle, 1.0F, plan::no_feature);
-        }
-    }
+    renderer.draw(context_->round->meshes.range(plan::rectangles_of(SignEncoding::stencil),
+                                                plan::rectangles_of(SignEncoding::color)),
+                  1.0F, plan::no_feature);
     renderer.bind(draw_.get());
-    for (const plan::TileDraw& tile : context_->round->distance_draws) {
-        if (tile.sign != SignEncoding::feature_bit) {
-            renderer.draw(tile, tile.distance, tile.depth_scale, 0);
-        }
-    }
+    renderer.draw(plan::TileMeshId::distances);
 }
 
 }  // namespace nearfield::passes

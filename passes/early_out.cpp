@@ -1,6 +1,7 @@
 #include <passes/early_out.hpp>
 
 #include <cstddef>
+#include <vector>
 
 namespace nearfield::passes {
 
@@ -19,22 +20,18 @@ EarlyOut::EarlyOut(const gpu::Device& device, const RecordContext& context)
 }
 
 void EarlyOut::reset(VkCommandBuffer commands) const {
-    if (context_->round->watched > 0) {
-        device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0,
-                                                 context_->round->watched);
+    const auto count = static_cast<std::uint32_t>(context_->round->watched.size());
+    if (count > 0) {
+        device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0, count);
     }
 }
 
-void EarlyOut::begin(VkCommandBuffer commands, const plan::TileDraw& tile) const {
-    if (tile.watch != plan::no_watch) {
-        device_->functions().vkCmdBeginQuery(commands, pool_.get(), tile.watch, 0);
-    }
+void EarlyOut::begin(VkCommandBuffer commands, std::uint32_t query) const {
+    device_->functions().vkCmdBeginQuery(commands, pool_.get(), query, 0);
 }
 
-void EarlyOut::end(VkCommandBuffer commands, const plan::TileDraw& tile) const {
-    if (tile.watch != plan::no_watch) {
-        device_->functions().vkCmdEndQuery(commands, pool_.get(), tile.watch);
-    }
+void EarlyOut::end(VkCommandBuffer commands, std::uint32_t query) const {
+    device_->functions().vkCmdEndQuery(commands, pool_.get(), query);
 }
 
 graph::Handle EarlyOut::declare(graph::Graph& graph, graph::Handle samples,
@@ -49,14 +46,14 @@ graph::Handle EarlyOut::declare(graph::Graph& graph, graph::Handle samples,
 }
 
 void EarlyOut::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
-    const auto& tiles = context_->round->overlap_draws[static_cast<std::size_t>(strategy)];
-    for (const plan::TileDraw& tile : tiles) {
-        if (tile.watch != plan::no_watch) {
+    const std::vector<plan::WatchedTile>& watched = context_->round->watched;
+    for (std::uint32_t query = 0; query < watched.size(); ++query) {
+        if (watched[query].strategy == strategy) {
             const VkDeviceSize offset = context_->summaries_offset +
-                                        tile.tile * sizeof(plan::TileSummary) +
+                                        watched[query].tile * sizeof(plan::TileSummary) +
                                         offsetof(plan::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
-                commands, pool_.get(), tile.watch, 1, context_->read_back, offset,
+                commands, pool_.get(), query, 1, context_->read_back, offset,
                 sizeof(std::uint32_t), VK_QUERY_RESULT_WAIT_BIT);
         }
     }

@@ -5,11 +5,14 @@
 #include <engine/graph/graph.hpp>
 #include <passes/record_context.hpp>
 
+#include <cstdint>
+
 namespace nearfield::passes {
 
 /// An occlusion query around A's last draw into a tile, in place of the paper's min/max and
 /// histogram queries (section 2.2.1). If no sample passed, the tile is not searched. The results
-/// stay on the device. The plan selects the tiles (plan::TileDraw::watch).
+/// stay on the device. The plan selects the tiles (plan::TileBatch::watched), which are drawn by
+/// themselves. Samples that pass beside the tile count as well, which only costs the search.
 class EarlyOut {
 public:
     EarlyOut(const gpu::Device& device, const RecordContext& context);
@@ -19,9 +22,9 @@ public:
     /// of the previous submission.
     void reset(VkCommandBuffer commands) const;
 
-    /// Begins and ends the query of a tile around its draws; no effect if the tile has none.
-    void begin(VkCommandBuffer commands, const plan::TileDraw& tile) const;
-    void end(VkCommandBuffer commands, const plan::TileDraw& tile) const;
+    /// Begins and ends a query, by position in plan::TileBatch::watched.
+    void begin(VkCommandBuffer commands, std::uint32_t query) const;
+    void end(VkCommandBuffer commands, std::uint32_t query) const;
 
     /// Adds the pass that writes whether any sample passed to the summaries of a strategy's tiles
     /// (plan::TileSummary::passed). Declare it after the pass that draws them: queries are not

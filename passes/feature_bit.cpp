@@ -5,7 +5,9 @@
 #include <passes/tile_renderer.hpp>
 
 #include <shaders/color_frag.hpp>
+#include <shaders/color_in_tile_frag.hpp>
 #include <shaders/mesh_vert.hpp>
+#include <shaders/tile_mesh_vert.hpp>
 
 namespace nearfield::passes {
 namespace {
@@ -33,12 +35,6 @@ FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRen
     clear_ = gpu::make_graphics_pipeline(device, description);
 
     VkPipelineColorBlendAttachmentState blend{};
-    blend.colorWriteMask = id_bytes;
-    description.name = "nearfield signed feature mesh";
-    description.depth_compare = VK_COMPARE_OP_LESS;
-    description.blend = blend;
-    draw_ = gpu::make_graphics_pipeline(device, description);
-
     blend.blendEnable = VK_TRUE;
     blend.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
     blend.dstColorBlendFactor = VK_BLEND_FACTOR_ZERO;
@@ -51,6 +47,16 @@ FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRen
     description.depth_test = false;
     description.blend = blend;
     parity_ = gpu::make_graphics_pipeline(device, description);
+
+    blend = {};
+    blend.colorWriteMask = id_bytes;
+    description.name = "nearfield signed feature mesh";
+    description.vertex_shader = shaders::tile_mesh_vert;
+    description.fragment_shader = shaders::color_in_tile_frag;
+    description.depth_test = true;
+    description.depth_compare = VK_COMPARE_OP_LESS;
+    description.blend = blend;
+    draw_ = gpu::make_graphics_pipeline(device, description);
 }
 
 graph::Handle FeatureBit::declare(graph::Graph& graph, graph::Handle mesh,
@@ -72,23 +78,15 @@ graph::Handle FeatureBit::declare(graph::Graph& graph, graph::Handle mesh,
 
 void FeatureBit::record(VkCommandBuffer commands) const {
     const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, auto&& draw) {
-        renderer.bind(pipeline.get());
-        renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : context_->round->distance_draws) {
-            if (tile.sign == SignEncoding::feature_bit) {
-                draw(tile);
-            }
-        }
-    };
-    draw_all(clear_, [&](const plan::TileDraw& tile) {
-        renderer.draw(tile, tile.rectangle, 1.0F, no_feature_outside);
-    });
-    draw_all(parity_,
-             [&](const plan::TileDraw& tile) { renderer.draw(tile, tile.b, 1.0F, all_bits); });
-    draw_all(draw_, [&](const plan::TileDraw& tile) {
-        renderer.draw(tile, tile.distance, tile.depth_scale, 0);
-    });
+    const plan::TileMeshes& meshes = context_->round->meshes;
+    renderer.stencil(0, 0, 0);
+    renderer.bind(clear_.get());
+    renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::feature_bit)), 1.0F,
+                  no_feature_outside);
+    renderer.bind(parity_.get());
+    renderer.draw(meshes.range(plan::fills_of(SignEncoding::feature_bit)), 1.0F, all_bits);
+    renderer.bind(draw_.get());
+    renderer.draw(plan::TileMeshId::signed_distances);
 }
 
 }  // namespace nearfield::passes

@@ -21,22 +21,17 @@ graph::Handle Fill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D 
 void Fill::record(VkCommandBuffer commands) const {
     using namespace stencil_bits;
     const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const auto draw_all = [&](plan::DrawRange plan::TileDraw::*range, std::uint32_t value) {
-        for (const plan::TileDraw& tile : context_->round->distance_draws) {
-            if (tile.sign == SignEncoding::stencil) {
-                renderer.draw(tile, tile.*range, 1.0F, value);
-            }
-        }
-    };
+    const plan::TileMeshes& meshes = context_->round->meshes;
+    const plan::DrawRange rectangles = meshes.range(plan::rectangles_of(SignEncoding::stencil));
     renderer.bind(pipelines_->clear.get());
     renderer.stencil(all, all, 0);
-    draw_all(&plan::TileDraw::rectangle, 0);
+    renderer.draw(rectangles, 1.0F, 0);
     renderer.bind(pipelines_->parity.get());
     renderer.stencil(all, parity_b, 0);
-    draw_all(&plan::TileDraw::b, 0);
+    renderer.draw(meshes.range(plan::fills_of(SignEncoding::stencil)), 1.0F, 0);
     renderer.bind(pipelines_->mark.get());
     renderer.stencil(parity_b, 0, parity_b);
-    draw_all(&plan::TileDraw::rectangle, filled_mask);
+    renderer.draw(rectangles, 1.0F, filled_mask);
 }
 
 }  // namespace nearfield::passes

@@ -3,7 +3,7 @@
 #include <passes/tile_renderer.hpp>
 
 #include <shaders/gradient_frag.hpp>
-#include <shaders/mesh_vert.hpp>
+#include <shaders/tile_mesh_vert.hpp>
 
 #include <array>
 #include <limits>
@@ -13,8 +13,6 @@ namespace {
 
 /// The push constants of gradient.frag, after those of mesh.vert.
 struct GradientPush {
-    std::int32_t corner[2];
-    std::int32_t size[2];
     std::int32_t shift;
     float factor;
     float largest;
@@ -62,7 +60,7 @@ Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRen
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout_.get();
-    description.vertex_shader = shaders::mesh_vert;
+    description.vertex_shader = shaders::tile_mesh_vert;
     description.fragment_shader = shaders::gradient_frag;
     description.name = "nearfield gradient shifted";
     shifted_ = gpu::make_graphics_pipeline(device, description);
@@ -100,22 +98,12 @@ void Gradient::record(VkCommandBuffer commands) const {
                               : std::numeric_limits<float>::max();
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::int32_t shift) {
         renderer.bind(pipeline.get());
-        renderer.stencil(0, 0, 0);
-        for (const plan::TileDraw& tile : context_->round->distance_draws) {
-            if (!tile.blended) {
-                continue;
-            }
-            const GradientPush push{
-                {static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
-                {static_cast<std::int32_t>(tile.width), static_cast<std::int32_t>(tile.height)},
-                shift,
-                0.5F,
-                largest};
-            functions.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
-                                         push_offset, sizeof(push), &push);
-            renderer.draw(tile, tile.rectangle, 1.0F, tile.first_value);
-        }
+        const GradientPush push{shift, 0.5F, largest};
+        functions.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                     push_offset, sizeof(push), &push);
+        renderer.draw(plan::TileMeshId::gradients);
     };
+    renderer.stencil(0, 0, 0);
     draw_all(shifted_, 1);
     draw_all(subtract_, -1);
     draw_all(multiply_, 0);

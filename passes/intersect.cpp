@@ -2,11 +2,12 @@
 #include <passes/tile_renderer.hpp>
 
 #include <string>
+#include <vector>
 
 namespace nearfield::passes {
 
+using plan::OverlapStep;
 using plan::Part;
-using plan::TileDraw;
 
 graph::Handle Intersect::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent,
                                  IntersectionStrategy strategy) const {
@@ -30,48 +31,49 @@ void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) 
     using namespace stencil_bits;
     const StrategySteps& steps = strategies_->steps(strategy);
     const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const auto& tiles = context_->round->overlap_draws[static_cast<std::size_t>(strategy)];
+    const auto range = [&](OverlapStep step) {
+        return context_->round->meshes.range(plan::overlaps_of(strategy, step));
+    };
 
     renderer.bind(steps.clear);
     renderer.stencil(all, all, 0);
-    for (const TileDraw& tile : tiles) {
-        renderer.draw(tile, tile.rectangle, 1.0F, 0);
-    }
-    // Draws one of the shapes into every tile, where the stencil has counted to `count`.
-    const auto draw = [&](VkPipeline pipeline, Part TileDraw::*part,
-                          plan::DrawRange TileDraw::*mesh, std::uint32_t parity,
-                          std::uint32_t count, auto&& draw_one) {
+    renderer.draw(range(OverlapStep::clear), 1.0F, 0);
+
+    // Where the stencil has counted to `count`: in volumes their fill has to be set as well.
+    const auto fill = [&](OverlapStep step, std::uint32_t parity) {
         renderer.bind(steps.parity);
         renderer.stencil(all, parity, 0);
-        for (const TileDraw& tile : tiles) {
-            if (tile.*part == Part::volume) {
-                renderer.draw(tile, tile.*mesh, 1.0F, 0);
-            }
-        }
-        renderer.bind(pipeline);
-        renderer.stencil(parity | counter, counter, parity | count);
-        for (const TileDraw& tile : tiles) {
-            if (tile.*part == Part::volume) {
-                draw_one(tile, tile.rectangle);
-            }
-        }
-        renderer.stencil(counter, counter, count);
-        for (const TileDraw& tile : tiles) {
-            if (tile.*part == Part::boundary) {
-                draw_one(tile, tile.*mesh);
-            }
-        }
+        renderer.draw(range(step), 1.0F, 0);
     };
-    draw(steps.b, &TileDraw::part_b, &TileDraw::b, parity_b, 0,
-         [&](const TileDraw& tile, plan::DrawRange range) {
-             renderer.draw(tile, range, steps.depth_b, steps.value_b);
-         });
-    draw(steps.a, &TileDraw::part_a, &TileDraw::a, parity_a, steps.count_b,
-         [&](const TileDraw& tile, plan::DrawRange range) {
-             early_out_->begin(commands, tile);
-             renderer.draw(tile, range, steps.depth_a, steps.value_a);
-             early_out_->end(commands, tile);
-         });
+    const auto take = [&](Part part, std::uint32_t parity, std::uint32_t count) {
+        const std::uint32_t filled = part == Part::volume ? parity : 0;
+        renderer.stencil(filled | counter, counter, filled | count);
+    };
+    fill(OverlapStep::parity_b, parity_b);
+    renderer.bind(steps.b);
+    take(Part::volume, parity_b, 0);
+    renderer.draw(range(OverlapStep::volume_b), steps.depth_b, steps.value_b);
+    take(Part::boundary, parity_b, 0);
+    renderer.draw(range(OverlapStep::boundary_b), steps.depth_b, steps.value_b);
+
+    fill(OverlapStep::parity_a, parity_a);
+    renderer.bind(steps.a);
+    take(Part::volume, parity_a, steps.count_b);
+    renderer.draw(range(OverlapStep::volume_a), steps.depth_a, steps.value_a);
+    take(Part::boundary, parity_a, steps.count_b);
+    renderer.draw(range(OverlapStep::boundary_a), steps.depth_a, steps.value_a);
+
+    const std::vector<plan::WatchedTile>& watched = context_->round->watched;
+    const std::uint32_t first = range(OverlapStep::watched_a).first;
+    for (std::uint32_t query = 0; query < watched.size(); ++query) {
+        if (watched[query].strategy == strategy) {
+            take(watched[query].part_a, parity_a, steps.count_b);
+            early_out_->begin(commands, query);
+            renderer.draw({first + watched[query].a.first, watched[query].a.count}, steps.depth_a,
+                          steps.value_a);
+            early_out_->end(commands, query);
+        }
+    }
 }
 
 }  // namespace nearfield::passes

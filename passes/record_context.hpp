@@ -10,19 +10,18 @@
 
 namespace nearfield::passes {
 
-inline constexpr std::size_t sign_encodings = 3;
-
 /// The input that all passes record from. One object lives as long as the passes; its contents
 /// change from tile batch to tile batch while commands are recorded.
 struct RecordContext {
     const plan::TileBatch* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;
-    VkDeviceSize mesh_offset = 0;             ///< start of the tile batch's mesh, in bytes
+    VkDeviceSize mesh_offset = 0;       ///< of the tile batch's vertices of meshes, in bytes
+    VkDeviceSize tile_mesh_offset = 0;  ///< of its vertices with the rectangle of their tile
     VkDescriptorSet points = VK_NULL_HANDLE;  ///< raster technique: with images
     /// Compute technique: without images. It is not the raster's set, which names images of the
     /// last compiled graph, because a driver may access every resource that a set names.
     VkDescriptorSet points_by_lists = VK_NULL_HANDLE;
-    VkDescriptorSet field[sign_encodings]{};  ///< by sign encoding
+    VkDescriptorSet field[plan::sign_encodings]{};  ///< by sign encoding
     VkDescriptorSet gradients = VK_NULL_HANDLE;
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
     VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique

@@ -11,7 +11,7 @@
 namespace nearfield::passes {
 
 void FieldImages::declare_reads(graph::PassBuilder& pass) const {
-    std::array<graph::Handle, 2 * sign_encodings> seen;
+    std::array<graph::Handle, 2 * plan::sign_encodings> seen;
     std::size_t count = 0;
     for (const Pair& pair : by_encoding) {
         for (const graph::Handle handle : {pair.features, pair.sign}) {

@@ -16,7 +16,7 @@ struct FieldImages {
         graph::Handle features;
         graph::Handle sign;  ///< the same image if the sign is a bit of the feature
     };
-    std::array<Pair, sign_encodings> by_encoding;
+    std::array<Pair, plan::sign_encodings> by_encoding;
 
     /// Declares a read of each image, once.
     void declare_reads(graph::PassBuilder& pass) const;

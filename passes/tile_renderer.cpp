@@ -14,13 +14,20 @@ struct Push {
 };
 static_assert(offsetof(Push, value) == 20 && sizeof(Push) == draw_push_bytes);
 
-// The vertex input binding that gpu::make_graphics_pipeline declares.
+// The vertex input bindings that gpu::make_graphics_pipeline declares.
 static_assert(sizeof(geometry::MeshVertex) == 16 && offsetof(geometry::MeshVertex, distance) == 8 &&
               offsetof(geometry::MeshVertex, id) == 12);
+static_assert(sizeof(plan::TileVertex) == 24 && offsetof(plan::TileVertex, x) == 16);
 
-// Meshes reach up to two cells outside their tile. The viewport holds them completely, so the
-// rasteriser does not clip, which would move edges; the scissor rectangle cuts off the outside.
-constexpr float viewport_border = 4.0F;
+// The viewport holds the largest atlas in its middle, with half of its side around it: clipping
+// would move edges. A pixel is a power of two in clip coordinates, so that positions on the
+// sub-pixel grid reach the rasteriser without rounding.
+constexpr auto viewport_side = static_cast<float>(2 * plan::largest_atlas_side);
+constexpr float viewport_origin = -0.25F * viewport_side;
+constexpr VkViewport viewport{viewport_origin, viewport_origin, viewport_side, viewport_side,
+                              0.0F,            1.0F};
+constexpr float scale = 2.0F / viewport_side;
+constexpr float bias = -scale * viewport_origin - 1.0F;
 
 }  // namespace
 
@@ -41,8 +48,11 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
 
 TileRenderer::TileRenderer(const gpu::Device& device, VkPipelineLayout layout,
                            VkCommandBuffer commands, const RecordContext& context)
-    : functions_(&device.functions()), layout_(layout), commands_(commands) {
-    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &context.mesh, &context.mesh_offset);
+    : functions_(&device.functions()), layout_(layout), commands_(commands), context_(&context) {
+    const plan::TileSize extent = context.round->extent;
+    const VkRect2D scissor{{0, 0}, {extent.width, extent.height}};
+    functions_->vkCmdSetViewport(commands_, 0, 1, &viewport);
+    functions_->vkCmdSetScissor(commands_, 0, 1, &scissor);
 }
 
 void TileRenderer::bind(VkPipeline pipeline) const {
@@ -57,24 +67,21 @@ void TileRenderer::stencil(std::uint32_t compare_mask, std::uint32_t write_mask,
     functions_->vkCmdSetStencilReference(commands_, faces, reference);
 }
 
-void TileRenderer::draw(const plan::TileDraw& tile, plan::DrawRange range, float depth_scale,
-                        std::uint32_t value) const {
+void TileRenderer::draw(plan::DrawRange range, float depth_scale, std::uint32_t value) const {
+    draw_from(context_->mesh_offset, range, depth_scale, value);
+}
+
+void TileRenderer::draw(plan::TileMeshId mesh) const {
+    draw_from(context_->tile_mesh_offset, context_->round->meshes.range(mesh), 1.0F, 0);
+}
+
+void TileRenderer::draw_from(VkDeviceSize offset, plan::DrawRange range, float depth_scale,
+                             std::uint32_t value) const {
     if (range.count == 0) {
         return;
     }
-    const auto x = static_cast<float>(tile.x);
-    const auto y = static_cast<float>(tile.y);
-    const float width = static_cast<float>(tile.width) + 2.0F * viewport_border;
-    const float height = static_cast<float>(tile.height) + 2.0F * viewport_border;
-    const VkViewport viewport{x - viewport_border, y - viewport_border, width, height, 0.0F, 1.0F};
-    const VkRect2D scissor{{static_cast<std::int32_t>(tile.x), static_cast<std::int32_t>(tile.y)},
-                           {tile.width, tile.height}};
-    functions_->vkCmdSetViewport(commands_, 0, 1, &viewport);
-    functions_->vkCmdSetScissor(commands_, 0, 1, &scissor);
-    const Push push{{2.0F / width, 2.0F / height},
-                    {2.0F * viewport_border / width - 1.0F, 2.0F * viewport_border / height - 1.0F},
-                    depth_scale,
-                    value};
+    functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &context_->mesh, &offset);
+    const Push push{{scale, scale}, {bias, bias}, depth_scale, value};
     functions_->vkCmdPushConstants(commands_, layout_, draw_push_stages, 0, sizeof(push), &push);
     functions_->vkCmdDraw(commands_, range.count, 1, range.first, 0);
 }

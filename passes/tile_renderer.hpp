@@ -16,10 +16,12 @@ inline constexpr std::uint32_t draw_push_bytes = 24;
 /// The pipeline layout of graphics pipelines without resources: only push constants.
 [[nodiscard]] gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device);
 
-/// Records draws into tiles. A tile is a viewport (one pixel per cell) and a scissor rectangle.
+/// Records draws, each into all tiles that its mesh has triangles for. One viewport, in which a
+/// pixel is a cell, serves all tiles. What keeps triangles out of other tiles is their distance in
+/// the atlas, or the rectangle that each vertex carries.
 class TileRenderer {
 public:
-    /// Binds the mesh of the record context.
+    /// Sets the viewport, and as scissor rectangle what the tiles of the tile batch take.
     TileRenderer(const gpu::Device& device, VkPipelineLayout layout, VkCommandBuffer commands,
                  const RecordContext& context);
 
@@ -27,14 +29,20 @@ public:
     /// Sets the stencil state of the following draws: compare mask, write mask and reference value.
     void stencil(std::uint32_t compare_mask, std::uint32_t write_mask,
                  std::uint32_t reference) const;
-    /// Draws a part of the mesh into a tile. Writes the vertices' id, or `value` where ids are 0.
-    void draw(const plan::TileDraw& tile, plan::DrawRange range, float depth_scale,
-              std::uint32_t value) const;
+    /// Draws a range of the meshes (TileMeshes::meshes). Writes the vertices' id, or `value` where
+    /// ids are 0; scales depths.
+    void draw(plan::DrawRange range, float depth_scale, std::uint32_t value) const;
+    /// Draws a mesh of vertices with the rectangle of their tile. Writes the vertices' id.
+    void draw(plan::TileMeshId mesh) const;
 
 private:
+    void draw_from(VkDeviceSize offset, plan::DrawRange range, float depth_scale,
+                   std::uint32_t value) const;
+
     const gpu::Functions* functions_;
     VkPipelineLayout layout_;
     VkCommandBuffer commands_;
+    const RecordContext* context_;
 };
 
 }  // namespace nearfield::passes

@@ -1,22 +1,10 @@
 #version 450
+#extension GL_GOOGLE_include_directive : require
 
-// The vertex shader of all meshes: maps cells of a tile to its viewport, and distance to depth.
-// Outputs the id of the feature, or the draw's own value if ids are 0.
+// The vertex shader of meshes that reach no other tile (geometry::MeshVertex).
 
-layout(push_constant) uniform Push {
-    vec2 scale;
-    vec2 bias;
-    float depth_scale;
-    uint value;
-} push;
-
-layout(location = 0) in vec2 position;
-layout(location = 1) in float distance_to_feature;
-layout(location = 2) in uint id;
-
-layout(location = 0) flat out uint number;
+#include "mesh.glsl"
 
 void main() {
-    gl_Position = vec4(position * push.scale + push.bias, distance_to_feature * push.depth_scale, 1.0);
-    number = id | push.value;
+    place_vertex();
 }

@@ -10,13 +10,17 @@
 namespace nearfield::gpu {
 namespace {
 
-// The layout of geometry::MeshVertex, repeated here because this module does not depend on
-// geometry: position (two floats), distance (a float), id (an unsigned integer), tightly packed.
+// The layouts of geometry::MeshVertex and plan::TileVertex, repeated here because this module does
+// not depend on theirs: position (two floats), distance (a float), id (an unsigned integer), and
+// for TileVertex the rectangle of its tile (four 16-bit integers), tightly packed.
 constexpr VkVertexInputBindingDescription vertex_binding{0, 16, VK_VERTEX_INPUT_RATE_VERTEX};
-constexpr std::array<VkVertexInputAttributeDescription, 3> vertex_attributes{{
+constexpr VkVertexInputBindingDescription tile_vertex_binding{0, 24, VK_VERTEX_INPUT_RATE_VERTEX};
+constexpr std::uint32_t tile_location = 3;
+constexpr std::array<VkVertexInputAttributeDescription, 4> vertex_attributes{{
     {0, 0, VK_FORMAT_R32G32_SFLOAT, 0},
     {1, 0, VK_FORMAT_R32_SFLOAT, 8},
     {2, 0, VK_FORMAT_R32_UINT, 12},
+    {tile_location, 0, VK_FORMAT_R16G16B16A16_UINT, 16},
 }};
 
 constexpr std::array<VkDynamicState, 5> dynamic_states{
@@ -108,7 +112,9 @@ VkPipelineVertexInputStateCreateInfo vertex_input_state(
     VkPipelineVertexInputStateCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     info.vertexBindingDescriptionCount = attributes.empty() ? 0 : 1;
-    info.pVertexBindingDescriptions = &vertex_binding;
+    info.pVertexBindingDescriptions =
+        !attributes.empty() && attributes.back().location == tile_location ? &tile_vertex_binding
+                                                                           : &vertex_binding;
     info.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
     info.pVertexAttributeDescriptions = attributes.data();
     return info;

@@ -19,7 +19,7 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
     double cells = 0.0;
     std::uint32_t widest = 1;
     for (const TileSize& tile : tiles) {
-        cells += static_cast<double>(tile.width) * tile.height;
+        cells += static_cast<double>(tile.width + atlas_gap) * (tile.height + atlas_gap);
         widest = std::max(widest, tile.width);
     }
     const double side =
@@ -34,7 +34,7 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
     for (const std::uint32_t i : order_) {
         if (x + tiles[i].width > shelf_width) {
             x = 0;
-            y += shelf_height;
+            y += shelf_height + atlas_gap;
             shelf_height = 0;
         }
         if (y + tiles[i].height > largest_side_) {
@@ -42,9 +42,9 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
             x = y = shelf_height = 0;
         }
         places[i] = {tile_batches_ - 1, x, y};
-        x += tiles[i].width;
         shelf_height = std::max(shelf_height, tiles[i].height);
-        extent_.width = std::max(extent_.width, x);
+        extent_.width = std::max(extent_.width, x + tiles[i].width);
+        x += tiles[i].width + atlas_gap;
         extent_.height = std::max(extent_.height, y + shelf_height);
     }
 }

@@ -5,8 +5,12 @@
 
 namespace nearfield::plan {
 
-/// Minimum side of an atlas image, in cells.
+/// Minimum side of an atlas image, in cells, without its last gap.
 inline constexpr std::uint32_t smallest_atlas = 256;
+/// The same of the largest. Twice as many cells fit into a viewport of any device.
+inline constexpr std::uint32_t largest_atlas_side = 2048;
+/// Cells between two tiles. Fills reach one cell beyond their tile, offset polygons less than four.
+inline constexpr std::uint32_t atlas_gap = 4;
 
 /// A tile's position: its tile batch, and its low corner in the atlas image.
 struct AtlasPlace {
@@ -21,11 +25,13 @@ struct TileSize {
 };
 
 /// Packs the tiles of all queries of a batch into as few atlas images as possible: shelf packing,
-/// tallest tiles first. Tiles that do not fit one image go into further tile batches, each
-/// submitted with an atlas image of its own.
+/// tallest tiles first, atlas_gap apart. Tiles that do not fit one image go into further tile
+/// batches, each submitted with an atlas image of its own.
 class AtlasPacker {
 public:
-    explicit AtlasPacker(std::uint32_t largest_side) : largest_side_(largest_side) {}
+    /// Images have at most `largest_side` cells and one gap along a side, so that as many tiles fit
+    /// whose sides are half of it as without gaps.
+    explicit AtlasPacker(std::uint32_t largest_side) : largest_side_(largest_side + atlas_gap) {}
 
     /// Places each tile. Precondition: no side of a tile exceeds the largest side.
     void pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlace>& places);

@@ -28,7 +28,7 @@ struct PlanLimits {
     /// The same for field tiles with features, where each cell searches all edges that can be
     /// nearest in its tile, or with points, which few tiles may hold.
     std::uint32_t features_tile = 64;
-    std::uint32_t largest_atlas = 2048;
+    std::uint32_t largest_atlas = largest_atlas_side;
     std::uint32_t largest_image = 4096;  ///< pixels along a side of a resident image
     std::uint64_t largest_range = std::uint64_t{1} << 27U;  ///< bytes that a shader can address
     std::uint64_t memory = 0;                               ///< bytes a batch may need

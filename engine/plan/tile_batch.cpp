@@ -30,15 +30,49 @@ bool worth_watching(IntersectionStrategy strategy, const Tile& tile) {
            tile.width * tile.height >= smallest_watched;
 }
 
-DrawRange add_rectangle(std::uint32_t width, std::uint32_t height, Mesh& mesh) {
-    const DrawRange range{static_cast<std::uint32_t>(mesh.size()), 6};
-    const auto right = static_cast<float>(width);
-    const auto top = static_cast<float>(height);
-    const float corners[6][2] = {{0, 0}, {right, 0}, {right, top}, {0, 0}, {right, top}, {0, top}};
-    for (const auto& corner : corners) {
-        mesh.push_back({corner[0], corner[1], 1.0F, 0});
+/// The tile at depth 1, as two triangles in the atlas.
+std::array<geometry::MeshVertex, 6> rectangle_of(const Tile& tile, std::uint32_t id) {
+    const auto left = static_cast<float>(tile.place.x);
+    const auto low = static_cast<float>(tile.place.y);
+    const auto right = static_cast<float>(tile.place.x + tile.width);
+    const auto top = static_cast<float>(tile.place.y + tile.height);
+    return {{{left, low, 1.0F, id},
+             {right, low, 1.0F, id},
+             {right, top, 1.0F, id},
+             {left, low, 1.0F, id},
+             {right, top, 1.0F, id},
+             {left, top, 1.0F, id}}};
+}
+
+void add_rectangle(const Tile& tile, Mesh& mesh) {
+    const auto rectangle = rectangle_of(tile, 0);
+    mesh.insert(mesh.end(), rectangle.begin(), rectangle.end());
+}
+
+/// Moves vertices, from `first` on, from cells of a tile to its place in the atlas.
+void move_to_atlas(const Tile& tile, std::size_t first, Mesh& mesh) {
+    const auto x = static_cast<float>(tile.place.x);
+    const auto y = static_cast<float>(tile.place.y);
+    for (std::size_t i = first; i < mesh.size(); ++i) {
+        mesh[i].x += x;
+        mesh[i].y += y;
     }
-    return range;
+}
+
+void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
+                std::vector<TileVertex>& mesh) {
+    mesh.push_back({vertex, static_cast<std::uint16_t>(tile.place.x),
+                    static_cast<std::uint16_t>(tile.place.y),
+                    static_cast<std::uint16_t>(tile.width),
+                    static_cast<std::uint16_t>(tile.height)});
+}
+
+/// Whether a triangle, in cells of a tile, lies on one side of it.
+bool is_outside(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle) {
+    const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
+    const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+    return right <= 0.0F || high <= 0.0F || left >= static_cast<float>(tile.width) ||
+           low >= static_cast<float>(tile.height);
 }
 
 /// The part of an edge within `border` cells of a tile; far ends would only degrade the raster's
@@ -68,14 +102,11 @@ void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw
     }
 }
 
-DrawRange since(std::size_t first, const Mesh& mesh) {
-    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(mesh.size() - first)};
-}
-
 }  // namespace
 
 void TileBatch::clear() {
-    mesh.clear();
+    meshes.clear();
+    extent = {};
     tiles.clear();
     lists.clear();
     points.clear();
@@ -94,7 +125,7 @@ void TileBatch::clear() {
     resident = false;
     by_compute = false;
     compute.clear();
-    watched = 0;
+    watched.clear();
     listed_cells = 0;
     hit_words = 0;
     keeps_hits = false;
@@ -103,6 +134,7 @@ void TileBatch::clear() {
 void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& round) {
     round.clear();
     round.by_compute = number >= plan.raster_tile_batches;
+    select_watched(plan, number);
     tile_of_plan_.resize(plan.tiles.size());
     first_block_.resize(plan.tiles.size());
     for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
@@ -124,6 +156,8 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
         data.atlas_y = tile.place.y;
         data.width = tile.width;
         data.height = tile.height;
+        round.extent.width = std::max(round.extent.width, tile.place.x + tile.width);
+        round.extent.height = std::max(round.extent.height, tile.place.y + tile.height);
         if (round.by_compute) {
             add_compute_tile(plan.queries[tile.query], tile, draw, round);
         } else {
@@ -134,9 +168,31 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     add_field_points(plan, number, round);
 }
 
+/// Selects the largest tiles that are worth an occlusion query.
+void TileBatchBuilder::select_watched(const Plan& plan, std::uint32_t number) {
+    watched_.clear();
+    if (number >= plan.raster_tile_batches) {
+        return;
+    }
+    const auto is_larger = [&](std::uint32_t i, std::uint32_t j) {
+        return plan.tiles[i].width * plan.tiles[i].height >
+               plan.tiles[j].width * plan.tiles[j].height;
+    };
+    for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
+        const Tile& tile = plan.tiles[i];
+        if (tile.kind != TileKind::overlap) {
+            continue;
+        }
+        const auto& query = std::get<IntersectionQuery>(*plan.queries[tile.query].query);
+        if (worth_watching(query.strategy, tile)) {
+            watched_.insert(std::upper_bound(watched_.begin(), watched_.end(), i, is_larger), i);
+            watched_.resize(std::min<std::size_t>(watched_.size(), max_watched));
+        }
+    }
+}
+
 void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
                                       TileBatch& round) {
-    draw.rectangle = add_rectangle(tile.width, tile.height, round.mesh);
     if (tile.kind == TileKind::overlap) {
         add_overlap_tile(query, tile, draw, round);
     } else {
@@ -163,8 +219,8 @@ void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& t
     }
 }
 
-DrawRange TileBatchBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
-                                     Mesh& mesh) const {
+void TileBatchBuilder::add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
+                                Mesh& mesh) const {
     const std::size_t first = mesh.size();
     const geometry::FillMesh fill(tile.width, tile.height, grid_);
     SparseCheckpoint<256> checkpoint;
@@ -172,7 +228,7 @@ DrawRange TileBatchBuilder::add_fill(const std::vector<TileEdge>& edges, const T
         checkpoint.step();
         fill.append(edge.a, edge.b, mesh);
     }
-    return since(first, mesh);
+    move_to_atlas(tile, first, mesh);
 }
 
 const NearestEdge* TileBatchBuilder::find_nearest(std::uint32_t simplified,
@@ -186,10 +242,10 @@ const NearestEdge* TileBatchBuilder::find_nearest(std::uint32_t simplified,
     return found != nearest_.end() && found->edge.simplified == simplified ? &*found : nullptr;
 }
 
-DrawRange TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
-                                              const geometry::DistanceMeshOptions& options,
-                                              Mesh& mesh) {
-    const std::size_t first = mesh.size();
+void TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
+                                         const geometry::DistanceMeshOptions& options,
+                                         std::vector<TileVertex>& mesh) {
+    distance_mesh_.clear();
     SparseCheckpoint<64> checkpoint;
     for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
         checkpoint.step();
@@ -197,16 +253,33 @@ DrawRange TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, cons
         const TileEdge& edge = nearest.edge;
         const TileEdge part = part_near(edge, tile, nearest.reach() + 1.0);
         geometry::append_tent(part.a, part.b, {nearest.reach_left, nearest.reach_right}, i, options,
-                              mesh);
+                              distance_mesh_);
         // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
         // are in the list, and only as far out as both can be nearest.
         if (const NearestEdge* const before =
                 find_nearest(boundary.simplified().previous(edge.simplified), i)) {
             const double reach = std::min(nearest.reach(), before->reach());
-            geometry::append_cone_sector(before->edge.a, edge.a, edge.b, reach, i, options, mesh);
+            geometry::append_cone_sector(before->edge.a, edge.a, edge.b, reach, i, options,
+                                         distance_mesh_);
         }
     }
-    return since(first, mesh);
+    float farthest = 1.0F;
+    for (const geometry::MeshVertex& vertex : distance_mesh_) {
+        farthest = std::max(farthest, vertex.distance);
+    }
+    const float depth_scale = 1.0F / (farthest * 1.0001F);
+    const auto x = static_cast<float>(tile.place.x);
+    const auto y = static_cast<float>(tile.place.y);
+    for (std::size_t i = 0; i < distance_mesh_.size(); i += 3) {
+        const std::span<const geometry::MeshVertex, 3> triangle(&distance_mesh_[i], 3);
+        if (!is_outside(tile, triangle)) {
+            for (const geometry::MeshVertex& vertex : triangle) {
+                add_vertex(tile,
+                           {vertex.x + x, vertex.y + y, vertex.distance * depth_scale, vertex.id},
+                           mesh);
+            }
+        }
+    }
 }
 
 void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
@@ -221,10 +294,14 @@ void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& t
                  "carries the sign in its top bit has room for " +
                  std::to_string(max_signed_features)});
     }
-    draw.blended = query.field.blended;
     const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
     if (query.field.values) {
         draw.first_value = add_field_words(cells, query.field.host_values, round);
+    }
+    if (query.field.blended) {
+        for (const geometry::MeshVertex& vertex : rectangle_of(tile, draw.first_value)) {
+            add_vertex(tile, vertex, round.meshes[TileMeshId::gradients]);
+        }
     }
     if (query.field.features) {
         draw.first_feature = add_field_words(cells, query.field.host_features, round);
@@ -267,8 +344,6 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
 
     crossing_.clear();
     crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
-    draw.b = add_fill(crossing_, tile, round.mesh);
-
     finder_.find(boundary, tile.needed, simplification + mesh_error, nearest_);
     nearest_list_.clear();
     double largest_reach = 0.0;
@@ -276,14 +351,16 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
         nearest_list_.push_back(nearest.edge);
         largest_reach = std::max(largest_reach, nearest.reach());
     }
-    draw.distance = add_distance_mesh(
-        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
-        round.mesh);
-    float farthest = 1.0F;
-    for (std::uint32_t i = 0; i < draw.distance.count; ++i) {
-        farthest = std::max(farthest, round.mesh[draw.distance.first + i].distance);
+    if (tile.kind == TileKind::field) {
+        add_field_output(query, tile, draw, round);
     }
-    draw.depth_scale = 1.0F / (farthest * 1.0001F);
+    add_rectangle(tile, round.meshes[rectangles_of(draw.sign)]);
+    add_fill(crossing_, tile, round.meshes[fills_of(draw.sign)]);
+    add_distance_mesh(boundary, tile,
+                      {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+                      round.meshes[draw.sign == SignEncoding::feature_bit
+                                       ? TileMeshId::signed_distances
+                                       : TileMeshId::distances]);
 
     TileData& data = round.tiles[draw.tile];
     round.lists.begin_tile(boundary);
@@ -296,21 +373,17 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
     data.outside = query.outside ? 1 : 0;
-
-    if (tile.kind == TileKind::field) {
-        add_field_output(query, tile, draw, round);
-    }
     round.distance_draws.push_back(draw);
 }
 
-DrawRange TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile,
-                                         double offset, bool with_runs, TileBatch& round) const {
-    const std::size_t first = round.mesh.size();
+void TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
+                                    std::vector<EdgeRun>* runs, Mesh& mesh) const {
+    const std::size_t first = mesh.size();
     SparseCheckpoint<64> checkpoint;
     boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
         checkpoint.step();
-        const std::size_t before = round.mesh.size();
-        const auto run = with_runs ? static_cast<std::uint32_t>(round.runs.size()) : 0U;
+        const std::size_t before = mesh.size();
+        const auto run = runs != nullptr ? static_cast<std::uint32_t>(runs->size()) : 0U;
         if (run == max_runs) {
             throw StatusException(
                 {StatusCode::too_large, "the boundaries of one round have more than " +
@@ -318,36 +391,75 @@ DrawRange TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Til
                                             " edges; use a larger tolerance"});
         }
         geometry::append_offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
-                                        tile.height, grid_, run << run_shift, round.mesh);
-        if (with_runs && round.mesh.size() > before) {
-            round.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
+                                        tile.height, grid_, run << run_shift, mesh);
+        if (runs != nullptr && mesh.size() > before) {
+            runs->push_back({boundary.edge(i).first, boundary.edge(i).count});
         }
     });
-    return since(first, round.mesh);
+    move_to_atlas(tile, first, mesh);
 }
 
 void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                                         TileBatch& round) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
     describe_overlap(asked, tile, draw, round);
-    const double cell = tile.grid.cell;
-    const double simplification = query.budget.simplification;
-    const auto add = [&](const geometry::Polygon& polygon, const Pose& pose, Part part,
-                         bool with_runs) {
-        const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes_);
-        if (part == Part::boundary) {
-            return add_boundary(boundary, tile, query.budget.offset / cell, with_runs, round);
-        }
-        crossing_.clear();
-        crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);
-        return add_fill(crossing_, tile, round.mesh);
-    };
-    draw.b = add(*query.b, query.pose_b, draw.part_b, false);
-    draw.a = add(*query.a, query.pose_a, draw.part_a, true);
-    if (round.watched < max_watched && worth_watching(asked.strategy, tile)) {
-        draw.watch = round.watched++;
-    }
+    add_rectangle(tile, round.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
+    add_overlap_b(query, tile, draw, round);
+    add_overlap_a(query, tile, draw, round);
     round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
+}
+
+void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
+                                  Mesh& parity, Mesh& rectangles) {
+    crossing_.clear();
+    crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
+    add_fill(crossing_, tile, parity);
+    add_rectangle(tile, rectangles);
+}
+
+void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile,
+                                     const TileDraw& draw, TileBatch& round) {
+    const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
+    const auto mesh = [&](OverlapStep step) -> Mesh& {
+        return round.meshes[overlaps_of(strategy, step)];
+    };
+    const double cell = tile.grid.cell;
+    const TileBoundary boundary =
+        overlap_boundary(*query.b, query.pose_b, query.budget, tile, shapes_);
+    if (draw.part_b == Part::boundary) {
+        add_boundary(boundary, tile, query.budget.offset / cell, nullptr,
+                     mesh(OverlapStep::boundary_b));
+    } else {
+        add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_b),
+                   mesh(OverlapStep::volume_b));
+    }
+}
+
+void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile,
+                                     const TileDraw& draw, TileBatch& round) {
+    const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
+    const auto mesh = [&](OverlapStep step) -> Mesh& {
+        return round.meshes[overlaps_of(strategy, step)];
+    };
+    const bool is_watched = std::find(watched_.begin(), watched_.end(),
+                                      round.tile_index[draw.tile]) != watched_.end();
+    Mesh& drawn = is_watched                        ? mesh(OverlapStep::watched_a)
+                  : draw.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
+                                                    : mesh(OverlapStep::volume_a);
+    const auto first = static_cast<std::uint32_t>(drawn.size());
+    const double cell = tile.grid.cell;
+    const TileBoundary boundary =
+        overlap_boundary(*query.a, query.pose_a, query.budget, tile, shapes_);
+    if (draw.part_a == Part::boundary) {
+        add_boundary(boundary, tile, query.budget.offset / cell, &round.runs, drawn);
+    } else {
+        add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_a),
+                   drawn);
+    }
+    if (is_watched) {
+        const auto count = static_cast<std::uint32_t>(drawn.size()) - first;
+        round.watched.push_back({draw.tile, strategy, draw.part_a, {first, count}});
+    }
 }
 
 void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& round) {

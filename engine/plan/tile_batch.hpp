@@ -10,18 +10,13 @@
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
+#include <engine/plan/tile_meshes.hpp>
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace nearfield::plan {
-
-/// Consecutive vertices of a tile batch's mesh.
-struct DrawRange {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-};
 
 /// Consecutive edges of a shape.
 struct EdgeRun {
@@ -32,27 +27,27 @@ struct EdgeRun {
 /// How a shape is drawn into an overlap tile.
 enum class Part : std::uint8_t { volume, boundary };
 
-/// TileDraw::watch of a tile without an occlusion query.
-inline constexpr std::uint32_t no_watch = UINT32_MAX;
-/// Maximum number of occlusion queries of a tile batch.
-inline constexpr std::uint32_t max_watched = 256;
+/// Maximum number of occlusion queries of a tile batch, each of which costs a draw.
+inline constexpr std::uint32_t max_watched = 4;
 
-/// The draws into one tile.
+/// An overlap tile with an occlusion query around A's last draw into it.
+struct WatchedTile {
+    std::uint32_t tile = 0;  ///< in TileBatch::tiles
+    IntersectionStrategy strategy{};
+    Part part_a{};
+    DrawRange a;  ///< in the mesh OverlapStep::watched_a of the strategy
+};
+
+/// What is drawn, or computed, in one tile.
 struct TileDraw {
     std::uint32_t tile = 0;  ///< in TileBatch::tiles
     std::uint32_t x = 0;     ///< position in the atlas
     std::uint32_t y = 0;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    DrawRange rectangle;       ///< the whole tile, at depth 1
-    DrawRange b;               ///< fill, or offset boundary, of B
-    DrawRange a;               ///< the same of A; overlap tiles only
-    DrawRange distance;        ///< distance mesh of B; points and field tiles only
-    float depth_scale = 1.0F;  ///< from cells to depth below 1, for the distance mesh
     Part part_a = Part::volume;
     Part part_b = Part::volume;
-    bool list = false;               ///< overlap tiles: samples are listed, not only counted
-    std::uint32_t watch = no_watch;  ///< overlap tiles: the occlusion query around A, if any
+    bool list = false;  ///< overlap tiles: samples are listed, not only counted
     /// Overlap tiles: where the hits of the cells are kept, one word per cell. The compute
     /// technique keeps them in masks: there any number means that they are kept.
     std::uint32_t first_hit = not_asked;
@@ -63,7 +58,6 @@ struct TileDraw {
     // read-back.
     bool field = false;
     SignEncoding sign = SignEncoding::stencil;
-    bool blended = false;                      ///< the gradient image is drawn
     std::uint32_t first_value = not_asked;     ///< one word per cell
     std::uint32_t first_feature = not_asked;   ///< one word per cell
     std::uint32_t first_gradient = not_asked;  ///< two words per cell
@@ -87,7 +81,8 @@ struct WordRange {
 
 /// Tiles that fill the atlas once, in the form that the device takes.
 struct TileBatch {
-    geometry::Mesh mesh;
+    TileMeshes meshes;
+    TileSize extent;  ///< of the atlas that the tiles take
     std::vector<TileData> tiles;
     EdgeListWriter lists;
     std::vector<PointData> points;
@@ -96,7 +91,7 @@ struct TileBatch {
     std::array<std::vector<TileDraw>, intersection_strategies> overlap_draws;  ///< by strategy
     std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
     std::vector<EdgeRun> runs;              ///< of A's edges, which offset polygons' ids refer to
-    std::uint32_t watched = 0;              ///< overlap tiles with an occlusion query
+    std::vector<WatchedTile> watched;       ///< by occlusion query
     std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
     std::uint32_t hit_words = 0;            ///< for all overlap tiles whose hits are kept
     bool keeps_hits = false;                ///< there are such tiles
@@ -125,6 +120,7 @@ public:
     void build(const Plan& plan, std::uint32_t number, TileBatch& round);
 
 private:
+    void select_watched(const Plan& plan, std::uint32_t number);
     void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
                         TileBatch& round);
     void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
@@ -138,18 +134,24 @@ private:
     static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& round);
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                           TileBatch& round);
+    void add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
+                    geometry::Mesh& parity, geometry::Mesh& rectangles);
+    void add_overlap_b(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+                       TileBatch& round);
+    void add_overlap_a(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+                       TileBatch& round);
     void add_points(const Plan& plan, std::uint32_t number, TileBatch& round);
     void add_field_points(const Plan& plan, std::uint32_t number, TileBatch& round);
-    [[nodiscard]] DrawRange add_fill(const std::vector<TileEdge>& edges, const Tile& tile,
-                                     geometry::Mesh& mesh) const;
-    [[nodiscard]] DrawRange add_boundary(const TileBoundary& boundary, const Tile& tile,
-                                         double offset, bool with_runs, TileBatch& round) const;
+    void add_fill(const std::vector<TileEdge>& edges, const Tile& tile, geometry::Mesh& mesh) const;
+    /// `runs`: of the offset polygons' ids; null: ids are 0.
+    void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
+                      std::vector<EdgeRun>* runs, geometry::Mesh& mesh) const;
     /// The entry of nearest_ for a simplified edge, or null; most likely the one before `hint`.
     [[nodiscard]] const NearestEdge* find_nearest(std::uint32_t simplified,
                                                   std::uint32_t hint) const;
-    [[nodiscard]] DrawRange add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
-                                              const geometry::DistanceMeshOptions& options,
-                                              geometry::Mesh& mesh);
+    void add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
+                           const geometry::DistanceMeshOptions& options,
+                           std::vector<TileVertex>& mesh);
 
     geometry::SubpixelGrid grid_;
     SimplifiedShapes shapes_;
@@ -157,6 +159,8 @@ private:
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
+    geometry::Mesh distance_mesh_;             // of one tile
+    std::vector<std::uint32_t> watched_;       // tiles of the plan
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its index in the tile batch
     std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block
     ComputeBuilder compute_;

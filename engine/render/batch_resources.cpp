@@ -26,6 +26,24 @@ void copy_to(std::byte* target, const std::vector<Element>& elements) {
 }
 
 template <class Element>
+std::uint64_t bytes_of_all(std::span<const std::vector<Element>> meshes) {
+    std::uint64_t bytes = 0;
+    for (const std::vector<Element>& mesh : meshes) {
+        bytes += bytes_of(mesh);
+    }
+    return bytes;
+}
+
+/// One after the other.
+template <class Element>
+void copy_all_to(std::byte* target, std::span<const std::vector<Element>> meshes) {
+    for (const std::vector<Element>& mesh : meshes) {
+        copy_to(target, mesh);
+        target += bytes_of(mesh);
+    }
+}
+
+template <class Element>
 std::span<const Element> elements_at(const gpu::MappedBuffer& buffer, std::uint64_t offset,
                                      std::uint64_t count) {
     return {reinterpret_cast<const Element*>(buffer.data() + offset), count};
@@ -137,8 +155,9 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
     parts.field_points = align(parts.points + bytes_of(round.points));
     parts.end = parts.field_points + bytes_of(round.field_points);
     input_end = parts.end + smallest_part;
-    on_device.context.mesh_offset = mesh_end;
-    mesh_end = align(mesh_end + bytes_of(round.mesh));
+    on_device.context.tile_mesh_offset = mesh_end;
+    on_device.context.mesh_offset = mesh_end + bytes_of_all(round.meshes.tile_meshes());
+    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(round.meshes.meshes()));
 }
 
 void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
@@ -148,7 +167,8 @@ void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
     copy_to(input_.data() + parts.geometry, round.lists.geometry());
     copy_to(input_.data() + parts.points, round.points);
     copy_to(input_.data() + parts.field_points, round.field_points);
-    copy_to(mesh_.data() + on_device.context.mesh_offset, round.mesh);
+    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset, round.meshes.tile_meshes());
+    copy_all_to(mesh_.data() + on_device.context.mesh_offset, round.meshes.meshes());
 }
 
 void BatchResources::run(std::uint32_t count) {

@@ -200,7 +200,7 @@ void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
     if (needs_.points) {
         bind_pair(context.points, images_.by_encoding.front());
     }
-    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+    for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         if (needs_.field[encoding]) {
             bind_pair(context.field[encoding], images_.by_encoding[encoding]);
         }

@@ -155,7 +155,7 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
         write(set, Layout::points, input_.handle(), input.field_points, input.end);
         write(set, Layout::output, words_of(on_device), output.field, output.summaries);
     };
-    for (std::size_t encoding = 0; encoding < passes::sign_encodings; ++encoding) {
+    for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         if (needs.field[encoding]) {
             write_field(context.field[encoding]);
         }

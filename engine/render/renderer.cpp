@@ -45,8 +45,8 @@ GraphKey key_of(const plan::TileBatch& round) {
         needs.field[encoding] = needs.field[encoding] || draw.field;
         needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
                             draw.first_feature != plan::not_asked;
-        needs.blended = needs.blended || draw.blended;
     }
+    needs.blended = round.meshes.range(plan::TileMeshId::gradients).count > 0;
     return needs;
 }
 
@@ -80,7 +80,8 @@ std::unique_ptr<BatchResources> Renderer::make_resources() const {
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.
 std::shared_ptr<CompiledGraph> Renderer::graph_for(GraphKey needs, plan::TileSize extent) {
-    VkExtent2D atlas{plan::smallest_atlas, plan::smallest_atlas};
+    constexpr std::uint32_t gap = plan::atlas_gap;
+    VkExtent2D atlas{plan::smallest_atlas + gap, plan::smallest_atlas + gap};
     bool grows = false;
     for (const auto& graph : graphs_) {
         if (graph->needs() == needs) {
@@ -91,12 +92,13 @@ std::shared_ptr<CompiledGraph> Renderer::graph_for(GraphKey needs, plan::TileSiz
             grows = true;
         }
     }
-    // Powers of two, so that an atlas that grows a little each frame is not recreated each frame.
+    // Powers of two and a gap, so that an atlas that grows a little each frame is not recreated
+    // each frame.
     while (atlas.width < extent.width) {
-        atlas.width *= 2;
+        atlas.width = 2 * (atlas.width - gap) + gap;
     }
     while (atlas.height < extent.height) {
-        atlas.height *= 2;
+        atlas.height = 2 * (atlas.height - gap) + gap;
     }
     device_->log(grows ? LogLevel::warning : LogLevel::information, [&] {
         return std::string(grows ? "images grow to " : "images for a new kind of batch: ") +

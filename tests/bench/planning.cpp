@@ -135,7 +135,12 @@ void measure(const Scene& scene, int frames) {
         vertices = 0;
         for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
             builder.build(plan, number, round);
-            vertices += round.mesh.size();
+            for (const geometry::Mesh& mesh : round.meshes.meshes()) {
+                vertices += mesh.size();
+            }
+            for (const std::vector<plan::TileVertex>& mesh : round.meshes.tile_meshes()) {
+                vertices += mesh.size();
+            }
         }
         planned = std::min(planned, middle - start);
         built = std::min(built, processor_milliseconds() - middle);

@@ -22,9 +22,44 @@ struct Placed {
     ReferenceSample sample;
 };
 
-geometry::Mesh part_of(const geometry::Mesh& mesh, plan::DrawRange range) {
-    const auto first = mesh.begin() + range.first;
-    return {first, first + range.count};
+/// The triangles of a tile, in its cells: those that reach it or the gap around it.
+geometry::Mesh in_tile(const plan::TileDraw& draw, const geometry::Mesh& all) {
+    constexpr auto gap = static_cast<float>(plan::atlas_gap);
+    geometry::Mesh mesh;
+    for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
+        const auto is_near = [&](const geometry::MeshVertex& vertex) {
+            const float x = vertex.x - static_cast<float>(draw.x);
+            const float y = vertex.y - static_cast<float>(draw.y);
+            return x >= -gap && y >= -gap && x <= static_cast<float>(draw.width) + gap &&
+                   y <= static_cast<float>(draw.height) + gap;
+        };
+        if (is_near(all[i]) && is_near(all[i + 1]) && is_near(all[i + 2])) {
+            for (std::size_t j = i; j < i + 3; ++j) {
+                mesh.push_back({all[j].x - static_cast<float>(draw.x),
+                                all[j].y - static_cast<float>(draw.y), all[j].distance, all[j].id});
+            }
+        }
+    }
+    return mesh;
+}
+
+/// The triangles that decide where a shape is in a tile.
+geometry::Mesh mesh_of(const plan::TileBatch& round, const plan::TileDraw& draw,
+                       IntersectionStrategy strategy, bool is_a) {
+    using plan::OverlapStep;
+    const auto mesh = [&](OverlapStep step) -> const geometry::Mesh& {
+        return round.meshes[plan::overlaps_of(strategy, step)];
+    };
+    if ((is_a ? draw.part_a : draw.part_b) == plan::Part::volume) {
+        return in_tile(draw, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
+    }
+    geometry::Mesh found =
+        in_tile(draw, mesh(is_a ? OverlapStep::boundary_a : OverlapStep::boundary_b));
+    if (is_a) {
+        const geometry::Mesh watched = in_tile(draw, mesh(OverlapStep::watched_a));
+        found.insert(found.end(), watched.begin(), watched.end());
+    }
+    return found;
 }
 
 /// For each sample the id of the first triangle that covers it, or none; for volumes, 0 or none.
@@ -47,11 +82,12 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
 }
 
 void scan_tile(const plan::Plan& plan, const plan::TileBatch& round, const plan::TileDraw& draw,
-               geometry::SubpixelGrid grid, std::vector<Placed>& found) {
+               IntersectionStrategy strategy, geometry::SubpixelGrid grid,
+               std::vector<Placed>& found) {
     const plan::Tile& planned = plan.tiles[round.tile_index[draw.tile]];
     const support::Tile tile{draw.width, draw.height, grid};
-    const auto a = scan(tile, part_of(round.mesh, draw.a), draw.part_a);
-    const auto b = scan(tile, part_of(round.mesh, draw.b), draw.part_b);
+    const auto a = scan(tile, mesh_of(round, draw, strategy, true), draw.part_a);
+    const auto b = scan(tile, mesh_of(round, draw, strategy, false), draw.part_b);
     for (std::uint32_t row = 0; row < tile.height; ++row) {
         for (std::uint32_t column = 0; column < tile.width; ++column) {
             const std::size_t index = tile.index(column, row);
@@ -99,10 +135,9 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     std::vector<Placed> found;
     for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
         builder.build(plan, number, round);
-        for (const auto& draws : round.overlap_draws) {
-            for (const plan::TileDraw& draw : draws) {
-                scan_tile(plan, round, draw, limits.subpixel, found);
-            }
+        for (const plan::TileDraw& draw :
+             round.overlap_draws[static_cast<std::size_t>(query.strategy)]) {
+            scan_tile(plan, round, draw, query.strategy, limits.subpixel, found);
         }
     }
     std::sort(found.begin(), found.end(),

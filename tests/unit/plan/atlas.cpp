@@ -22,19 +22,22 @@ TEST(AtlasPacker, TilesOfARoundNeverOverlapAndStayInTheImage) {
         std::vector<AtlasPlace> places;
         packer.pack(tiles, places);
         ASSERT_EQ(places.size(), tiles.size());
-        ASSERT_LE(packer.extent().width, largest);
-        ASSERT_LE(packer.extent().height, largest);
+        const std::uint32_t side = largest + atlas_gap;
+        ASSERT_LE(packer.extent().width, side);
+        ASSERT_LE(packer.extent().height, side);
 
+        // Each tile with the gap right of it and above it.
+        const std::uint32_t with_gap = side + atlas_gap;
         std::vector<std::vector<bool>> taken(
-            packer.tile_batches(), std::vector<bool>(std::size_t{largest} * largest, false));
+            packer.tile_batches(), std::vector<bool>(std::size_t{with_gap} * with_gap, false));
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             ASSERT_LT(places[i].round, packer.tile_batches());
             ASSERT_LE(places[i].x + tiles[i].width, packer.extent().width);
             ASSERT_LE(places[i].y + tiles[i].height, packer.extent().height);
-            for (std::uint32_t y = 0; y < tiles[i].height; ++y) {
-                for (std::uint32_t x = 0; x < tiles[i].width; ++x) {
+            for (std::uint32_t y = 0; y < tiles[i].height + atlas_gap; ++y) {
+                for (std::uint32_t x = 0; x < tiles[i].width + atlas_gap; ++x) {
                     const std::size_t pixel =
-                        std::size_t{places[i].y + y} * largest + places[i].x + x;
+                        std::size_t{places[i].y + y} * with_gap + places[i].x + x;
                     ASSERT_FALSE(taken[places[i].round][pixel]) << "tile " << i;
                     taken[places[i].round][pixel] = true;
                 }
@@ -49,7 +52,16 @@ TEST(AtlasPacker, ManySmallTilesOfOneSizeWasteLittle) {
     std::vector<AtlasPlace> places;
     packer.pack(tiles, places);
     EXPECT_EQ(packer.tile_batches(), 1U);
-    EXPECT_LE(packer.extent().width * packer.extent().height, 1000U * 32U * 32U * 5U / 4U);
+    const std::uint32_t side = 32 + atlas_gap;
+    EXPECT_LE(packer.extent().width * packer.extent().height, 1000U * side * side * 5U / 4U);
+}
+
+TEST(AtlasPacker, FourTilesOfHalfTheLargestSideFitOneImage) {
+    const std::vector<TileSize> tiles(4, {1024, 1024});
+    AtlasPacker packer(2048);
+    std::vector<AtlasPlace> places;
+    packer.pack(tiles, places);
+    EXPECT_EQ(packer.tile_batches(), 1U);
 }
 
 TEST(AtlasPacker, NoTilesNeedNoRound) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace nearfield::plan {
@@ -46,33 +47,40 @@ TEST(PlanWatch, LargeTilesOfStencilAndDepthOnly) {
                                            {S::depth, fine},
                                            {S::stencil, coarse},
                                            {S::depth, coarse}});
-    std::set<std::uint32_t> queries;
+    std::set<std::uint32_t> tiles;
+    for (const WatchedTile& watched : round.watched) {
+        EXPECT_TRUE(watched.strategy == S::stencil || watched.strategy == S::depth);
+        const TileData& tile = round.tiles[watched.tile];
+        EXPECT_GE(tile.width * tile.height, 128U * 128U);
+        EXPECT_EQ(watched.part_a, Part::volume);
+        EXPECT_EQ(watched.a.count, 6U);
+        EXPECT_TRUE(tiles.insert(watched.tile).second);
+    }
+    EXPECT_EQ(tiles.size(), 2U);
+    // The other four tiles are drawn together, and no tile twice.
+    std::uint32_t vertices = 0;
     for (std::size_t strategy = 0; strategy < intersection_strategies; ++strategy) {
-        for (const TileDraw& draw : round.overlap_draws[strategy]) {
-            const bool decides =
-                static_cast<S>(strategy) == S::stencil || static_cast<S>(strategy) == S::depth;
-            const bool large = draw.width * draw.height >= 128 * 128;
-            EXPECT_EQ(draw.watch != no_watch, decides && large) << strategy;
-            if (draw.watch != no_watch) {
-                EXPECT_LT(draw.watch, round.watched);
-                EXPECT_TRUE(queries.insert(draw.watch).second);
-            }
+        for (const OverlapStep step : {OverlapStep::volume_a, OverlapStep::watched_a}) {
+            vertices += round.meshes.range(overlaps_of(static_cast<S>(strategy), step)).count;
         }
     }
-    EXPECT_EQ(queries.size(), 2U);
-    EXPECT_EQ(round.watched, 2U);
+    EXPECT_EQ(vertices, 6U * 6U);
 }
 
-TEST(PlanWatch, NoMoreThanThereAreQueries) {
-    const std::vector<std::pair<IntersectionStrategy, double>> many(
-        400, {IntersectionStrategy::stencil, 0.04});
-    const TileBatch round = tile_batch_of(many);
-    EXPECT_EQ(round.watched, max_watched);
-    std::uint32_t watched = 0;
-    for (const TileDraw& draw : round.overlap_draws[0]) {
-        watched += draw.watch != no_watch ? 1 : 0;
+TEST(PlanWatch, TheLargestIfThereAreTooMany) {
+    std::vector<std::pair<IntersectionStrategy, double>> many(
+        60, {IntersectionStrategy::stencil, 0.04});
+    for (const unsigned i : {7U, 20U, 31U, 59U}) {
+        many[i].second = 0.02;
     }
-    EXPECT_EQ(watched, round.watched);
+    const TileBatch round = tile_batch_of(many);
+    ASSERT_EQ(round.watched.size(), max_watched);
+    std::uint32_t large = 0;
+    for (const WatchedTile& watched : round.watched) {
+        large = std::max(large, round.tiles[watched.tile].width);
+        EXPECT_GE(round.tiles[watched.tile].width * 3, large * 2);
+        EXPECT_GT(round.tiles[watched.tile].height, 300U);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+#include <engine/plan/tile_meshes.hpp>
+
+namespace nearfield::plan {
+namespace {
+
+/// The vertices of the meshes first, ..., last.
+template <class Meshes>
+DrawRange range_in(const Meshes& meshes, std::size_t first, std::size_t last) {
+    DrawRange range;
+    for (std::size_t i = 0; i <= last; ++i) {
+        (i < first ? range.first : range.count) += static_cast<std::uint32_t>(meshes[i].size());
+    }
+    return range;
+}
+
+}  // namespace
+
+void TileMeshes::clear() {
+    for (geometry::Mesh& mesh : meshes_) {
+        mesh.clear();
+    }
+    for (std::vector<TileVertex>& mesh : tile_meshes_) {
+        mesh.clear();
+    }
+}
+
+DrawRange TileMeshes::range(MeshId first, MeshId last) const {
+    return range_in(meshes_, first.index, last.index);
+}
+
+DrawRange TileMeshes::range(TileMeshId id) const {
+    const auto index = static_cast<std::size_t>(id);
+    return range_in(tile_meshes_, index, index);
+}
+
+}  // namespace nearfield::plan

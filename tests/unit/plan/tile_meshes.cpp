@@ -1,0 +1,170 @@
+#include <engine/plan/planner.hpp>
+#include <engine/plan/tile_batch.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <list>
+#include <span>
+#include <vector>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::MeshVertex;
+
+/// How far a triangle reaches beyond a tile, in cells.
+float overreach(std::span<const MeshVertex> triangle, const TileData& tile) {
+    float most = 0.0F;
+    for (const MeshVertex& vertex : triangle) {
+        const float x = vertex.x - static_cast<float>(tile.atlas_x);
+        const float y = vertex.y - static_cast<float>(tile.atlas_y);
+        most = std::max({most, -x, -y, x - static_cast<float>(tile.width),
+                         y - static_cast<float>(tile.height)});
+    }
+    return most;
+}
+
+/// Batches of all kinds of tiles, of random shapes.
+class PlanTileMeshes : public ::testing::Test {
+protected:
+    /// `steps`: of the sub-pixel grid.
+    std::vector<TileBatch> tile_batches(std::uint64_t seed, double steps) {
+        test::Random random(seed);
+        std::vector<AnyQuery> queries;
+        std::vector<QueryShapes> shapes;
+        for (int i = 0; i < 40; ++i) {
+            const double d = random.scale(0.01, 0.2);
+            // The largest deviation allowed makes the widest offset polygons.
+            const double deviation = i % 2 == 0 ? 0.25 * d * 0.49 : 0.0;
+            shapes.push_back({shape(random, deviation), shape(random, deviation)});
+            queries.push_back(query(random, d, i));
+        }
+        PlanLimits limits;
+        limits.memory = std::uint64_t{1} << 34U;
+        limits.subpixel = {steps};
+        Planner planner(limits);
+        Plan plan;
+        std::vector<AnyResult> results;
+        planner.plan(queries, shapes, plan, results);
+        for (const AnyResult& result : results) {
+            const Status status = std::visit([](const auto& one) { return one.status; }, result);
+            EXPECT_TRUE(status.ok()) << status.text();
+        }
+        TileBatchBuilder builder(limits.subpixel);
+        std::vector<TileBatch> built(plan.tile_batches);
+        for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
+            builder.build(plan, number, built[number]);
+        }
+        return built;
+    }
+
+private:
+    const geometry::Polygon* shape(test::Random& random, double deviation) {
+        geometry::Polygon& polygon = polygons_.emplace_back();
+        const test::Rings rings = random.whole(0, 1) == 0 ? test::star(random, 30, 0.4)
+                                                          : test::coast(random, 60, 0.5);
+        EXPECT_TRUE(polygon.assign(rings, deviation).ok());
+        return &polygon;
+    }
+
+    static AnyQuery query(test::Random& random, double d, int i) {
+        const Pose pose{{random.between(-1.0, 1.0), random.between(-1.0, 1.0)},
+                        random.between(0.0, 6.0)};
+        if (i % 4 == 0) {
+            PenetrationQuery query{{}, {{}, pose}, d};
+            query.technique = Technique::raster;
+            return query;
+        }
+        if (i % 4 == 1) {
+            DistanceFieldQuery query{{}, {{}, pose}, d};
+            query.rectangle = Rectangle{{-0.5, -0.5}, {0.5, 0.5}};
+            query.sign = static_cast<SignEncoding>(random.whole(0, 2));
+            query.gradients = true;
+            query.gradient = GradientMethod::blended;
+            query.technique = Technique::raster;
+            return query;
+        }
+        IntersectionQuery query{{}, {{}, pose}, d};
+        query.kind = static_cast<IntersectionKind>(random.whole(0, 2));
+        query.strategy = static_cast<IntersectionStrategy>(random.whole(0, 3));
+        query.technique = Technique::raster;
+        return query;
+    }
+
+    std::list<geometry::Polygon> polygons_;
+};
+
+TEST_F(PlanTileMeshes, ReachNoOtherTile) {
+    for (const double steps : {16.0, 256.0}) {
+        for (std::uint64_t seed = 0; seed < 20; ++seed) {
+            SCOPED_TRACE(seed);
+            for (const TileBatch& round : tile_batches(seed, steps)) {
+                for (const geometry::Mesh& mesh : round.meshes.meshes()) {
+                    for (std::size_t i = 0; i < mesh.size(); i += 3) {
+                        float least = 1e9F;
+                        for (const TileData& tile : round.tiles) {
+                            least = std::min(least, overreach({&mesh[i], 3}, tile));
+                        }
+                        // Sample positions are half a cell within the next tile.
+                        ASSERT_LT(least, static_cast<float>(atlas_gap));
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_F(PlanTileMeshes, CarryTheRectangleOfTheirTile) {
+    std::size_t seen = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        for (const TileBatch& round : tile_batches(seed, 256.0)) {
+            for (const std::vector<TileVertex>& mesh : round.meshes.tile_meshes()) {
+                for (std::size_t i = 0; i < mesh.size(); i += 3) {
+                    const auto is_its = [&](const TileData& tile) {
+                        return std::all_of(&mesh[i], &mesh[i] + 3, [&](const TileVertex& vertex) {
+                            return vertex.x == tile.atlas_x && vertex.y == tile.atlas_y &&
+                                   vertex.width == tile.width && vertex.height == tile.height;
+                        });
+                    };
+                    ASSERT_EQ(std::count_if(round.tiles.begin(), round.tiles.end(), is_its), 1);
+                    for (std::size_t j = i; j < i + 3; ++j) {
+                        const float depth = mesh[j].vertex.distance;
+                        ASSERT_TRUE(depth >= 0.0F && depth <= 1.0F) << depth;
+                    }
+                    ++seen;
+                }
+            }
+        }
+    }
+    EXPECT_GT(seen, 10000U);
+}
+
+TEST_F(PlanTileMeshes, FollowEachOtherInTheOrderOfTheirRanges) {
+    for (const TileBatch& round : tile_batches(1, 256.0)) {
+        std::uint32_t end = 0;
+        for (std::size_t i = 0; i < tile_batch_meshes; ++i) {
+            const DrawRange range = round.meshes.range(MeshId{i});
+            EXPECT_EQ(range.first, end);
+            EXPECT_EQ(range.count, round.meshes.meshes()[i].size());
+            end += range.count;
+        }
+        const DrawRange all = round.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
+        EXPECT_EQ(all.first, 0U);
+        EXPECT_EQ(all.count, end);
+        end = 0;
+        for (std::size_t i = 0; i < tile_batch_tile_meshes; ++i) {
+            const DrawRange range = round.meshes.range(static_cast<TileMeshId>(i));
+            EXPECT_EQ(range.first, end);
+            EXPECT_EQ(range.count, round.meshes.tile_meshes()[i].size());
+            end += range.count;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::plan
