@@ -25,20 +25,20 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     return owned;
 }
 
-constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies> names_of_round{
-    "nearfield resolve points set",
-    "nearfield field by stencil set",
-    "nearfield field by color set",
-    "nearfield field by feature bit set",
-    "nearfield collect gradients set",
-    "nearfield collect set, stencil",
-    "nearfield collect set, blend",
-    "nearfield collect set, logic op",
-    "nearfield collect set, depth",
-    "nearfield masks set",
-    "nearfield blocks set",
-    "nearfield feature blocks set",
-    "nearfield points by lists set"};
+constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies>
+    names_of_round{"nearfield resolve points set",
+                   "nearfield field by stencil set",
+                   "nearfield field by color set",
+                   "nearfield field by feature bit set",
+                   "nearfield collect gradients set",
+                   "nearfield collect set, stencil",
+                   "nearfield collect set, blend",
+                   "nearfield collect set, logic op",
+                   "nearfield collect set, depth",
+                   "nearfield masks set",
+                   "nearfield blocks set",
+                   "nearfield feature blocks set",
+                   "nearfield points by lists set"};
 
 }  // namespace
 

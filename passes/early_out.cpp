@@ -53,8 +53,8 @@ void EarlyOut::record(VkCommandBuffer commands, IntersectionStrategy strategy) c
                                         watched[query].tile * sizeof(plan::TileSummary) +
                                         offsetof(plan::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
-                commands, pool_.get(), query, 1, context_->read_back, offset,
-                sizeof(std::uint32_t), VK_QUERY_RESULT_WAIT_BIT);
+                commands, pool_.get(), query, 1, context_->read_back, offset, sizeof(std::uint32_t),
+                VK_QUERY_RESULT_WAIT_BIT);
         }
     }
 }

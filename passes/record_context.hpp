@@ -15,8 +15,8 @@ namespace nearfield::passes {
 struct RecordContext {
     const plan::TileBatch* round = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;
-    VkDeviceSize mesh_offset = 0;       ///< of the tile batch's vertices of meshes, in bytes
-    VkDeviceSize tile_mesh_offset = 0;  ///< of its vertices with the rectangle of their tile
+    VkDeviceSize mesh_offset = 0;             ///< of the tile batch's vertices of meshes, in bytes
+    VkDeviceSize tile_mesh_offset = 0;        ///< of its vertices with the rectangle of their tile
     VkDescriptorSet points = VK_NULL_HANDLE;  ///< raster technique: with images
     /// Compute technique: without images. It is not the raster's set, which names images of the
     /// last compiled graph, because a driver may access every resource that a set names.

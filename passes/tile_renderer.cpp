@@ -24,8 +24,8 @@ static_assert(sizeof(plan::TileVertex) == 24 && offsetof(plan::TileVertex, x) ==
 // sub-pixel grid reach the rasteriser without rounding.
 constexpr auto viewport_side = static_cast<float>(2 * plan::largest_atlas_side);
 constexpr float viewport_origin = -0.25F * viewport_side;
-constexpr VkViewport viewport{viewport_origin, viewport_origin, viewport_side, viewport_side,
-                              0.0F,            1.0F};
+constexpr VkViewport viewport{
+    viewport_origin, viewport_origin, viewport_side, viewport_side, 0.0F, 1.0F};
 constexpr float scale = 2.0F / viewport_side;
 constexpr float bias = -scale * viewport_origin - 1.0F;
 

@@ -61,10 +61,9 @@ void move_to_atlas(const Tile& tile, std::size_t first, Mesh& mesh) {
 
 void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
                 std::vector<TileVertex>& mesh) {
-    mesh.push_back({vertex, static_cast<std::uint16_t>(tile.place.x),
-                    static_cast<std::uint16_t>(tile.place.y),
-                    static_cast<std::uint16_t>(tile.width),
-                    static_cast<std::uint16_t>(tile.height)});
+    mesh.push_back(
+        {vertex, static_cast<std::uint16_t>(tile.place.x), static_cast<std::uint16_t>(tile.place.y),
+         static_cast<std::uint16_t>(tile.width), static_cast<std::uint16_t>(tile.height)});
 }
 
 /// Whether a triangle, in cells of a tile, lies on one side of it.
@@ -356,11 +355,10 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     }
     add_rectangle(tile, round.meshes[rectangles_of(draw.sign)]);
     add_fill(crossing_, tile, round.meshes[fills_of(draw.sign)]);
-    add_distance_mesh(boundary, tile,
-                      {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
-                      round.meshes[draw.sign == SignEncoding::feature_bit
-                                       ? TileMeshId::signed_distances
-                                       : TileMeshId::distances]);
+    add_distance_mesh(
+        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+        round.meshes[draw.sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
+                                                            : TileMeshId::distances]);
 
     TileData& data = round.tiles[draw.tile];
     round.lists.begin_tile(boundary);
@@ -441,11 +439,11 @@ void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile
     const auto mesh = [&](OverlapStep step) -> Mesh& {
         return round.meshes[overlaps_of(strategy, step)];
     };
-    const bool is_watched = std::find(watched_.begin(), watched_.end(),
-                                      round.tile_index[draw.tile]) != watched_.end();
-    Mesh& drawn = is_watched                        ? mesh(OverlapStep::watched_a)
+    const bool is_watched =
+        std::find(watched_.begin(), watched_.end(), round.tile_index[draw.tile]) != watched_.end();
+    Mesh& drawn = is_watched                      ? mesh(OverlapStep::watched_a)
                   : draw.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
-                                                    : mesh(OverlapStep::volume_a);
+                                                  : mesh(OverlapStep::volume_a);
     const auto first = static_cast<std::uint32_t>(drawn.size());
     const double cell = tile.grid.cell;
     const TileBoundary boundary =

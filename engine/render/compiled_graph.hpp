@@ -49,7 +49,7 @@ struct ComputeKey {
 /// The outputs that a tile batch needs, which determine its graph.
 struct GraphKey {
     bool points = false;
-    std::array<bool, plan::sign_encodings> field{};     ///< by sign encoding
+    std::array<bool, plan::sign_encodings> field{};       ///< by sign encoding
     bool field_cells = false;                             ///< some output at cells of a field
     bool field_points = false;                            ///< some output at points of a field
     bool blended = false;                                 ///< blended gradients

@@ -124,31 +124,33 @@ TEST_F(DrawCount, OfPointsDoesNotGrowWithThePairs) {
 TEST_F(DrawCount, OfFieldsDoesNotGrowWithThePairs) {
     for (const SignEncoding sign : encodings) {
         SCOPED_TRACE(static_cast<int>(sign));
-        expect_few([=](Batch& batch, const Instance&, const Instance& b) {
-            add_field(batch, b, sign);
-        }, limit);
+        expect_few(
+            [=](Batch& batch, const Instance&, const Instance& b) { add_field(batch, b, sign); },
+            limit);
     }
 }
 
 TEST_F(DrawCount, OfIntersectionsDoesNotGrowWithThePairs) {
     for (const IntersectionStrategy strategy : strategies) {
         SCOPED_TRACE(to_string(strategy));
-        expect_few([=](Batch& batch, const Instance& a, const Instance& b) {
-            add_overlaps(batch, a, b, strategy);
-        }, limit);
+        expect_few([=](Batch& batch, const Instance& a,
+                       const Instance& b) { add_overlaps(batch, a, b, strategy); },
+                   limit);
     }
 }
 
 TEST_F(DrawCount, OfWatchedTilesIsLimited) {
-    expect_few([](Batch& batch, const Instance& a, const Instance& b) {
-        // Six tiles are large enough for an occlusion query, in either number of pairs.
-        const bool is_first = batch.queries().empty();
-        for (int i = 0; i < (is_first ? 6 : 1); ++i) {
-            IntersectionQuery query{a, b, is_first ? 0.005 : 0.05};
-            query.technique = Technique::raster;
-            batch.add(query);
-        }
-    }, limit);
+    expect_few(
+        [](Batch& batch, const Instance& a, const Instance& b) {
+            // Six tiles are large enough for an occlusion query, in either number of pairs.
+            const bool is_first = batch.queries().empty();
+            for (int i = 0; i < (is_first ? 6 : 1); ++i) {
+                IntersectionQuery query{a, b, is_first ? 0.005 : 0.05};
+                query.technique = Technique::raster;
+                batch.add(query);
+            }
+        },
+        limit);
 }
 
 TEST_F(DrawCount, OfAMixtureDoesNotGrowWithThePairs) {

@@ -65,8 +65,8 @@ protected:
 private:
     const geometry::Polygon* shape(test::Random& random, double deviation) {
         geometry::Polygon& polygon = polygons_.emplace_back();
-        const test::Rings rings = random.whole(0, 1) == 0 ? test::star(random, 30, 0.4)
-                                                          : test::coast(random, 60, 0.5);
+        const test::Rings rings =
+            random.whole(0, 1) == 0 ? test::star(random, 30, 0.4) : test::coast(random, 60, 0.5);
         EXPECT_TRUE(polygon.assign(rings, deviation).ok());
         return &polygon;
     }
