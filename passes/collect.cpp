@@ -5,13 +5,9 @@
 #include <shaders/collect_comp.hpp>
 
 namespace nearfield::passes {
-namespace {
 
 // A workgroup has 16 x 4 threads, each with a strip of 8 cells.
-constexpr std::uint32_t group_width = 16;
-constexpr std::uint32_t group_height = 32;
-
-}  // namespace
+static_assert(plan::overlap_group_width == 16 && plan::overlap_group_height == 4 * 8);
 
 Collect::Collect(const gpu::Device& device, const ComputeLayout& layout,
                  const RecordContext& context)
@@ -48,14 +44,12 @@ void Collect::record(VkCommandBuffer commands, IntersectionStrategy strategy) co
                                 colors ? colors_.get() : numbers_.get());
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
                                       &context_->samples[index], 0, nullptr);
-    for (const plan::TileDraw& tile : context_->round->overlap_draws[index]) {
-        const std::uint32_t push[3] = {tile.tile, tile.list ? context_->sample_capacity : 0,
-                                       tile.first_hit};
-        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                     sizeof(push), push);
-        functions.vkCmdDispatch(commands, (tile.width + group_width - 1) / group_width,
-                                (tile.height + group_height - 1) / group_height, 1);
-    }
+    dispatch_groups(functions, commands, *context_->round, plan::group_list(strategy),
+                    [&](std::uint32_t first) {
+                        const std::uint32_t push[2] = {first, context_->sample_capacity};
+                        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT,
+                                                     0, sizeof(push), push);
+                    });
 }
 
 }  // namespace nearfield::passes

@@ -67,16 +67,20 @@ graph::Handle ResolveField::declare(graph::Graph& graph, graph::Handle input,
 void ResolveField::record(VkCommandBuffer commands) const {
     const gpu::Functions& functions = device_->functions();
     functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    for (const plan::TileDraw& tile : context_->round->distance_draws) {
-        if (tile.first_value == plan::not_asked && tile.first_feature == plan::not_asked) {
+    for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
+        const auto sign = static_cast<SignEncoding>(encoding);
+        if (context_->round->groups[plan::group_list(sign)].empty()) {
             continue;
         }
-        bind_field_set(functions, commands, layout_, *context_, tile.sign);
-        const std::uint32_t push[5] = {tile.tile, sign_mask(tile.sign), tile.first_value,
-                                       tile.first_feature, context_->round->resident ? 1U : 0U};
-        functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                     sizeof(push), push);
-        dispatch_cells(functions, commands, tile.width, tile.height);
+        bind_field_set(functions, commands, layout_, *context_, sign);
+        dispatch_groups(functions, commands, *context_->round, plan::group_list(sign),
+                        [&](std::uint32_t first) {
+                            const std::uint32_t push[3] = {first, sign_mask(sign),
+                                                           context_->round->resident ? 1U : 0U};
+                            functions.vkCmdPushConstants(commands, layout_,
+                                                         VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                                         sizeof(push), push);
+                        });
     }
 }
 

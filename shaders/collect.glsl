@@ -10,10 +10,11 @@ const uint run_shift = 8u;
 
 #include "samples.glsl"
 
+// A group's `first`: 1 if samples are listed; `second`: where the numbers of all cells of its tile
+// are kept, or not_kept.
 layout(push_constant) uniform Push {
-    uint tile;
-    uint capacity;   // space for samples; 0: samples are not listed
-    uint first_hit;  // where the numbers of all cells are kept; not_kept: not at all
+    uint first_group;
+    uint capacity;  // space for samples
 } push;
 
 const uint not_kept = 0xffffffffu;
@@ -25,11 +26,12 @@ layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
 const uint strip = 8u;
 
 void main() {
-    Tile tile = tile_at(push.tile);
-    uint column = gl_GlobalInvocationID.x;
-    uint first_row = gl_GlobalInvocationID.y * strip;
-    bool keeps = push.first_hit != not_kept;
-    if ((summaries[push.tile].passed == 0u && !keeps) || column >= tile.width ||
+    CellGroup group = group_at(push.first_group + gl_WorkGroupID.x);
+    Tile tile = tile_at(group.tile);
+    uint column = group.cell.x + gl_LocalInvocationID.x;
+    uint first_row = group.cell.y + gl_LocalInvocationID.y * strip;
+    bool keeps = group.second != not_kept;
+    if ((summaries[group.tile].passed == 0u && !keeps) || column >= tile.width ||
         first_row >= tile.height) {
         return;
     }
@@ -41,19 +43,19 @@ void main() {
         bool is_found = (hit & 255u) == white;
         found |= is_found ? 1u << i : 0u;
         if (keeps) {
-            kept_hits[push.first_hit + (first_row + i) * tile.width + column] = is_found ? hit : 0u;
+            kept_hits[group.second + (first_row + i) * tile.width + column] = is_found ? hit : 0u;
         }
     }
     if (found == 0u) {
         return;
     }
     uint count = uint(bitCount(found));
-    atomicAdd(summaries[push.tile].count, count);
-    atomicMin(summaries[push.tile].low_column, column);
-    atomicMin(summaries[push.tile].low_row, first_row + uint(findLSB(found)));
-    atomicMax(summaries[push.tile].high_column, column);
-    atomicMax(summaries[push.tile].high_row, first_row + uint(findMSB(found)));
-    if (push.capacity == 0u) {
+    atomicAdd(summaries[group.tile].count, count);
+    atomicMin(summaries[group.tile].low_column, column);
+    atomicMin(summaries[group.tile].low_row, first_row + uint(findLSB(found)));
+    atomicMax(summaries[group.tile].high_column, column);
+    atomicMax(summaries[group.tile].high_row, first_row + uint(findMSB(found)));
+    if (group.first == 0u) {
         return;
     }
     uint place = atomicAdd(samples.count, count);
@@ -61,7 +63,7 @@ void main() {
         if ((found & (1u << i)) != 0u && place < push.capacity) {
             uint word = place * 3u;
             samples.words[word] = column | ((first_row + i) << 16);
-            samples.words[word + 1u] = push.tile;
+            samples.words[word + 1u] = group.tile;
             samples.words[word + 2u] = hit_at(corner + ivec2(0, i)) >> run_shift;
             ++place;
         }

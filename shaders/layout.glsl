@@ -47,6 +47,19 @@ Tile tile_at(uint index) {
                 uintBitsToFloat(c.z), uintBitsToFloat(c.w), d.x, d.y, d.z, d.w);
 }
 
+// A rectangle of cells that one workgroup works on; they follow the tiles.
+struct CellGroup {
+    uint tile;
+    uvec2 cell;  // the low one
+    uint first;
+    uint second;
+};
+
+CellGroup group_at(uint index) {
+    uvec4 words = tile_words[index];
+    return CellGroup(words.x, uvec2(words.y & 0xffffu, words.y >> 16), words.z, words.w);
+}
+
 struct Edge {
     vec2 a;
     vec2 b;

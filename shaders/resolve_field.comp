@@ -15,11 +15,9 @@ layout(set = 0, binding = 4) uniform usampler2D feature_image;
 layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
 layout(push_constant) uniform Push {
-    uint tile;
+    uint first_group;
     uint sign_mask;
-    uint first_value;    // first word of the tile's values, or not_asked
-    uint first_feature;  // first word of its features, or not_asked
-    uint resident;       // 1: features are resident and flag nearest vertices
+    uint resident;  // 1: features are resident and flag nearest vertices
 } push;
 
 #include "field.glsl"
@@ -27,22 +25,25 @@ layout(push_constant) uniform Push {
 const uint not_asked = 0xffffffffu;
 
 void main() {
-    Tile tile = tile_at(push.tile);
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    CellGroup group = group_at(push.first_group + gl_WorkGroupID.x);
+    uint first_value = group.first;     // first word of the tile's values, or not_asked
+    uint first_feature = group.second;  // first word of its features, or not_asked
+    Tile tile = tile_at(group.tile);
+    ivec2 cell = ivec2(group.cell + gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(tile.width, tile.height)))) {
         return;
     }
     uint index = uint(cell.y) * tile.width + uint(cell.x);
-    if (push.first_value != not_asked) {
-        field.words[push.first_value + index] = floatBitsToUint(field_value(tile, cell));
+    if (first_value != not_asked) {
+        field.words[first_value + index] = floatBitsToUint(field_value(tile, cell));
     }
-    if (push.first_feature != not_asked) {
+    if (first_feature != not_asked) {
         Nearest nearest;
         vec2 centre = vec2(cell) + 0.5;
         uint word = field_feature(tile, centre, cell, nearest);
         if (push.resident != 0u) {
             word |= vertex_flags(centre, tile.nearest, nearest);
         }
-        field.words[push.first_feature + index] = word;
+        field.words[first_feature + index] = word;
     }
 }

@@ -43,6 +43,21 @@ struct TileData {
 };
 static_assert(sizeof(TileData) == 64);
 
+/// A rectangle of cells of a drawn tile that one workgroup works on. They follow the tiles in their
+/// buffer.
+struct CellGroup {
+    std::uint32_t tile = 0;
+    std::uint32_t cell = 0;  ///< the low one, column | row << 16
+    /// Of a field: where the tile's values and features start in the read-back, or not_asked. Of an
+    /// overlap: 1 if samples are listed; where the hits of the cells are kept, or not_asked.
+    std::uint32_t first = 0, second = 0;
+};
+static_assert(sizeof(CellGroup) == 16 && sizeof(TileData) % sizeof(CellGroup) == 0);
+/// Sides of these rectangles.
+inline constexpr std::uint32_t field_group_side = 8;
+inline constexpr std::uint32_t overlap_group_width = 16;
+inline constexpr std::uint32_t overlap_group_height = 32;
+
 /// A straight edge: an exact edge, or a simplified edge that represents a run of B's edges.
 struct EdgeData {
     float ax = 0.0F, ay = 0.0F, bx = 0.0F, by = 0.0F;

@@ -66,6 +66,17 @@ void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
          static_cast<std::uint16_t>(tile.width), static_cast<std::uint16_t>(tile.height)});
 }
 
+/// Appends groups of width x height cells that cover a tile; `first` describes the low one.
+void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
+                std::vector<CellGroup>& groups) {
+    for (std::uint32_t row = 0; row < draw.height; row += height) {
+        for (std::uint32_t column = 0; column < draw.width; column += width) {
+            first.cell = column | row << 16U;
+            groups.push_back(first);
+        }
+    }
+}
+
 /// Whether a triangle, in cells of a tile, lies on one side of it.
 bool is_outside(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle) {
     const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
@@ -103,10 +114,21 @@ void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw
 
 }  // namespace
 
+std::uint32_t TileBatch::first_group(std::size_t list) const {
+    std::size_t first = tiles.size() * sizeof(TileData) / sizeof(CellGroup);
+    for (std::size_t i = 0; i < list; ++i) {
+        first += groups[i].size();
+    }
+    return static_cast<std::uint32_t>(first);
+}
+
 void TileBatch::clear() {
     meshes.clear();
     extent = {};
     tiles.clear();
+    for (std::vector<CellGroup>& list : groups) {
+        list.clear();
+    }
     lists.clear();
     points.clear();
     point_index.clear();
@@ -352,6 +374,11 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     }
     if (tile.kind == TileKind::field) {
         add_field_output(query, tile, draw, round);
+        if (draw.first_value != not_asked || draw.first_feature != not_asked) {
+            add_groups(draw, field_group_side, field_group_side,
+                       {draw.tile, 0, draw.first_value, draw.first_feature},
+                       round.groups[group_list(draw.sign)]);
+        }
     }
     add_rectangle(tile, round.meshes[rectangles_of(draw.sign)]);
     add_fill(crossing_, tile, round.meshes[fills_of(draw.sign)]);
@@ -401,6 +428,9 @@ void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& t
                                         TileBatch& round) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
     describe_overlap(asked, tile, draw, round);
+    add_groups(draw, overlap_group_width, overlap_group_height,
+               {draw.tile, 0, draw.list ? 1U : 0U, draw.first_hit},
+               round.groups[group_list(asked.strategy)]);
     add_rectangle(tile, round.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
     add_overlap_b(query, tile, draw, round);
     add_overlap_a(query, tile, draw, round);

@@ -79,11 +79,22 @@ struct WordRange {
     std::uint32_t count = 0;
 };
 
+/// One of the lists of cell groups of a tile batch: of its fields with an encoding of the sign, or
+/// of its intersections by a strategy.
+[[nodiscard]] constexpr std::size_t group_list(SignEncoding sign) {
+    return static_cast<std::size_t>(sign);
+}
+[[nodiscard]] constexpr std::size_t group_list(IntersectionStrategy strategy) {
+    return sign_encodings + static_cast<std::size_t>(strategy);
+}
+inline constexpr std::size_t group_lists = sign_encodings + intersection_strategies;
+
 /// Tiles that fill the atlas once, in the form that the device takes.
 struct TileBatch {
     TileMeshes meshes;
     TileSize extent;  ///< of the atlas that the tiles take
     std::vector<TileData> tiles;
+    std::array<std::vector<CellGroup>, group_lists> groups;
     EdgeListWriter lists;
     std::vector<PointData> points;
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
@@ -107,6 +118,8 @@ struct TileBatch {
     bool by_compute = false;
     ComputeWork compute;
 
+    /// Position of a list's first group in the buffer of tiles, in units of a group.
+    [[nodiscard]] std::uint32_t first_group(std::size_t list) const;
     void clear();
 };
 

@@ -34,6 +34,10 @@ std::uint64_t bytes_of_all(std::span<const std::vector<Element>> meshes) {
     return bytes;
 }
 
+std::span<const std::vector<plan::CellGroup>> groups_of(const plan::TileBatch& round) {
+    return round.groups;
+}
+
 /// One after the other.
 template <class Element>
 void copy_all_to(std::byte* target, std::span<const std::vector<Element>> meshes) {
@@ -150,7 +154,8 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
                   "the points");
     InputParts& parts = on_device.input;
     parts.tiles = align(input_end);
-    parts.geometry = align(parts.tiles + bytes_of(round.tiles));
+    parts.groups_end = parts.tiles + bytes_of(round.tiles) + bytes_of_all(groups_of(round));
+    parts.geometry = align(parts.groups_end);
     parts.points = align(parts.geometry + bytes_of(geometry));
     parts.field_points = align(parts.points + bytes_of(round.points));
     parts.end = parts.field_points + bytes_of(round.field_points);
@@ -164,6 +169,7 @@ void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
     const plan::TileBatch& round = *on_device.context.round;
     const InputParts& parts = on_device.input;
     copy_to(input_.data() + parts.tiles, round.tiles);
+    copy_all_to(input_.data() + parts.tiles + bytes_of(round.tiles), groups_of(round));
     copy_to(input_.data() + parts.geometry, round.lists.geometry());
     copy_to(input_.data() + parts.points, round.points);
     copy_to(input_.data() + parts.field_points, round.field_points);

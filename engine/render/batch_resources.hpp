@@ -24,6 +24,7 @@ namespace nearfield::render {
 /// Byte offsets of a tile batch's parts in the common buffers.
 struct InputParts {
     std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
+    std::uint64_t groups_end = 0;  ///< of the groups that follow the tiles
 };
 struct OutputParts {
     std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;

@@ -140,8 +140,7 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
         layout_->write_buffer(set, binding, buffer, from, std::max(to - from, smallest_part));
     };
     const auto write_tiles = [&](VkDescriptorSet set) {
-        write(set, Layout::tiles, input_.handle(), input.tiles,
-              input.tiles + bytes_of(round.tiles));
+        write(set, Layout::tiles, input_.handle(), input.tiles, input.groups_end);
         write(set, Layout::geometry, input_.handle(), input.geometry,
               input.geometry + bytes_of(round.lists.geometry()));
     };

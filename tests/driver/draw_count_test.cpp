@@ -74,6 +74,9 @@ protected:
         EXPECT_EQ(many.scissors, many.render_passes);
         // One for each draw, three for those of gradients, one for each dispatch.
         EXPECT_LE(many.push_constants, many.draws + 3 + many.dispatches);
+        if (!with_gradients_) {
+            EXPECT_EQ(many.dispatches, few.dispatches);
+        }
     }
 
     static void add_overlaps(Batch& batch, const Instance& a, const Instance& b,
@@ -85,11 +88,12 @@ protected:
             batch.add(query);
         }
     }
-    static void add_field(Batch& batch, const Instance& b, SignEncoding sign) {
+    void add_field(Batch& batch, const Instance& b, SignEncoding sign) const {
         DistanceFieldQuery query{{}, b, 0.1};
         query.rectangle = Rectangle{{-0.5, -0.5}, {0.5, 0.5}};
         query.sign = sign;
-        query.gradients = true;
+        query.features = true;
+        query.gradients = with_gradients_;
         query.gradient = GradientMethod::blended;
         query.technique = Technique::raster;
         batch.add(query);
@@ -112,6 +116,7 @@ protected:
     test_support::MockDriver driver_;
     std::optional<Context> context_;
     ShapeHandle shape_;
+    bool with_gradients_ = false;  ///< blended ones, which are collected tile by tile
 };
 
 constexpr std::ptrdiff_t limit = 20;
@@ -122,11 +127,14 @@ TEST_F(DrawCount, OfPointsDoesNotGrowWithThePairs) {
 }
 
 TEST_F(DrawCount, OfFieldsDoesNotGrowWithThePairs) {
-    for (const SignEncoding sign : encodings) {
-        SCOPED_TRACE(static_cast<int>(sign));
-        expect_few(
-            [=](Batch& batch, const Instance&, const Instance& b) { add_field(batch, b, sign); },
-            limit);
+    for (const bool with_gradients : {false, true}) {
+        with_gradients_ = with_gradients;
+        for (const SignEncoding sign : encodings) {
+            SCOPED_TRACE(static_cast<int>(sign));
+            expect_few([&](Batch& batch, const Instance&,
+                           const Instance& b) { add_field(batch, b, sign); },
+                       limit);
+        }
     }
 }
 
@@ -154,14 +162,15 @@ TEST_F(DrawCount, OfWatchedTilesIsLimited) {
 }
 
 TEST_F(DrawCount, OfAMixtureDoesNotGrowWithThePairs) {
-    const Add with_one_strategy = [](Batch& batch, const Instance& a, const Instance& b) {
+    with_gradients_ = true;
+    const Add with_one_strategy = [this](Batch& batch, const Instance& a, const Instance& b) {
         add_points(batch, a, b);
         add_field(batch, b, SignEncoding::stencil);
         add_overlaps(batch, a, b, IntersectionStrategy::stencil);
     };
     expect_few(with_one_strategy, limit);
     // A render pass for each encoding and each strategy: 13 draws for fields, 7 for a strategy.
-    const Add with_everything = [](Batch& batch, const Instance& a, const Instance& b) {
+    const Add with_everything = [this](Batch& batch, const Instance& a, const Instance& b) {
         add_points(batch, a, b);
         for (const SignEncoding sign : encodings) {
             add_field(batch, b, sign);
