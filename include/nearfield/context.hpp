@@ -325,6 +325,14 @@ public:
     [[nodiscard]] Expected<std::vector<ResidentSamples>> resident_layout(
         const Batch& batch, QueryHandle<IntersectionQuery> query);
 
+    /// Ends the use of an image of the host (ResidentImageTarget), which may be destroyed after
+    /// this: destroys the library's views of it. Of an image that was no target, does nothing.
+    /// Until it is called, or the context is destroyed, a new image that gets the same handle would
+    /// be taken for the old one. Never waits.
+    ///
+    /// Fails with not_ready if a batch that is not yet collected writes to the image.
+    Status release_target(VkImage image);
+
     /// The costs by which Technique::automatic selects in this context.
     [[nodiscard]] const CostModel& costs() const noexcept;
 

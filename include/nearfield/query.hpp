@@ -31,6 +31,10 @@ struct TimeOfImpactResult;
 struct SeparationVectorResult;
 struct ContainmentResult;
 
+// Defined in resident.hpp.
+struct ResidentFieldTarget;
+struct ResidentBufferTarget;
+
 /// Upper limit of the deviations of a query's two shapes (Context::add_shape) added together, as a
 /// fraction of its tolerance; above it the query fails (invalid_query).
 inline constexpr double max_deviation = 0.25;
@@ -92,6 +96,10 @@ struct PenetrationQuery {
     /// Technique::automatic then selects a device technique, and Technique::cpu fails
     /// (invalid_query).
     bool resident = false;
+    /// The host's buffer that resident results go to; null: nearfield's own. Ignored if `resident`
+    /// is false. A target that cannot be written, or is too small, fails (invalid_query). Borrowed
+    /// until run(), submit() or record() returns; the buffer itself, until the batch is collected.
+    const ResidentBufferTarget* target = nullptr;
 };
 
 /// The part of each shape that an intersection uses (section 2.2.1 of the paper).
@@ -149,6 +157,7 @@ struct IntersectionQuery {
     /// False: only the summary stays on the device, so its memory does not grow with the grid.
     /// Ignored if `resident` is false.
     bool resident_samples = true;
+    const ResidentBufferTarget* target = nullptr;  ///< as PenetrationQuery::target
 };
 
 /// The buffer in which Technique::raster stores which cells are inside (section 2.2.2 of the paper
@@ -203,6 +212,9 @@ struct DistanceFieldQuery {
     /// shaders to sample (resident.hpp); for techniques see PenetrationQuery::resident. `values`
     /// and `features` only select what is also returned to the CPU; both may be false.
     bool resident = false;
+    /// The host's images that the resident field goes to; null: nearfield's own. Otherwise as
+    /// PenetrationQuery::target.
+    const ResidentFieldTarget* target = nullptr;
 };
 
 /// The source of contact normals.
@@ -225,6 +237,7 @@ struct ContactQuery {
     Technique technique = Technique::automatic;  ///< the technique that answers
     /// As PenetrationQuery::resident; requires ContactNormals::analytic (invalid_query otherwise).
     bool resident = false;
+    const ResidentBufferTarget* target = nullptr;  ///< as PenetrationQuery::target
 };
 
 /// The point of A that is closest to B (section 2.2.4 of the paper, "Closest Point").
@@ -355,6 +368,11 @@ public:
 
     /// Removes all queries.
     void clear() noexcept { queries_.clear(); }
+    /// True: the results state the time of each query (Timings::queries). False by default; clear()
+    /// does not change it.
+    void time_queries(bool on) noexcept { times_queries_ = on; }
+    /// As set by time_queries().
+    [[nodiscard]] bool times_queries() const noexcept { return times_queries_; }
     /// All queries in order. Borrowed until the batch changes.
     [[nodiscard]] std::span<const AnyQuery> queries() const noexcept { return queries_; }
     /// Tells this filling of the batch from all others in the process: another one after clear(). 0
@@ -366,6 +384,7 @@ private:
 
     std::vector<AnyQuery> queries_;
     std::uint64_t number_ = 0;
+    bool times_queries_ = false;
 };
 
 }  // namespace nearfield

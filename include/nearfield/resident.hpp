@@ -11,6 +11,9 @@
 /// Resident outputs: results that stay on the device (Context::resident()), for the host's own
 /// shaders. The GLSL header nearfield/nearfield.glsl declares the same structures.
 ///
+/// A query may name images or a buffer of the host to write to (ResidentFieldTarget,
+/// ResidentBufferTarget); what follows is about nearfield's own.
+///
 /// Images and buffers belong to the batch of the query. Their contents are valid once the device
 /// has executed the batch. Commands that the host submits to the same queue after Context::submit()
 /// see them without a barrier, in the stages and by the accesses that ResidentState states. Other
@@ -35,9 +38,71 @@ struct ResidentState {
     std::uint32_t queue_family = 0;
 };
 
+/// How the host uses an image or buffer of its own before or after the batch that writes it, on the
+/// same queue. The library records the barriers that follow from it. Semaphores, and transfers of
+/// ownership between queue families, are the host's.
+struct TargetState {
+    /// Before: stages that the batch waits for. After: stages that wait for the batch. 0: none; a
+    /// semaphore or a fence of the host's orders the uses.
+    VkPipelineStageFlags stages = 0;
+    VkAccessFlags access = 0;  ///< in these stages; 0 if there are none
+    /// Of images. Before: its layout now; VK_IMAGE_LAYOUT_UNDEFINED discards what it holds, any
+    /// other keeps the texels beyond the cells. After: the layout to leave it in.
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+/// The state in which nearfield leaves its own images: sampled by any shader.
+inline constexpr TargetState read_by_shaders{
+    VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+    VK_ACCESS_SHADER_READ_BIT, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+/// The batch waits for these shaders, and what they have read is discarded.
+inline constexpr TargetState former_readers{read_by_shaders.stages, read_by_shaders.access,
+                                            VK_IMAGE_LAYOUT_UNDEFINED};
+
+/// An image of the host to write to, and how it was created: two-dimensional, with one sample per
+/// texel, optimal tiling, on the context's device. Vulkan does not tell the library, which checks
+/// what is stated here.
+///
+/// Borrowed. It must exist until the batch is collected. The library makes a view of the level and
+/// the layer for its own shaders when it first sees them and keeps it, so that an image that comes
+/// again costs nothing; call Context::release_target() before the image is destroyed.
+struct ResidentImageTarget {
+    VkImage image = VK_NULL_HANDLE;         ///< null: an image of nearfield's own
+    VkFormat format = VK_FORMAT_UNDEFINED;  ///< as ResidentField states for each image
+    VkExtent2D extent{};                    ///< of level 0, texels
+    VkImageUsageFlags usage = 0;            ///< contains VK_IMAGE_USAGE_STORAGE_BIT
+    std::uint32_t levels = 1;               ///< number of mip levels
+    std::uint32_t layers = 1;               ///< number of array layers
+    std::uint32_t level = 0;                ///< that is written, as large as the field or larger
+    std::uint32_t layer = 0;                ///< that is written
+    TargetState before = former_readers;    ///< default: what it holds is discarded
+    TargetState after = read_by_shaders;    ///< needs VK_IMAGE_USAGE_SAMPLED_BIT as it is
+};
+
+/// Where a resident field goes (DistanceFieldQuery::target): one image or both, in the formats of
+/// ResidentField. Cell (0, 0) is texel (0, 0). The header stays nearfield's own.
+struct ResidentFieldTarget {
+    ResidentImageTarget signed_distance = {};  ///< VK_FORMAT_R32_SFLOAT
+    ResidentImageTarget feature = {};          ///< VK_FORMAT_R32_UINT
+};
+
+/// Where resident records or samples go (PenetrationQuery::target and others): a range of a buffer
+/// of the host's, on the context's device. Only as much is written as resident() states. The header
+/// stays nearfield's own. Borrowed until the batch is collected; nothing is kept of it.
+struct ResidentBufferTarget {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;       ///< a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize size = 0;         ///< bytes from `offset` on that may be written
+    VkBufferUsageFlags usage = 0;  ///< as created; contains VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
+    TargetState before = former_readers;  ///< its layout is ignored
+    TargetState after = read_by_shaders;  ///< its layout is ignored
+};
+
 /// Where the header of a resident output lies (ResidentHeaderData): what there is, for shaders, and
 /// the arguments of vkCmdDrawIndirect and vkCmdDispatchIndirect, written by the device. The buffer
-/// may be bound as a storage, indirect or vertex buffer, and copied from.
+/// may be bound as a storage, indirect or vertex buffer, and copied from. Its state is the one that
+/// ResidentState describes for buffers, also where the output itself goes to the host's buffer.
 struct ResidentHeader {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
@@ -50,14 +115,15 @@ struct ResidentSlot {
     /// at the same time have different ones.
     std::uint32_t index = 0;
     /// Changes whenever a handle or an offset of any resident output of the slot does: when one
-    /// grows beyond what was reserved, when there are more of them, and by Context::trim().
+    /// grows beyond what was reserved, when there are more of them, and by Context::trim(). Images
+    /// and buffers of the host do not count.
     std::uint64_t revision = 0;
 };
 
 /// One image of a field, with a view of all of it.
 struct ResidentImage {
-    VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed
-    VkImageView view = VK_NULL_HANDLE;      ///< of the whole image; borrowed
+    VkImage image = VK_NULL_HANDLE;         ///< one layer, one level; borrowed. Or the host's
+    VkImageView view = VK_NULL_HANDLE;      ///< of the whole image, or the level written; borrowed
     VkFormat format = VK_FORMAT_UNDEFINED;  ///< of image and view
 };
 
@@ -74,8 +140,9 @@ struct ResidentField {
     ResidentImage feature;
     std::uint32_t width = 0;   ///< cells along x
     std::uint32_t height = 0;  ///< cells along y
-    /// Size of both images, at least width x height; texels beyond the cells are undefined. Images
-    /// only grow, so a field whose size varies from frame to frame does not recreate them.
+    /// Size of the images that are nearfield's own, at least width x height; texels beyond the
+    /// cells are undefined. Images only grow, so a field whose size varies from frame to frame does
+    /// not recreate them. 0 x 0 if both images are the host's.
     VkExtent2D image_extent{};
     Vector2 origin;     ///< low corner of cell (0, 0), world coordinates
     double cell = 0.0;  ///< side of a cell, world units
@@ -83,7 +150,8 @@ struct ResidentField {
     /// known before the field is computed and so assumes the largest possible distance: slightly
     /// more than DistanceFieldResult::error_bound.
     double error_bound = 0.0;
-    ResidentState state;    ///< once the device has executed the batch
+    /// Once the device has executed the batch; of the images that are nearfield's own.
+    ResidentState state;
     ResidentHeader header;  ///< of all cells
     ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };
@@ -110,7 +178,7 @@ struct ResidentField {
 /// at most `error_bound`, or if the point is so close to the boundary that it counts as touching
 /// (resident_flags::touching).
 struct ResidentRecords {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of records
@@ -120,7 +188,7 @@ struct ResidentRecords {
     /// units. The error of a normal is at most twice this divided by the distance, or 2^-14 if that
     /// is larger.
     double error_bound = 0.0;
-    ResidentState state;    ///< once the device has executed the batch
+    ResidentState state;    ///< once the device has executed the batch; or as the host asked
     ResidentHeader header;  ///< of the records
     ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };
@@ -136,7 +204,7 @@ struct ResidentRecords {
 /// is needed. If IntersectionQuery::resident_samples is false there is space for none, and the
 /// summary still counts them all.
 struct ResidentSamples {
-    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
     VkDeviceSize size = 0;             ///< of the range, in bytes
     std::uint32_t capacity = 0;        ///< maximum number of samples: all cells, or 0
@@ -147,7 +215,7 @@ struct ResidentSamples {
     /// is the nearest in its chain of A's edges, up to twice this bound; the CPU may name another
     /// one as near.
     double error_bound = 0.0;
-    ResidentState state;    ///< once the device has executed the batch
+    ResidentState state;    ///< once the device has executed the batch; or as the host asked
     ResidentHeader header;  ///< of the samples
     ResidentSlot slot;      ///< for hosts that keep their descriptor sets
 };

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -379,6 +380,20 @@ struct PassTime {
     double milliseconds = 0.0;  ///< from its first command to the end of its last
 };
 
+/// The time of one query, in milliseconds. What the queries of a batch share is nobody's: the
+/// selection of techniques, packing and upload, recording, the lists of points and samples that
+/// come back from the device, and second submissions.
+struct QueryTime {
+    double plan = 0.0;  ///< in submit() and record(): checks, localisation, tiles and points
+    /// On the CPU, in the thread that answered: the whole answer if Technique::cpu gave it,
+    /// otherwise making the results from what the device found.
+    double answer = 0.0;
+    /// The sum of Timings::passes, where this query alone had work on the device. Unset if it had
+    /// none there, if other queries of the batch did too (their work is in the same dispatches and
+    /// draws, which only the batch's passes time), or if there are no timestamps.
+    std::optional<double> device = std::nullopt;
+};
+
 /// The times of a batch, in milliseconds. Device and CPU work in parallel, so the parts may add up
 /// to more than the total.
 struct Timings {
@@ -392,6 +407,8 @@ struct Timings {
     double decode = 0.0;  ///< reading results and refining them; queries answered by the CPU
     double total = 0.0;   ///< inside submit() and collect(), or run(): work and waiting
     std::vector<PassTime> passes;  ///< from timestamps; empty if the queue has none
+    /// One per query, in order; empty unless the batch asked for it (Batch::time_queries).
+    std::vector<QueryTime> queries;
 };
 
 /// One result of any kind, in the order of AnyQuery.
