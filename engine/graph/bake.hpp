@@ -21,6 +21,8 @@ struct Barrier {
     /// Another image in the same memory was written last. The source is that other image's write,
     /// so the access masks have to apply to memory in general.
     bool takes_over_memory = false;
+    bool from_outside = false;  ///< the source is ExternalAccess::before
+    bool to_outside = false;    ///< the destination is ExternalAccess::after
 };
 
 /// An attachment of a graphics pass. It stays in the layout of its access throughout the render

@@ -15,6 +15,7 @@ struct History {
     VkPipelineStageFlags read_stages = 0;  // of all reads since
     std::uint32_t readers = 0;             // their accesses, one bit each
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    bool used = false;  // by a pass
 };
 
 struct Source {
@@ -43,6 +44,11 @@ Barrier make_barrier(std::uint32_t resource, Source source, const AccessTraits& 
             .new_layout = access.layout};
 }
 
+/// True of a resource whose last use was before the graph.
+bool is_from_outside(const History& history, const Resource& resource) {
+    return resource.outside.before.has_value() && !history.used;
+}
+
 /// The history that the last use before the graph leaves.
 History history_of(const ExternalAccess& outside, VkQueueFlags queue) {
     History history;
@@ -66,7 +72,8 @@ std::optional<Barrier> write(History& history, std::uint32_t resource, const Acc
     const Barrier barrier = make_barrier(resource, source, wanted, history);
     history = {.write_stages = wanted.stages,
                .write_access = wanted.write_access,
-               .layout = wanted.layout};
+               .layout = wanted.layout,
+               .used = true};
     if (source.stages == 0 && !wanted.of_image) {
         return std::nullopt;
     }
@@ -85,6 +92,7 @@ std::optional<Barrier> read(History& history, std::uint32_t resource, Access acc
     history.readers |= reader;
     history.read_stages |= wanted.stages;
     history.layout = wanted.layout;
+    history.used = true;
     if (synchronised) {
         return std::nullopt;
     }
@@ -133,11 +141,14 @@ void place_barriers(const Graph& graph, VkQueueFlags queue, BakedGraph& baked) {
             if (lifetime.memory_slot != no_memory_slot && lifetime.first == position) {
                 images_in_slot[lifetime.memory_slot].push_back(resource);
             }
+            const bool from_outside =
+                is_from_outside(histories[resource], graph.resources()[resource]);
             const AccessTraits wanted = traits(use.access, queue);
-            const std::optional<Barrier> barrier =
+            std::optional<Barrier> barrier =
                 use.write ? write(histories[resource], resource, wanted)
                           : read(histories[resource], resource, use.access, wanted);
             if (barrier) {
+                barrier->from_outside = from_outside;
                 pass.barriers.push_back(*barrier);
             }
         }
@@ -151,6 +162,7 @@ void place_barriers(const Graph& graph, VkQueueFlags queue, BakedGraph& baked) {
         if (after && baked.lifetimes[resource].used) {
             baked.to_host.push_back(
                 make_barrier(resource, before_write(history), traits(*after, queue), history));
+            baked.to_host.back().to_outside = true;
         }
         if (graph.resources()[resource].buffer.read_by_host && history.write_stages != 0) {
             baked.to_host.push_back({.resource = resource,

@@ -15,6 +15,32 @@ VkImageAspectFlags all_aspects(const Resource& resource) {
     return find_format(resource.image.format)->aspects;
 }
 
+// The accesses that leave something to make available.
+constexpr VkAccessFlags all_writes =
+    VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
+    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
+    VK_ACCESS_HOST_WRITE_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+
+/// `otherwise` where there are no stages: a barrier always has some.
+VkPipelineStageFlags stages_of(const ExternalUse& use, VkPipelineStageFlags otherwise) {
+    return use.stages == 0 ? otherwise : use.stages;
+}
+
+/// A barrier whose side outside the graph is what the caller stated.
+Barrier with_uses(Barrier barrier, const std::optional<ExternalUses>& uses) {
+    if (uses && barrier.from_outside) {
+        barrier.source_stages = stages_of(uses->before, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT);
+        barrier.source_access = uses->before.access & all_writes;
+        barrier.old_layout = uses->before.layout;
+    }
+    if (uses && barrier.to_outside) {
+        barrier.destination_stages = stages_of(uses->after, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
+        barrier.destination_access = uses->after.access;
+        barrier.new_layout = uses->after.layout;
+    }
+    return barrier;
+}
+
 /// A view for sampling may have one aspect only.
 VkImageAspectFlags sampled_aspect(const Resource& resource) {
     constexpr VkImageAspectFlags depth = VK_IMAGE_ASPECT_DEPTH_BIT;
@@ -188,8 +214,6 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                           const std::vector<Barrier>& barriers) const {
     BarrierCall call;
     for (const Barrier& barrier : barriers) {
-        call.source_stages |= barrier.source_stages;
-        call.destination_stages |= barrier.destination_stages;
         const Resource& resource = graph.resources()[barrier.resource];
         // An image barrier makes available only writes through its own image.
         if (barrier.takes_over_memory) {
@@ -209,7 +233,7 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                    .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
                                    .image = images_[barrier.resource].image.get(),
                                    .subresourceRange = {all_aspects(resource), 0, 1, 0, 1}});
-            call.image_resources.push_back(barrier.resource);
+            call.image_barriers.push_back({barrier, barrier});
         } else {
             call.buffers.push_back({.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER,
                                     .pNext = nullptr,
@@ -220,29 +244,58 @@ Executor::BarrierCall Executor::make_call(const Graph& graph,
                                     .buffer = VK_NULL_HANDLE,
                                     .offset = 0,
                                     .size = VK_WHOLE_SIZE});
-            call.buffer_resources.push_back(barrier.resource);
+            call.buffer_barriers.push_back({barrier, barrier});
         }
     }
+    add_up_stages(call);
     return call;
 }
 
-void Executor::set_buffer(Handle handle, VkBuffer buffer) {
-    for (BarrierCall& call : calls_) {
-        for (std::size_t i = 0; i < call.buffers.size(); ++i) {
-            if (call.buffer_resources[i] == handle.resource) {
-                call.buffers[i].buffer = buffer;
-            }
+void Executor::add_up_stages(BarrierCall& call) {
+    call.source_stages = call.destination_stages = 0;
+    for (const auto* const barriers : {&call.image_barriers, &call.buffer_barriers}) {
+        for (const PlacedBarrier& placed : *barriers) {
+            call.source_stages |= placed.effective.source_stages;
+            call.destination_stages |= placed.effective.destination_stages;
         }
     }
 }
 
-void Executor::set_image(Handle handle, VkImage image) {
+void Executor::set_buffer(Handle handle, const ImportedBuffer& imported) {
     for (BarrierCall& call : calls_) {
-        for (std::size_t i = 0; i < call.images.size(); ++i) {
-            if (call.image_resources[i] == handle.resource) {
-                call.images[i].image = image;
+        for (std::size_t i = 0; i < call.buffers.size(); ++i) {
+            PlacedBarrier& placed = call.buffer_barriers[i];
+            if (placed.declared.resource == handle.resource) {
+                placed.effective = with_uses(placed.declared, imported.uses);
+                VkBufferMemoryBarrier& barrier = call.buffers[i];
+                barrier.srcAccessMask = placed.effective.source_access;
+                barrier.dstAccessMask = placed.effective.destination_access;
+                barrier.buffer = imported.buffer;
+                barrier.offset = imported.offset;
+                barrier.size = imported.size;
             }
         }
+        add_up_stages(call);
+    }
+}
+
+void Executor::set_image(Handle handle, const ImportedImage& imported) {
+    for (BarrierCall& call : calls_) {
+        for (std::size_t i = 0; i < call.images.size(); ++i) {
+            PlacedBarrier& placed = call.image_barriers[i];
+            if (placed.declared.resource == handle.resource) {
+                placed.effective = with_uses(placed.declared, imported.uses);
+                VkImageMemoryBarrier& barrier = call.images[i];
+                barrier.srcAccessMask = placed.effective.source_access;
+                barrier.dstAccessMask = placed.effective.destination_access;
+                barrier.oldLayout = placed.effective.old_layout;
+                barrier.newLayout = placed.effective.new_layout;
+                barrier.image = imported.image;
+                barrier.subresourceRange.baseMipLevel = imported.level;
+                barrier.subresourceRange.baseArrayLayer = imported.layer;
+            }
+        }
+        add_up_stages(call);
     }
 }
 
@@ -254,16 +307,16 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
                                const BarrierCall& call) const {
     for (std::size_t i = 0; i < call.buffers.size(); ++i) {
         if (call.buffers[i].buffer == VK_NULL_HANDLE) {
-            throw StatusException(graph_error("buffer '" +
-                                              graph.resources()[call.buffer_resources[i]].name() +
-                                              "' was not set before the graph was executed"));
+            throw StatusException(graph_error(
+                "buffer '" + graph.resources()[call.buffer_barriers[i].declared.resource].name() +
+                "' was not set before the graph was executed"));
         }
     }
     for (std::size_t i = 0; i < call.images.size(); ++i) {
         if (call.images[i].image == VK_NULL_HANDLE) {
-            throw StatusException(graph_error("image '" +
-                                              graph.resources()[call.image_resources[i]].name() +
-                                              "' was not set before the graph was executed"));
+            throw StatusException(graph_error(
+                "image '" + graph.resources()[call.image_barriers[i].declared.resource].name() +
+                "' was not set before the graph was executed"));
         }
     }
     if (call.source_stages == 0) {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace nearfield::graph {
@@ -17,6 +18,34 @@ namespace nearfield::graph {
 /// load and store operations, so it is compatible across extents.
 [[nodiscard]] gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device,
                                                         const Graph& graph, const BakedPass& pass);
+
+/// Accesses outside the graph that the caller states for one execution, in place of those declared
+/// (ExternalAccess): stages, accesses and the layout of an image. Without stages there is nothing
+/// to wait for before, or nothing that waits after.
+struct ExternalUse {
+    VkPipelineStageFlags stages = 0;
+    VkAccessFlags access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+struct ExternalUses {
+    ExternalUse before;  ///< its layout keeps an image's content, unless it is undefined
+    ExternalUse after;
+};
+
+/// What is behind an imported handle. A resource with uses of its own was declared with accesses
+/// before and after, and its first use in the graph is a write.
+struct ImportedBuffer {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize size = VK_WHOLE_SIZE;
+    std::optional<ExternalUses> uses = std::nullopt;
+};
+struct ImportedImage {
+    VkImage image = VK_NULL_HANDLE;
+    std::uint32_t level = 0;
+    std::uint32_t layer = 0;
+    std::optional<ExternalUses> uses = std::nullopt;
+};
 
 /// The Vulkan objects of a baked graph (transient images in shared memory, views, render passes,
 /// framebuffers) and its execution into a command buffer. Made once per graph, used every frame;
@@ -27,9 +56,10 @@ public:
 
     /// Sets the buffer behind an imported handle, which may change from frame to frame since
     /// buffers grow. All must be set before the first execution.
-    void set_buffer(Handle handle, VkBuffer buffer);
+    void set_buffer(Handle handle, VkBuffer buffer) { set_buffer(handle, ImportedBuffer{buffer}); }
+    void set_buffer(Handle handle, const ImportedBuffer& imported);
     /// The same for the image behind an imported handle.
-    void set_image(Handle handle, VkImage image);
+    void set_image(Handle handle, const ImportedImage& imported);
 
     /// The view that a compute shader samples: of the colour or depth aspect.
     [[nodiscard]] VkImageView sampled_view(Handle handle) const;
@@ -54,6 +84,11 @@ private:
         gpu::Owned<VkFramebuffer> framebuffer;
     };
 
+    /// A barrier as declared, and as it is with the uses that the caller stated.
+    struct PlacedBarrier {
+        Barrier declared;
+        Barrier effective;
+    };
     /// The arguments of a vkCmdPipelineBarrier, filled in ahead of execution.
     struct BarrierCall {
         VkPipelineStageFlags source_stages = 0;
@@ -61,8 +96,8 @@ private:
         std::vector<VkMemoryBarrier> memory;
         std::vector<VkImageMemoryBarrier> images;
         std::vector<VkBufferMemoryBarrier> buffers;
-        std::vector<std::uint32_t> image_resources;   // by position in `images`
-        std::vector<std::uint32_t> buffer_resources;  // by position in `buffers`
+        std::vector<PlacedBarrier> image_barriers;   // by position in `images`
+        std::vector<PlacedBarrier> buffer_barriers;  // by position in `buffers`
     };
 
     void create_images(const Graph& graph);
@@ -71,6 +106,7 @@ private:
     void create_graphics(const Graph& graph);
     [[nodiscard]] BarrierCall make_call(const Graph& graph,
                                         const std::vector<Barrier>& barriers) const;
+    static void add_up_stages(BarrierCall& call);
     void record_barriers(const Graph& graph, VkCommandBuffer commands,
                          const BarrierCall& call) const;
 

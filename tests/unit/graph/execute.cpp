@@ -11,6 +11,8 @@
 #include <tests/unit/gpu/fixture.hpp>
 #include <tests/unit/graph/support.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -268,6 +270,120 @@ TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
     EXPECT_EQ(barrier_calls, 5U);  // four passes and the host
     EXPECT_EQ(barriers_recorded, expected);
     EXPECT_EQ(memory_barriers_recorded, 0U);  // the slot's first image was read last
+}
+
+/// The last calls of vkCmdPipelineBarrier; they have room for all that a test makes.
+struct RecordedCall {
+    VkPipelineStageFlags source = 0;
+    VkPipelineStageFlags destination = 0;
+    std::array<VkImageMemoryBarrier, 2> images{};
+    std::array<VkBufferMemoryBarrier, 2> buffers{};
+};
+std::array<RecordedCall, 4> recorded_calls;
+std::size_t recorded_count = 0;
+
+void VKAPI_CALL record_call(VkCommandBuffer, VkPipelineStageFlags source,
+                            VkPipelineStageFlags destination, VkDependencyFlags, std::uint32_t,
+                            const VkMemoryBarrier*, std::uint32_t buffers,
+                            const VkBufferMemoryBarrier* buffer, std::uint32_t images,
+                            const VkImageMemoryBarrier* image) {
+    RecordedCall& call = recorded_calls[recorded_count++ % recorded_calls.size()];
+    call = {source, destination, {}, {}};
+    std::copy_n(image, images, call.images.begin());
+    std::copy_n(buffer, buffers, call.buffers.begin());
+}
+
+template <class Object>
+Object handle_of(std::uint64_t number) {
+    return reinterpret_cast<Object>(number);
+}
+
+// What the caller states belongs to one execution: the next one has the declared uses again.
+TEST_F(GraphExecute, ExternalUsesTakeThePlaceOfTheDeclaredOnesForOneExecution) {
+    const gpu::Device device(with_stand_ins(
+        host_.device(),
+        {{"vkCmdBeginDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_label)},
+         {"vkCmdEndDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(&no_end)},
+         {"vkCmdWriteTimestamp", reinterpret_cast<PFN_vkVoidFunction>(&no_timestamp)},
+         {"vkCmdPipelineBarrier", reinterpret_cast<PFN_vkVoidFunction>(&record_call)}}));
+    Graph graph;
+    const ExternalAccess image_access{Access::exported_image, Access::exported_image};
+    const ExternalAccess buffer_access{Access::exported_buffer, Access::exported_buffer};
+    const Handle image =
+        graph.import_image({.name = "field", .format = VK_FORMAT_R32_SFLOAT}, image_access);
+    const Handle buffer = graph.import_buffer({.name = "records"}, buffer_access);
+    add_pass(graph, "export", PassKind::compute,
+             {writes(image, Access::storage_image_in_compute),
+              writes(buffer, Access::storage_write_in_compute)});
+    Executor executor(device, graph, *bake(graph));
+    gpu::Timestamps timestamps(device, 4);
+    const auto execute = [&] {
+        recorded_count = 0;
+        executor.execute(graph, VK_NULL_HANDLE, timestamps);
+        EXPECT_EQ(recorded_count, 2U);
+    };
+
+    const ImportedImage own_image{handle_of<VkImage>(1)};
+    const ImportedBuffer own_buffer{handle_of<VkBuffer>(2)};
+    executor.set_image(image, own_image);
+    executor.set_buffer(buffer, own_buffer);
+    execute();
+    const std::array<RecordedCall, 4> declared = recorded_calls;
+    EXPECT_EQ(declared[0].images[0].oldLayout, VK_IMAGE_LAYOUT_UNDEFINED);
+    EXPECT_EQ(declared[1].images[0].newLayout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+
+    ImportedImage hosts_image{handle_of<VkImage>(3), 2, 5};
+    hosts_image.uses = ExternalUses{
+        {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT,
+         VK_IMAGE_LAYOUT_GENERAL},
+        {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
+         VK_IMAGE_LAYOUT_GENERAL}};
+    ImportedBuffer hosts_buffer{handle_of<VkBuffer>(4), 256, 512};
+    hosts_buffer.uses = ExternalUses{};  // nothing to wait for, and nothing that waits
+    const std::uint64_t before = test_support::allocation_count();
+    executor.set_image(image, hosts_image);
+    executor.set_buffer(buffer, hosts_buffer);
+    execute();
+    EXPECT_EQ(test_support::allocation_count(), before);
+    const RecordedCall& first = recorded_calls[0];
+    const RecordedCall& last = recorded_calls[1];
+    EXPECT_EQ(first.source, VkPipelineStageFlags{VK_PIPELINE_STAGE_TRANSFER_BIT} |
+                                VkPipelineStageFlags{VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT});
+    EXPECT_EQ(first.images[0].image, hosts_image.image);
+    EXPECT_EQ(first.images[0].srcAccessMask, VkAccessFlags{VK_ACCESS_TRANSFER_WRITE_BIT});
+    EXPECT_EQ(first.images[0].oldLayout, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_EQ(first.images[0].newLayout, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_EQ(first.images[0].subresourceRange.baseMipLevel, 2U);
+    EXPECT_EQ(first.images[0].subresourceRange.baseArrayLayer, 5U);
+    EXPECT_EQ(first.buffers[0].buffer, hosts_buffer.buffer);
+    EXPECT_EQ(first.buffers[0].offset, 256U);
+    EXPECT_EQ(first.buffers[0].size, 512U);
+    EXPECT_EQ(first.buffers[0].srcAccessMask, 0U);
+    EXPECT_EQ(last.destination, VkPipelineStageFlags{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT} |
+                                    VkPipelineStageFlags{VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT});
+    EXPECT_EQ(last.images[0].srcAccessMask, VkAccessFlags{VK_ACCESS_SHADER_WRITE_BIT});
+    EXPECT_EQ(last.images[0].dstAccessMask, VkAccessFlags{VK_ACCESS_SHADER_READ_BIT});
+    EXPECT_EQ(last.images[0].newLayout, VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_EQ(last.buffers[0].dstAccessMask, 0U);
+
+    executor.set_image(image, own_image);
+    executor.set_buffer(buffer, own_buffer);
+    execute();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const RecordedCall& call = recorded_calls[i];
+        EXPECT_EQ(call.source, declared[i].source);
+        EXPECT_EQ(call.destination, declared[i].destination);
+        EXPECT_EQ(call.images[0].image, declared[i].images[0].image);
+        EXPECT_EQ(call.images[0].oldLayout, declared[i].images[0].oldLayout);
+        EXPECT_EQ(call.images[0].newLayout, declared[i].images[0].newLayout);
+        EXPECT_EQ(call.images[0].srcAccessMask, declared[i].images[0].srcAccessMask);
+        EXPECT_EQ(call.images[0].dstAccessMask, declared[i].images[0].dstAccessMask);
+        EXPECT_EQ(call.images[0].subresourceRange.baseMipLevel, 0U);
+        EXPECT_EQ(call.images[0].subresourceRange.baseArrayLayer, 0U);
+        EXPECT_EQ(call.buffers[0].offset, 0U);
+        EXPECT_EQ(call.buffers[0].size, VK_WHOLE_SIZE);
+        EXPECT_EQ(call.buffers[0].dstAccessMask, declared[i].buffers[0].dstAccessMask);
+    }
 }
 
 }  // namespace
