@@ -17,7 +17,8 @@ namespace nearfield::passes {
 
 /// The last pass of a resident field: copies the resolved cells to images for the host's shaders.
 /// It is a separate graph because the images belong to the batch and not to the compiled graph of a
-/// tile batch. The graph leaves the images in the layout in which the host's shaders read them.
+/// tile batch. The graph leaves the images in the layout in which the host's shaders read them, or
+/// in the one that the host asked for where they are its own.
 class ExportField {
 public:
     ExportField(const gpu::Device& device, const ComputeLayout& layout);
@@ -30,8 +31,8 @@ public:
         std::span<const plan::FieldPartOutput> parts;
         std::span<const VkDescriptorSet> sets;  ///< by part
         VkBuffer words = VK_NULL_HANDLE;        ///< of fields, as written by the tile batches
-        VkImage signed_distance = VK_NULL_HANDLE;
-        VkImage feature = VK_NULL_HANDLE;
+        graph::ImportedImage signed_distance;
+        graph::ImportedImage feature;
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
 

@@ -1,4 +1,5 @@
 #include <engine/gpu/pipeline.hpp>
+#include <engine/graph/access.hpp>
 #include <engine/graph/print.hpp>
 #include <passes/export_headers.hpp>
 
@@ -29,7 +30,11 @@ ExportHeaders::ExportHeaders(const gpu::Device& device, const ComputeLayout& lay
 void ExportHeaders::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
                            const Item& item) {
     item_ = item;
-    executor_->set_buffer(headers_, item.buffer);
+    const graph::AccessTraits& exported = graph::traits(graph::Access::exported_buffer);
+    executor_->set_buffer(headers_, {.buffer = item.buffer,
+                                     .uses = graph::ExternalUses{
+                                         {exported.stages, exported.access()},
+                                         {exported.stages | item.readers, exported.access()}}});
     executor_->execute(graph_, commands, timestamps);
 }
 

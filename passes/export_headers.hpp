@@ -33,7 +33,10 @@ public:
     struct Item {
         std::span<const Header> headers;
         std::span<const VkDescriptorSet> sets;  ///< by header
-        VkBuffer buffer = VK_NULL_HANDLE;       ///< of headers and summaries
+        VkBuffer buffer = VK_NULL_HANDLE;       ///< of headers, and of most summaries
+        /// In which the host uses buffers of its own after the batch: they wait for this pass,
+        /// which reads the summaries there.
+        VkPipelineStageFlags readers = 0;
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
 

@@ -31,19 +31,22 @@ ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& lay
           graph_.import_buffer({"records"}, {Access::exported_buffer, Access::exported_buffer})) {
     graph::Handle blocks;
     graph::Handle records;
+    // The first pass writes no record. It waits for a buffer of the host all the same: its shader
+    // has the binding, and to validation layers that is an access.
     graph_.add_pass(
         "count records", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(words_, Access::storage_read_in_compute);
             pass.read(tables_, Access::storage_read_in_compute);
             blocks = pass.write(blocks_, Access::storage_write_in_compute);
+            records = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) { dispatch_runs(commands, Step::count); });
     graph_.add_pass(
         "place records", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             blocks = pass.write(blocks, Access::storage_write_in_compute);
-            records = pass.write(records_, Access::storage_write_in_compute);
+            records = pass.write(records, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) { dispatch_place(commands); });
     graph_.add_pass(
@@ -62,8 +65,8 @@ void ExportRecords::record(VkCommandBuffer commands, gpu::Timestamps& timestamps
                            const Item& item) {
     item_ = item;
     executor_->set_buffer(words_, item.words);
-    executor_->set_buffer(blocks_, item.records_buffer);
-    executor_->set_buffer(records_, item.records_buffer);
+    executor_->set_buffer(blocks_, item.blocks);
+    executor_->set_buffer(records_, item.output);
     executor_->execute(graph_, commands, timestamps);
 }
 

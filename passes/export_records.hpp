@@ -30,7 +30,8 @@ public:
         std::span<const std::uint32_t> details;  ///< by run: index of the first point's details
         std::span<const VkDescriptorSet> sets;   ///< by run, then one without words
         VkBuffer words = VK_NULL_HANDLE;         ///< of points, as written by the tile batches
-        VkBuffer records_buffer = VK_NULL_HANDLE;
+        VkBuffer blocks = VK_NULL_HANDLE;
+        graph::ImportedBuffer output;  ///< of summary and records
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
 

@@ -33,6 +33,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
                                     {Access::exported_buffer, Access::exported_buffer})) {
     graph::Handle blocks;
     graph::Handle samples;
+    // The first pass writes no sample; see ExportRecords.
     graph_.add_pass(
         "count samples", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -40,13 +41,14 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
             pass.read(hits_, Access::storage_read_in_compute);
             pass.read(tables_, Access::storage_read_in_compute);
             blocks = pass.write(blocks_, Access::storage_write_in_compute);
+            samples = pass.write(samples_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) { dispatch_count(commands); });
     graph_.add_pass(
         "place samples", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             blocks = pass.write(blocks, Access::storage_write_in_compute);
-            samples = pass.write(samples_, Access::storage_write_in_compute);
+            samples = pass.write(samples, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands) { dispatch_place(commands); });
     graph_.add_pass(
@@ -65,8 +67,8 @@ void ExportSamples::record(VkCommandBuffer commands, gpu::Timestamps& timestamps
                            const Item& item) {
     item_ = item;
     executor_->set_buffer(summaries_, item.summaries);
-    executor_->set_buffer(blocks_, item.samples_buffer);
-    executor_->set_buffer(samples_, item.samples_buffer);
+    executor_->set_buffer(blocks_, item.blocks);
+    executor_->set_buffer(samples_, item.output);
     executor_->execute(graph_, commands, timestamps);
 }
 

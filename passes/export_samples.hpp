@@ -33,7 +33,8 @@ public:
         /// cells; then one without either.
         std::span<const VkDescriptorSet> sets;
         VkBuffer summaries = VK_NULL_HANDLE;  ///< as written by the tile batches
-        VkBuffer samples_buffer = VK_NULL_HANDLE;
+        VkBuffer blocks = VK_NULL_HANDLE;
+        graph::ImportedBuffer output;  ///< of summary and samples
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
 

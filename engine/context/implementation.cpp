@@ -36,6 +36,7 @@ plan::PlanLimits plan_limits(const gpu::Device* device, const Settings& settings
     limits.largest_atlas = std::min(limits.largest_atlas, device->limits().maxImageDimension2D);
     limits.largest_image = device->limits().maxImageDimension2D;
     limits.largest_range = device->limits().maxStorageBufferRange;
+    limits.offset_alignment = device->limits().minStorageBufferOffsetAlignment;
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         limits.missing_for_strategy[i] =
             gpu::missing_for(static_cast<IntersectionStrategy>(i), device->strategy_support());
@@ -193,6 +194,18 @@ Status Context::Implementation::collect(Ticket ticket, Results& results) {
         return status.ok() ? lost_device_ : status;
     }
     return unless_lost([&] { machinery_->ring.collect(ticket, results); });
+}
+
+Status Context::Implementation::release_target(VkImage image) {
+    if (device_ == nullptr || image == VK_NULL_HANDLE) {
+        return {};
+    }
+    return catch_to_status([&] {
+        if (!lost_) {
+            machinery_->ring.require_unwritten(image);
+        }
+        machinery_->renderer->release_target(image);
+    });
 }
 
 void Context::Implementation::trim() noexcept {

@@ -78,6 +78,7 @@ public:
     }
 
     void trim() noexcept;
+    Status release_target(VkImage image);
 
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
 

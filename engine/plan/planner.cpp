@@ -29,7 +29,8 @@ constexpr double bytes_of_kept_sample = 256.0;
 
 }  // namespace
 
-Planner::Planner(const PlanLimits& limits) : limits_(limits), packer_(0) {
+Planner::Planner(const PlanLimits& limits)
+    : limits_(limits), packer_(0), targets_(limits.offset_alignment) {
     // Images take at most a quarter of the memory; smaller images only mean more tile batches.
     const auto images = [this] {
         return bytes_per_pixel * limits_.largest_atlas * limits_.largest_atlas;
@@ -77,64 +78,86 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
                        Plan& plan, std::vector<AnyResult>& results, Submissions submissions) {
     plan.clear();
     plan_ = &plan;
+    targets_.clear();
     plan.bounding_volume = limits_.bounding_volume;
     localize_milliseconds_ = rough_bytes_ = max_kept_ = 0.0;
     results.resize(queries.size());
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         checkpoint();
-        PlannedQuery& planned = plan.queries[query_];
-        planned = {};
+        plan.queries[query_] = {};
+        plan.queries[query_].query = &queries[query_];
         query_bytes_ = 0.0;
-        planned.query = &queries[query_];
         std::visit(
             [&](const auto& query) {
-                using Query = std::decay_t<decltype(query)>;
-                auto& result = make_empty<typename Query::Result>(results[query_]);
-                if constexpr (requires { query.tolerance; }) {
-                    result.tolerance = query.tolerance;
-                }
-                result.technique = query.technique;
-                planned.on_cpu = result.technique == Technique::cpu;
-                planned.by_compute = result.technique == Technique::compute;
-                if constexpr (requires { query.resident; }) {
-                    planned.resident = query.resident;
-                    if (query.resident) {
-                        plan.resident.push_back(query_);
-                    }
-                }
-                // Success is not copied: thousands of queries have it in common.
-                if (Status status = check_query(query, limits_.techniques); !status.ok()) {
-                    result.status = std::move(status);
-                }
-                if (submissions == Submissions::one && result.status.ok() &&
-                    takes_a_second_submission(query)) {
-                    result.status = not_recordable(query.technique);
-                }
-                planned.a = shapes[query_].a;
-                planned.b = shapes[query_].b;
-                planned.pose_a = query.a.pose;
-                planned.pose_b = query.b.pose;
-                const bool a_left_out =
-                    std::is_same_v<Query, DistanceFieldQuery> && query.a.shape == ShapeHandle{};
-                if (result.status.ok() && planned.a == nullptr && !a_left_out) {
-                    result.status = unknown_shape("shape A", query.a.shape, limits_.context);
-                }
-                if (result.status.ok() && planned.b == nullptr) {
-                    result.status = unknown_shape("shape B", query.b.shape, limits_.context);
-                }
-                if (result.status.ok()) {
-                    // Only the box of a distance field's A is used.
-                    constexpr bool of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
-                    planned.deviations = {of_b_alone ? 0.0 : planned.a->deviation(),
-                                          planned.b->deviation()};
-                    add(query, result);
-                }
+                using Result = typename std::decay_t<decltype(query)>::Result;
+                plan_query(query, shapes[query_], submissions, make_empty<Result>(results[query_]));
             },
             queries[query_]);
     }
     pack();
     plan_ = nullptr;
+}
+
+template <class Query>
+void Planner::plan_query(const Query& query, const QueryShapes& shapes, Submissions submissions,
+                         typename Query::Result& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    if constexpr (requires { query.tolerance; }) {
+        result.tolerance = query.tolerance;
+    }
+    result.technique = query.technique;
+    planned.on_cpu = result.technique == Technique::cpu;
+    planned.by_compute = result.technique == Technique::compute;
+    if constexpr (requires { query.resident; }) {
+        planned.resident = query.resident;
+        if (query.resident) {
+            plan_->resident.push_back(query_);
+        }
+    }
+    // Success is not copied: thousands of queries have it in common.
+    if (Status status = check_query(query, limits_.techniques); !status.ok()) {
+        result.status = std::move(status);
+    }
+    if (submissions == Submissions::one && result.status.ok() && takes_a_second_submission(query)) {
+        result.status = not_recordable(query.technique);
+    }
+    planned.a = shapes.a;
+    planned.b = shapes.b;
+    planned.pose_a = query.a.pose;
+    planned.pose_b = query.b.pose;
+    // Only the box of a distance field's A is used.
+    constexpr bool of_b_alone = std::is_same_v<Query, DistanceFieldQuery>;
+    const bool a_left_out = of_b_alone && query.a.shape == ShapeHandle{};
+    if (result.status.ok() && planned.a == nullptr && !a_left_out) {
+        result.status = unknown_shape("shape A", query.a.shape, limits_.context);
+    }
+    if (result.status.ok() && planned.b == nullptr) {
+        result.status = unknown_shape("shape B", query.b.shape, limits_.context);
+    }
+    if (result.status.ok()) {
+        if (Status status = check_target(query); !status.ok()) {
+            result.status = std::move(status);
+        }
+    }
+    if (result.status.ok()) {
+        planned.deviations = {of_b_alone ? 0.0 : planned.a->deviation(), planned.b->deviation()};
+        add(query, result);
+    }
+    if (!result.status.ok()) {
+        targets_.drop(query_);
+    }
+}
+
+/// Checks the host's images or buffer that a query writes to, if there are any.
+template <class Query>
+Status Planner::check_target(const Query& query) {
+    if constexpr (requires { query.target; }) {
+        if (query.resident && query.target != nullptr) {
+            return targets_.add(*query.target, query_);
+        }
+    }
+    return {};
 }
 
 void Planner::require_memory(double bytes, double tolerance, double growth) {

@@ -2,6 +2,7 @@
 
 #include <engine/localize/closest.hpp>
 #include <engine/localize/overlap.hpp>
+#include <engine/plan/check_target.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/point_tiles.hpp>
 #include <engine/plan/query_shapes.hpp>
@@ -31,6 +32,7 @@ struct PlanLimits {
     std::uint32_t largest_atlas = largest_atlas_side;
     std::uint32_t largest_image = 4096;  ///< pixels along a side of a resident image
     std::uint64_t largest_range = std::uint64_t{1} << 27U;  ///< bytes that a shader can address
+    std::uint64_t offset_alignment = 1;                     ///< of what it addresses, in bytes
     std::uint64_t memory = 0;                               ///< bytes a batch may need
     std::uint32_t hierarchy_height = 12;
     BoundingVolume bounding_volume = BoundingVolume::axis_aligned;
@@ -79,6 +81,12 @@ private:
 
     void plan_all(std::span<const AnyQuery> queries, std::span<const QueryShapes> shapes,
                   Plan& plan, std::vector<AnyResult>& results, Submissions submissions);
+    /// Plans the current query, or states in its result why it is rejected.
+    template <class Query>
+    void plan_query(const Query& query, const QueryShapes& shapes, Submissions submissions,
+                    typename Query::Result& result);
+    template <class Query>
+    [[nodiscard]] Status check_target(const Query& query);
     void add(const PenetrationQuery& query, PenetrationResult& result);
     void add(const IntersectionQuery& query, IntersectionResult& result);
     void add(const DistanceFieldQuery& query, DistanceFieldResult& result);
@@ -124,6 +132,11 @@ private:
     [[nodiscard]] bool check_resident(const Grid& grid, DistanceFieldResult& result);
     /// The same for the samples of an intersection.
     [[nodiscard]] bool check_resident(const IntersectionQuery& query, IntersectionResult& result);
+    /// Checks that the records of the current query, whose points are planned, fit the host's
+    /// buffer, if it names one. Otherwise drops its tiles, from `first_tile` on, and its points;
+    /// the result states the error.
+    void check_resident(const ResidentBufferTarget* target, std::size_t first_tile,
+                        ResultSummary& result);
     [[nodiscard]] double bytes_of_samples(const IntersectionQuery& query) const;
     void add_closest(double tolerance, bool both_ways, ResultSummary& result);
     /// Finds the chains that can hold contacts; returns an upper bound on their samples.
@@ -185,6 +198,7 @@ private:
 
     PlanLimits limits_;
     AtlasPacker packer_;
+    Targets targets_;                  // of the batch
     double memory_for_results_ = 0.0;  // bytes
     double query_bytes_ = 0.0;         // needed by the current query
     Plan* plan_ = nullptr;             // of the call in progress

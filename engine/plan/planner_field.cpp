@@ -155,6 +155,13 @@ bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {
                 " along a side; use a larger tolerance or a smaller rectangle"};
         return false;
     }
+    const auto& query = std::get<DistanceFieldQuery>(*planned.query);
+    if (query.target != nullptr) {
+        result.status = check_room(*query.target, grid.width, grid.height);
+        if (!result.status.ok()) {
+            return false;
+        }
+    }
     // Distances change by at most the distance moved.
     const Vector half =
         0.5 * grid.cell * Vector(static_cast<double>(grid.width), static_cast<double>(grid.height));

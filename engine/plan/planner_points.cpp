@@ -173,7 +173,32 @@ void Planner::add(const PenetrationQuery& query, PenetrationResult& result) {
     } else {
         sample_boundary(a, box_b, samples, result);
     }
+    const std::size_t first_tile = plan_->tiles.size();
     spread_points(query_, box_b, result);
+    check_resident(query.target, first_tile, result);
+}
+
+void Planner::check_resident(const ResidentBufferTarget* target, std::size_t first_tile,
+                             ResultSummary& result) {
+    PlannedQuery& planned = plan_->queries[query_];
+    if (!planned.resident || target == nullptr) {
+        return;
+    }
+    PlannedQuery* const reverse =
+        planned.reverse == PlannedQuery::none ? nullptr : &plan_->queries[planned.reverse];
+    const double points =
+        1.0 * planned.point_count + (reverse == nullptr ? 0.0 : 1.0 * reverse->point_count);
+    result.status =
+        check_room(*target, sizeof(SummaryData) + points * sizeof(RecordData), "records");
+    if (result.status.ok()) {
+        return;
+    }
+    plan_->tiles.resize(first_tile);
+    plan_->points.resize(plan_->points.size() - static_cast<std::size_t>(points));
+    planned.point_count = 0;
+    if (reverse != nullptr) {
+        reverse->point_count = 0;
+    }
 }
 
 std::uint32_t Planner::add_reverse() {
@@ -273,8 +298,10 @@ void Planner::add(const ContactQuery& query, ContactResult& result) {
         return;
     }
     const std::uint32_t reverse = add_reverse();
+    const std::size_t first_tile = plan_->tiles.size();
     add_contact_points(query_, near, chains_of_[0], of_a, result);
     add_contact_points(reverse, near, chains_of_[1], of_b, result);
+    check_resident(query.target, first_tile, result);
 }
 
 double Planner::find_closest_chains(std::uint32_t index, std::vector<localize::Chain>& chains,

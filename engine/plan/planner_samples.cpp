@@ -42,8 +42,14 @@ bool Planner::check_resident(const IntersectionQuery& query, IntersectionResult&
         static_cast<double>(limits_.largest_range - sizeof(IntersectionSummaryData)) /
         sizeof(IntersectionSampleData);
     const double most = query.resident_samples ? std::min(room, max_counted) : max_counted;
-    if (cells <= most) {
+    if (cells <= most && query.target == nullptr) {
         return true;
+    }
+    if (cells <= most) {
+        const double samples = query.resident_samples ? cells * sizeof(IntersectionSampleData) : 0;
+        result.status =
+            check_room(*query.target, sizeof(IntersectionSummaryData) + samples, "samples");
+        return result.status.ok();
     }
     result.status = {
         StatusCode::too_large,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/vector.hpp>
+#include <nearfield/resident.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -50,6 +51,7 @@ struct FieldOutputs {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
+    ResidentFieldTarget target;    ///< images of the host, where their handles are not null
     RingTable rings;               ///< of B
     std::uint32_t first_part = 0;  ///< in ResidentOutputs::field_parts
     std::uint32_t part_count = 0;
@@ -80,6 +82,7 @@ struct RecordsOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
+    ResidentBufferTarget target;  ///< the host's, if its handle is not null
     float near = -1.0F;           ///< contacts: maximum distance, world units
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::point_runs
     std::uint32_t run_count = 0;
@@ -134,6 +137,7 @@ struct SamplesOutput {
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
+    ResidentBufferTarget target;  ///< the host's, if its handle is not null
     RingTable rings;              ///< of A, where it takes part by its boundary,
     std::uint32_t vertices = 0;   ///< and where its vertices lie in the tables, two floats each
     std::uint32_t first_run = 0;  ///< in ResidentOutputs::sample_runs

@@ -56,8 +56,9 @@ struct TileBatchOnDevice {
 /// is created.
 class BatchResources {
 public:
-    /// `timestamps`: the passes are timed.
-    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout, bool timestamps);
+    /// `views`: of images of the host; must outlive this. `timestamps`: the passes are timed.
+    BatchResources(const gpu::Device& device, const passes::ComputeLayout& layout,
+                   TargetViews& views, bool timestamps);
     /// Waits for its own submission if the device is still working on it. Waiting for commands
     /// recorded for the host is up to the host.
     ~BatchResources();

@@ -56,6 +56,7 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
     : device_(&device),
       timestamps_(timestamps),
       layout_(device),
+      target_views_(device),
       copy_back_(device),
       export_field_(device, layout_),
       export_records_(device, layout_),
@@ -74,8 +75,8 @@ const char* Renderer::gradient_format() const {
     return graph::find_format(device_->gradient_format())->name;
 }
 
-std::unique_ptr<BatchResources> Renderer::make_resources() const {
-    return std::make_unique<BatchResources>(*device_, layout_, timestamps_);
+std::unique_ptr<BatchResources> Renderer::make_resources() {
+    return std::make_unique<BatchResources>(*device_, layout_, target_views_, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.

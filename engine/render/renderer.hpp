@@ -40,7 +40,7 @@ public:
     [[nodiscard]] const char* gradient_format() const;
 
     /// Resources for a batch of this renderer, which must outlive them.
-    [[nodiscard]] std::unique_ptr<BatchResources> make_resources() const;
+    [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
 
     /// Uploads tile batches and their resident outputs, and reserves memory for their results; adds
     /// to the time of planning. Both have to stay unchanged, and `slot` untouched, until the device
@@ -69,6 +69,8 @@ public:
 
     /// Drops the compiled graphs, except those of batches in flight, until the next batch.
     void trim() noexcept;
+    /// Destroys the views of an image of the host, which no batch on the device may write.
+    void release_target(VkImage image) { target_views_.release(image); }
 
     /// Prints the graph of the last submitted tile batch and the export graphs; empty before the
     /// first.
@@ -85,6 +87,7 @@ private:
     bool timestamps_;
     passes::RecordContext context_;  // of the tile batch that is being recorded
     passes::ComputeLayout layout_;
+    TargetViews target_views_;
     PipelineSet passes_;
     std::optional<passes::PointSearch> point_search_;  // with the compute technique
     passes::CopyBack copy_back_;

@@ -1,5 +1,4 @@
 #include <engine/base/unique_numbers.hpp>
-#include <engine/graph/access.hpp>
 #include <engine/render/resident_buffers.hpp>
 
 #include <algorithm>
@@ -24,6 +23,12 @@ std::uint64_t bytes_of_samples(const plan::SamplesOutput& samples) {
            std::uint64_t{samples.capacity} * sizeof(IntersectionSampleData);
 }
 
+/// What has to be reserved for records or samples: nothing where the host has given a buffer.
+template <class Output>
+std::uint64_t own_bytes(const Output& output, std::uint64_t bytes) {
+    return output.target.buffer == VK_NULL_HANDLE ? bytes : 0;
+}
+
 std::uint64_t bytes_of_blocks(const plan::RecordsOutput& records) {
     return std::uint64_t{records.block_count} * sizeof(plan::RecordBlockData);
 }
@@ -42,9 +47,11 @@ std::span<const VkDescriptorSet> take(std::span<const VkDescriptorSet>& sets, st
 
 }  // namespace
 
-ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
+ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+                                 TargetViews& views)
     : device_(&device),
       layout_(&layout),
+      target_views_(&views),
       tables_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
               "nearfield export tables"),
       records_(device,
@@ -55,6 +62,7 @@ ResidentBuffers::ResidentBuffers(const gpu::Device& device, const passes::Comput
 void ResidentBuffers::upload(const plan::ResidentOutputs& resident) {
     resident_ = &resident;
     reserve_images();
+    find_views();
     lay_out_buffer();
     upload_tables();
     make_sets();
@@ -69,11 +77,26 @@ void ResidentBuffers::reserve_images() {
                                gpu::KeptImage(*device_, VK_FORMAT_R32_UINT,
                                               "nearfield resident feature id " + number)});
         }
-        const VkExtent2D extent{resident_->fields[i].width, resident_->fields[i].height};
-        const bool grown = images_[i].signed_distance.reserve(extent);
-        if (images_[i].feature.reserve(extent) || grown) {
+        const plan::FieldOutputs& field = resident_->fields[i];
+        const VkExtent2D extent{field.width, field.height};
+        const bool grown = field.target.signed_distance.image == VK_NULL_HANDLE &&
+                           images_[i].signed_distance.reserve(extent);
+        if ((field.target.feature.image == VK_NULL_HANDLE && images_[i].feature.reserve(extent)) ||
+            grown) {
             revision_ = next_revision();
         }
+    }
+}
+
+void ResidentBuffers::find_views() {
+    const auto view_of = [&](const ResidentImageTarget& target, const gpu::KeptImage& own) {
+        return target.image == VK_NULL_HANDLE ? own.view() : target_views_->of(target);
+    };
+    views_.clear();
+    for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
+        const ResidentFieldTarget& target = resident_->fields[i].target;
+        views_.push_back({view_of(target.signed_distance, images_[i].signed_distance),
+                          view_of(target.feature, images_[i].feature)});
     }
 }
 
@@ -101,13 +124,16 @@ void ResidentBuffers::lay_out_buffer() {
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
         require_range(*device_, bytes_of_records(records), "the records");
-        moves = grow(places_, i, bytes_of_records(records), bytes_of_blocks(records)) || moves;
+        moves = grow(places_, i, own_bytes(records, bytes_of_records(records)),
+                     bytes_of_blocks(records)) ||
+                moves;
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
         require_range(*device_, bytes_of_samples(samples), "the samples that stay");
-        moves =
-            grow(sample_places_, i, bytes_of_samples(samples), bytes_of_blocks(samples)) || moves;
+        moves = grow(sample_places_, i, own_bytes(samples, bytes_of_samples(samples)),
+                     bytes_of_blocks(samples)) ||
+                moves;
     }
     if (moves) {
         move_places();
@@ -169,10 +195,19 @@ void ResidentBuffers::bind_words(VkDescriptorSet set, const BufferPart& words) c
                           std::max(bytes_of(resident_->tables), smallest_part));
 }
 
-/// `bytes`: of the summary and what follows it.
+BufferPart ResidentBuffers::range_of(std::size_t i, const plan::RecordsOutput& records) const {
+    return range_of_target(records.target,
+                           {records_.handle(), places_[i].records, bytes_of_records(records)});
+}
+
+BufferPart ResidentBuffers::range_of(std::size_t i, const plan::SamplesOutput& samples) const {
+    return range_of_target(
+        samples.target, {records_.handle(), sample_places_[i].records, bytes_of_samples(samples)});
+}
+
 void ResidentBuffers::bind_records(VkDescriptorSet set, const Place& place,
-                                   std::uint64_t bytes) const {
-    layout_->write_buffer(set, Layout::records, records_.handle(), place.records, bytes);
+                                   const BufferPart& range) const {
+    layout_->write_buffer(set, Layout::records, range.buffer, range.offset, range.bytes);
     layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.blocks,
                           std::max(place.block_bytes, smallest_part));
 }
@@ -182,9 +217,9 @@ void ResidentBuffers::bind_headers() {
     std::span<const VkDescriptorSet> sets = std::span(sets_).last(
         resident_->fields.size() + resident_->records.size() + resident_->samples.size());
     const auto add = [&](const geometry::Vector& origin, double cell, const Place& place,
-                         std::uint64_t summary) -> passes::ExportHeaders::Header& {
+                         const BufferPart& summary) -> passes::ExportHeaders::Header& {
         const VkDescriptorSet set = take(sets, 1).front();
-        layout_->write_buffer(set, Layout::records, records_.handle(), summary, smallest_part);
+        layout_->write_buffer(set, Layout::records, summary.buffer, summary.offset, smallest_part);
         layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.header,
                               sizeof(ResidentHeaderData));
         return headers_.emplace_back(passes::ExportHeaders::Header{
@@ -193,17 +228,18 @@ void ResidentBuffers::bind_headers() {
     };
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         const plan::FieldOutputs& field = resident_->fields[i];
-        auto& header = add(field.origin, field.cell, field_places_[i], field_places_[i].blocks);
+        const BufferPart unread{records_.handle(), field_places_[i].blocks, smallest_part};
+        auto& header = add(field.origin, field.cell, field_places_[i], unread);
         header.width = field.width;
         header.height = field.height;
     }
     for (std::size_t i = 0; i < resident_->records.size(); ++i) {
         const plan::RecordsOutput& records = resident_->records[i];
-        add(records.origin, records.cell, places_[i], places_[i].records);
+        add(records.origin, records.cell, places_[i], range_of(i, records));
     }
     for (std::size_t i = 0; i < resident_->samples.size(); ++i) {
         const plan::SamplesOutput& samples = resident_->samples[i];
-        add(samples.origin, samples.cell, sample_places_[i], sample_places_[i].records);
+        add(samples.origin, samples.cell, sample_places_[i], range_of(i, samples));
     }
 }
 
@@ -226,8 +262,8 @@ void ResidentBuffers::bind_fields(std::span<const Words> words,
         for (const VkDescriptorSet set : take(sets, field.part_count)) {
             bind_words(set, words[resident_->field_parts[part++].round].field);
             layout_->write_storage_image(set, Layout::signed_distance_image,
-                                         images_[i].signed_distance.view());
-            layout_->write_storage_image(set, Layout::feature_id_image, images_[i].feature.view());
+                                         views_[i].signed_distance);
+            layout_->write_storage_image(set, Layout::feature_id_image, views_[i].feature);
         }
     }
 }
@@ -241,14 +277,14 @@ void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart
         for (const VkDescriptorSet set : take(sets, records.run_count)) {
             const plan::PointRunOutput& run = resident_->point_runs[number++];
             bind_words(set, words[run.round].points);
-            bind_records(set, places_[i], bytes_of_records(records));
+            bind_records(set, places_[i], range_of(i, records));
             constexpr std::uint32_t words_of_details =
                 sizeof(plan::PointDetails) / sizeof(std::uint32_t);
             details_.push_back(words[run.round].point_count + words_of_details * run.first);
         }
         const VkDescriptorSet last = take(sets, 1).front();
         bind_words(last, none);
-        bind_records(last, places_[i], bytes_of_records(records));
+        bind_records(last, places_[i], range_of(i, records));
     }
 }
 
@@ -259,7 +295,7 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const BufferPar
         const auto bind = [&](const BufferPart& part) {
             const VkDescriptorSet set = take(sets, 1).front();
             bind_words(set, part);
-            bind_records(set, sample_places_[i], bytes_of_samples(samples));
+            bind_records(set, sample_places_[i], range_of(i, samples));
         };
         for (std::uint32_t number = 0; number < samples.run_count; ++number) {
             const Words& round = words[resident_->sample_runs[samples.first_run + number].round];
@@ -276,8 +312,8 @@ passes::ExportField::Item ResidentBuffers::field_item(std::size_t i) const {
             std::span(resident_->field_parts).subspan(field.first_part, field.part_count),
             std::span(sets_).subspan(field.first_part, field.part_count),
             words_,
-            images_[i].signed_distance.handle(),
-            images_[i].feature.handle()};
+            imported_image(field.target.signed_distance, images_[i].signed_distance.handle()),
+            imported_image(field.target.feature, images_[i].feature.handle())};
 }
 
 passes::ExportRecords::Item ResidentBuffers::records_item(std::size_t i) const {
@@ -288,7 +324,8 @@ passes::ExportRecords::Item ResidentBuffers::records_item(std::size_t i) const {
             std::span(details_).subspan(records.first_run, records.run_count),
             std::span(sets_).subspan(first_set, records.run_count + 1),
             words_,
-            records_.handle()};
+            records_.handle(),
+            imported_buffer(records.target, range_of(i, records))};
 }
 
 passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
@@ -301,64 +338,13 @@ passes::ExportSamples::Item ResidentBuffers::samples_item(std::size_t i) const {
             resident_->sample_tiles,
             std::span(sets_).subspan(first_set, 2 * std::size_t{samples.run_count} + 1),
             summaries_,
-            records_.handle()};
+            records_.handle(),
+            imported_buffer(samples.target, range_of(i, samples))};
 }
 
 passes::ExportHeaders::Item ResidentBuffers::headers_item() const {
-    return {headers_, std::span(sets_).last(headers_.size()), records_.handle()};
-}
-
-ResidentState ResidentBuffers::state(graph::Access access) const {
-    const graph::AccessTraits traits = graph::traits(access, device_->queue_flags());
-    const bool exclusive = device_->resident_families().empty();
-    return {traits.stages, traits.access(), traits.layout,
-            exclusive ? device_->queue_family() : VK_QUEUE_FAMILY_IGNORED};
-}
-
-ResidentField ResidentBuffers::field(std::size_t i) const {
-    const auto image = [](const gpu::KeptImage& kept) {
-        return ResidentImage{kept.handle(), kept.view(), kept.format()};
-    };
-    const plan::FieldOutputs& field = resident_->fields[i];
-    const Images& images = images_[i];
-    return {image(images.signed_distance),
-            image(images.feature),
-            field.width,
-            field.height,
-            images.signed_distance.extent(),
-            geometry::to_public(field.origin),
-            field.cell,
-            field.error_bound,
-            state(graph::Access::exported_image),
-            header_at(field_places_[i]),
-            slot()};
-}
-
-ResidentRecords ResidentBuffers::records(std::size_t i) const {
-    const plan::RecordsOutput& records = resident_->records[i];
-    return {records_.handle(),
-            places_[i].records,
-            bytes_of_records(records),
-            records.capacity,
-            geometry::to_public(records.origin),
-            records.error_bound,
-            state(graph::Access::exported_buffer),
-            header_at(places_[i]),
-            slot()};
-}
-
-ResidentSamples ResidentBuffers::samples(std::size_t i) const {
-    const plan::SamplesOutput& samples = resident_->samples[i];
-    return {records_.handle(),
-            sample_places_[i].records,
-            bytes_of_samples(samples),
-            samples.capacity,
-            geometry::to_public(samples.origin),
-            samples.cell,
-            samples.error_bound,
-            state(graph::Access::exported_buffer),
-            header_at(sample_places_[i]),
-            slot()};
+    return {headers_, std::span(sets_).last(headers_.size()), records_.handle(),
+            readers_of_targets(*resident_)};
 }
 
 }  // namespace nearfield::render

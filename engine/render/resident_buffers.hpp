@@ -8,6 +8,8 @@
 #include <engine/plan/resident_outputs.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/compute_buffers.hpp>
+#include <engine/render/resident_targets.hpp>
+#include <engine/render/target_views.hpp>
 #include <nearfield/resident.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
@@ -27,7 +29,9 @@ namespace nearfield::render {
 /// of a batch takes the first images, and so on.
 class ResidentBuffers {
 public:
-    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout);
+    /// `views`: of images of the host. They must outlive this.
+    ResidentBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+                    TargetViews& views);
 
     /// Allocates memory and uploads the tables. `resident` has to stay unchanged until the next
     /// upload. Must not be called while the device uses these buffers or the host uses the resident
@@ -57,9 +61,14 @@ public:
     [[nodiscard]] ResidentSamples samples(std::size_t i) const;
 
 private:
+    /// Of a field, empty where the host has given an image.
     struct Images {
         gpu::KeptImage signed_distance;
         gpu::KeptImage feature;
+    };
+    struct Views {
+        VkImageView signed_distance = VK_NULL_HANDLE;
+        VkImageView feature = VK_NULL_HANDLE;
     };
     /// Where an output lies in the buffer: its header, and what the device writes beside it. A
     /// field has a header alone.
@@ -72,6 +81,10 @@ private:
     };
 
     void reserve_images();
+    void find_views();
+    /// Where the summary of records or samples and what follows it lie.
+    [[nodiscard]] BufferPart range_of(std::size_t i, const plan::RecordsOutput& records) const;
+    [[nodiscard]] BufferPart range_of(std::size_t i, const plan::SamplesOutput& samples) const;
     void lay_out_buffer();
     void move_places();
     /// Notes how much an output takes; returns whether its place is too small.
@@ -91,15 +104,19 @@ private:
     void bind_samples(std::span<const Words> words, const BufferPart& none,
                       std::span<const VkDescriptorSet>& sets) const;
     void bind_words(VkDescriptorSet set, const BufferPart& words) const;
-    void bind_records(VkDescriptorSet set, const Place& place, std::uint64_t bytes) const;
+    void bind_records(VkDescriptorSet set, const Place& place, const BufferPart& range) const;
     [[nodiscard]] ResidentState state(graph::Access access) const;
+    /// The state of records or samples.
+    [[nodiscard]] ResidentState state(const ResidentBufferTarget& target) const;
 
     const gpu::Device* device_;
     const passes::ComputeLayout* layout_;
+    TargetViews* target_views_;
     const plan::ResidentOutputs* resident_ = nullptr;
     gpu::MappedBuffer tables_;
     gpu::MappedBuffer records_;
     std::vector<Images> images_;  // by field
+    std::vector<Views> views_;    // by field; of the images written
     // What was reserved stays, so that handles and offsets do: a batch uses the first ones of each.
     std::vector<Place> field_places_;
     std::vector<Place> places_;                           // by records

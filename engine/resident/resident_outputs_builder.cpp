@@ -110,6 +110,9 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
     field.origin = geometry::to_vector(result.origin);
     field.cell = result.cell;
     field.error_bound = planned.budget.bound + plan::far_rounding * planned.farthest;
+    if (const auto* const target = std::get<DistanceFieldQuery>(*planned.query).target) {
+        field.target = *target;
+    }
     field.rings = add_rings(*planned.b, resident);
     field.first_part = static_cast<std::uint32_t>(resident.field_parts.size());
     const auto first = std::partition_point(
@@ -139,8 +142,15 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
     if (!box.isEmpty()) {
         records.origin = box.center();
     }
+    const ResidentBufferTarget* target = nullptr;
     if (const auto* const contacts = std::get_if<ContactQuery>(planned.query)) {
         records.near = static_cast<float>(contacts->contact_distance);
+        target = contacts->target;
+    } else {
+        target = std::get<PenetrationQuery>(*planned.query).target;
+    }
+    if (target != nullptr) {
+        records.target = *target;
     }
     add_runs(plan, tile_batches, planned, 0, resident);
     if (reverse != nullptr) {

@@ -71,6 +71,9 @@ void ResidentSamplesBuilder::add(const plan::Plan& plan,
     samples.query = query;
     samples.cell = planned.budget.cell;
     samples.error_bound = error_of_samples(planned, box, by_edge);
+    if (asked.target != nullptr) {
+        samples.target = *asked.target;
+    }
     samples.first_run = static_cast<std::uint32_t>(resident.sample_runs.size());
     if (!box.isEmpty()) {
         samples.origin = box.center();

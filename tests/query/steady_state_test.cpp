@@ -1,10 +1,14 @@
 #include <tests/query/query_test.hpp>
 #include <tests/support/allocations.hpp>
 #include <tests/support/host_frames.hpp>
+#include <tests/support/host_gpu.hpp>
 #include <tests/support/watched_loader.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace nearfield::test {
@@ -253,6 +257,68 @@ TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
     });
     expect_answers(results);
     EXPECT_EQ(results.results.size(), batch.queries().size());
+}
+
+/// Images and buffers of a host that takes turns with three of each.
+struct TakenInTurns {
+    explicit TakenInTurns(test_support::HostGpu& gpu) {
+        const VkExtent2D extent{64, 64};
+        const VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            for (auto [image, format] :
+                 {std::pair{&images[i].signed_distance, VK_FORMAT_R32_SFLOAT},
+                  std::pair{&images[i].feature, VK_FORMAT_R32_UINT}}) {
+                image->image = gpu.make_image(format, extent, usage).image;
+                image->format = format;
+                image->extent = extent;
+                image->usage = usage;
+            }
+            buffers[i].usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+            buffers[i].size = 1 << 18;
+            buffers[i].buffer = gpu.make_buffer(buffers[i].size, buffers[i].usage).buffer;
+        }
+    }
+
+    std::array<ResidentFieldTarget, 3> images;
+    std::array<ResidentBufferTarget, 3> buffers;
+};
+
+TEST_F(SteadyState, TargetsThatTakeTurnsAllocateAndCreateNothing) {
+    test_support::HostGpu gpu(host_device());
+    const TakenInTurns targets(gpu);
+    const Batch all = resident_batch();
+    Batch batch;
+    Results results;
+    Ticket former;
+    expect_nothing_made(100, [&](int number) {
+        if (!deform(number)) {
+            return false;
+        }
+        const std::size_t turn = static_cast<std::size_t>(number) % targets.images.size();
+        auto field = std::get<DistanceFieldQuery>(all.queries()[0]);
+        auto depths = std::get<PenetrationQuery>(all.queries()[2]);
+        field.target = &targets.images[turn];
+        depths.target = &targets.buffers[turn];
+        batch.clear();
+        batch.time_queries(true);
+        batch.add(field);
+        batch.add(depths);
+        const Expected<Ticket> ticket = watched().submit(batch);
+        const bool ok =
+            ticket.has_value() && (former == Ticket{} || watched().collect(former, results).ok());
+        former = ticket.has_value() ? *ticket : Ticket{};
+        return ok;
+    });
+    expect_answers(results);
+    EXPECT_TRUE(watched().collect(former, results).ok());
+    // Of each image one view was made, which goes when the host says so, and only then.
+    for (const ResidentFieldTarget& target : targets.images) {
+        created.clear();
+        EXPECT_TRUE(watched().release_target(target.feature.image).ok());
+        EXPECT_EQ(created, std::vector<std::string>{"vkDestroyImageView"});
+        EXPECT_TRUE(watched().release_target(target.feature.image).ok());
+        EXPECT_EQ(created.size(), 1U);
+    }
 }
 
 }  // namespace

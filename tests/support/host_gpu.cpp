@@ -69,11 +69,11 @@ VkDeviceMemory HostGpu::allocate(const VkMemoryRequirements& needs,
     return memory;
 }
 
-HostGpu::Buffer HostGpu::make_buffer(std::uint64_t bytes) {
+HostGpu::Buffer HostGpu::make_buffer(std::uint64_t bytes, VkBufferUsageFlags usage) {
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = bytes;
-    info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    info.usage = usage;
     Buffer buffer;
     require(vkCreateBuffer(device(), &info, nullptr, &buffer.buffer), "vkCreateBuffer");
     VkMemoryRequirements needs{};
@@ -88,14 +88,15 @@ HostGpu::Buffer HostGpu::make_buffer(std::uint64_t bytes) {
     return buffer;
 }
 
-HostGpu::Image HostGpu::make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage) {
+HostGpu::Image HostGpu::make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
+                                   std::uint32_t levels, std::uint32_t layers) {
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = format;
     info.extent = {extent.width, extent.height, 1};
-    info.mipLevels = 1;
-    info.arrayLayers = 1;
+    info.mipLevels = levels;
+    info.arrayLayers = layers;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = usage;
     Image image;

@@ -17,11 +17,13 @@
     X(vkCmdBeginRenderPass)          \
     X(vkCmdBindDescriptorSets)       \
     X(vkCmdBindPipeline)             \
+    X(vkCmdClearColorImage)          \
     X(vkCmdCopyBuffer)               \
     X(vkCmdCopyImageToBuffer)        \
     X(vkCmdDraw)                     \
     X(vkCmdDrawIndirect)             \
     X(vkCmdEndRenderPass)            \
+    X(vkCmdFillBuffer)               \
     X(vkCmdPipelineBarrier)          \
     X(vkCmdPushConstants)            \
     X(vkCreateBuffer)                \
@@ -81,9 +83,12 @@ public:
         VkImage image = VK_NULL_HANDLE;
         VkImageView view = VK_NULL_HANDLE;
     };
-    /// A mapped buffer for copies from the device.
-    [[nodiscard]] Buffer make_buffer(std::uint64_t bytes);
-    [[nodiscard]] Image make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+    /// A mapped buffer, for copies from the device if nothing else is said.
+    [[nodiscard]] Buffer make_buffer(std::uint64_t bytes,
+                                     VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    /// The view is of the first level and layer.
+    [[nodiscard]] Image make_image(VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
+                                   std::uint32_t levels = 1, std::uint32_t layers = 1);
     /// Registers a destruction for the end of the lifetime; they run in reverse order.
     void at_end(std::function<void()> destroy) { at_end_.push_back(std::move(destroy)); }
 

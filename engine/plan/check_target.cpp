@@ -1,0 +1,241 @@
+#include <engine/geometry/number.hpp>
+#include <engine/plan/check_target.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace nearfield::plan {
+namespace {
+
+constexpr std::string_view signed_distance_name = "the target's image for the signed distance";
+constexpr std::string_view feature_name = "the target's image for the feature";
+constexpr std::string_view buffer_name = "the target's buffer";
+
+struct Layout {
+    VkImageLayout layout{};
+    const char* name = "";
+    VkImageUsageFlags usage = 0;  ///< of which an image in this layout has at least one
+};
+
+// The layouts of a colour image that no feature or extension is needed for.
+constexpr std::array<Layout, 6> layouts{{
+    {VK_IMAGE_LAYOUT_UNDEFINED, "VK_IMAGE_LAYOUT_UNDEFINED", ~0U},
+    {VK_IMAGE_LAYOUT_GENERAL, "VK_IMAGE_LAYOUT_GENERAL", ~0U},
+    {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL",
+     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+    {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, "VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL",
+     VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT},
+    {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, "VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL",
+     VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+    {VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, "VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL",
+     VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+}};
+
+Status refused(std::string_view name, const std::string& why) {
+    return {StatusCode::invalid_query, std::string(name) + " " + why};
+}
+
+std::string hexadecimal(std::uint32_t bits) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text;
+    do {
+        text.insert(text.begin(), digits[bits % 16]);
+        bits /= 16;
+    } while (bits != 0);
+    return "0x" + text;
+}
+
+std::string size_text(std::uint64_t width, std::uint64_t height) {
+    return std::to_string(width) + " x " + std::to_string(height);
+}
+
+std::uint32_t at_level(std::uint32_t side, std::uint32_t level) {
+    return std::max(1U, level < 32 ? side >> level : 0U);
+}
+
+// Messages are composed only after an error was found: a frame without errors allocates nothing.
+
+Status no_layout(std::string_view name, VkImageLayout layout, const char* when,
+                 const std::string& why) {
+    return refused(name, "has the layout number " + std::to_string(static_cast<int>(layout)) + " " +
+                             when + " the batch (TargetState::layout), " + why);
+}
+
+/// `when`: "before" or "after".
+Status check_layout(const ResidentImageTarget& target, VkImageLayout layout, std::string_view name,
+                    const char* when) {
+    const auto* const known = std::find_if(layouts.begin(), layouts.end(),
+                                           [=](const Layout& one) { return one.layout == layout; });
+    if (known == layouts.end()) {
+        return no_layout(name, layout, when,
+                         "which is none that a colour image has without an extension");
+    }
+    if ((known->usage & target.usage) == 0) {
+        return no_layout(name, layout, when,
+                         std::string(known->name) + ", and its usage, " +
+                             hexadecimal(target.usage) + ", does not allow that layout");
+    }
+    return {};
+}
+
+Status check_state(const TargetState& state, std::string_view name, const char* when) {
+    return state.stages == 0 && state.access != 0
+               ? refused(name, std::string("has accesses ") + when +
+                                   " the batch (TargetState::access), " +
+                                   hexadecimal(state.access) + ", and no stages that make them")
+               : Status();
+}
+
+Status check_states(const TargetState& before, const TargetState& after, std::string_view name) {
+    Status status = check_state(before, name, "before");
+    return status.ok() ? check_state(after, name, "after") : status;
+}
+
+Status check_subresource(const ResidentImageTarget& target, std::string_view name) {
+    if (target.level >= target.levels) {
+        return refused(name, "is to be written at level " + std::to_string(target.level) +
+                                 " and has " + std::to_string(target.levels) + " levels");
+    }
+    if (target.layer >= target.layers) {
+        return refused(name, "is to be written at layer " + std::to_string(target.layer) +
+                                 " and has " + std::to_string(target.layers) + " layers");
+    }
+    return {};
+}
+
+Status check_image(const ResidentImageTarget& target, VkFormat format, std::string_view name) {
+    if (target.format != format) {
+        return refused(
+            name,
+            "has the format number " + std::to_string(static_cast<int>(target.format)) + "; " +
+                (format == VK_FORMAT_R32_SFLOAT ? "VK_FORMAT_R32_SFLOAT" : "VK_FORMAT_R32_UINT") +
+                " (" + std::to_string(static_cast<int>(format)) + ") is what can be written");
+    }
+    if ((target.usage & VK_IMAGE_USAGE_STORAGE_BIT) == 0) {
+        return refused(name, "was created with the usage " + hexadecimal(target.usage) +
+                                 ", which lacks VK_IMAGE_USAGE_STORAGE_BIT");
+    }
+    if (Status status = check_subresource(target, name); !status.ok()) {
+        return status;
+    }
+    if (Status status = check_states(target.before, target.after, name); !status.ok()) {
+        return status;
+    }
+    if (Status status = check_layout(target, target.before.layout, name, "before"); !status.ok()) {
+        return status;
+    }
+    if (target.after.layout == VK_IMAGE_LAYOUT_UNDEFINED) {
+        return refused(name,
+                       "is to be left in VK_IMAGE_LAYOUT_UNDEFINED after the batch "
+                       "(TargetState::layout), which is no layout to leave an image in");
+    }
+    return check_layout(target, target.after.layout, name, "after");
+}
+
+Status check_room(const ResidentImageTarget& target, std::string_view name, std::uint64_t width,
+                  std::uint64_t height) {
+    const std::uint32_t across = at_level(target.extent.width, target.level);
+    const std::uint32_t up = at_level(target.extent.height, target.level);
+    if (target.image == VK_NULL_HANDLE || (width <= across && height <= up)) {
+        return {};
+    }
+    return refused(name, "has " + size_text(across, up) + " texels at level " +
+                             std::to_string(target.level) + "; the field has " +
+                             size_text(width, height) + " cells");
+}
+
+std::string taken(std::uint32_t query) {
+    return "is written by query " + std::to_string(query) +
+           " of the same batch, and one place takes one result";
+}
+
+}  // namespace
+
+void Targets::clear() {
+    added_.clear();
+}
+
+void Targets::drop(std::uint32_t query) {
+    while (!added_.empty() && added_.back().query == query) {
+        added_.pop_back();
+    }
+}
+
+Status Targets::add_image(const ResidentImageTarget& target, VkFormat format, std::string_view name,
+                          std::uint32_t query) {
+    if (target.image == VK_NULL_HANDLE) {
+        return {};
+    }
+    if (Status status = check_image(target, format, name); !status.ok()) {
+        return status;
+    }
+    for (const OfQuery& other : added_) {
+        if (other.image.image == target.image && other.image.level == target.level &&
+            other.image.layer == target.layer) {
+            return refused(name, taken(other.query));
+        }
+    }
+    added_.push_back({query, target, {}});
+    return {};
+}
+
+Status Targets::add(const ResidentFieldTarget& target, std::uint32_t query) {
+    Status status =
+        add_image(target.signed_distance, VK_FORMAT_R32_SFLOAT, signed_distance_name, query);
+    return status.ok() ? add_image(target.feature, VK_FORMAT_R32_UINT, feature_name, query)
+                       : status;
+}
+
+Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
+    if (target.buffer == VK_NULL_HANDLE) {
+        return refused(buffer_name, "is null (ResidentBufferTarget::buffer)");
+    }
+    if ((target.usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) == 0) {
+        return refused(buffer_name, "was created with the usage " + hexadecimal(target.usage) +
+                                        ", which lacks VK_BUFFER_USAGE_STORAGE_BUFFER_BIT");
+    }
+    if (target.offset % offset_alignment_ != 0) {
+        return refused(buffer_name,
+                       "is to be written at the offset " + std::to_string(target.offset) +
+                           ", which is no multiple of " + std::to_string(offset_alignment_) +
+                           " (minStorageBufferOffsetAlignment of this device)");
+    }
+    if (target.size > UINT64_MAX - target.offset) {
+        return refused(buffer_name,
+                       "has no number of bytes that may be written "
+                       "(ResidentBufferTarget::size), such as VK_WHOLE_SIZE");
+    }
+    // Records and samples begin with a summary of this size even if there are none.
+    if (Status status = check_room(target, sizeof(SummaryData), "summary"); !status.ok()) {
+        return status;
+    }
+    if (Status status = check_states(target.before, target.after, buffer_name); !status.ok()) {
+        return status;
+    }
+    for (const OfQuery& other : added_) {
+        if (other.buffer.buffer == target.buffer &&
+            target.offset < other.buffer.offset + other.buffer.size &&
+            other.buffer.offset < target.offset + target.size) {
+            return refused(buffer_name, taken(other.query));
+        }
+    }
+    added_.push_back({query, {}, target});
+    return {};
+}
+
+Status check_room(const ResidentFieldTarget& target, std::uint64_t width, std::uint64_t height) {
+    Status status = check_room(target.signed_distance, signed_distance_name, width, height);
+    return status.ok() ? check_room(target.feature, feature_name, width, height) : status;
+}
+
+Status check_room(const ResidentBufferTarget& target, double bytes, std::string_view what) {
+    return bytes <= static_cast<double>(target.size)
+               ? Status()
+               : refused(buffer_name, "has " + std::to_string(target.size) + " bytes from offset " +
+                                          std::to_string(target.offset) + " on; the " +
+                                          std::string(what) + " may take " +
+                                          geometry::number(bytes));
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <nearfield/resident.hpp>
+#include <nearfield/status.hpp>
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// The host's images and buffers that the queries of a batch write to. Checks what the host states
+/// about them, and that no two queries write to the same place.
+class Targets {
+public:
+    /// `offset_alignment`: of storage buffers on the device, in bytes.
+    explicit Targets(std::uint64_t offset_alignment) : offset_alignment_(offset_alignment) {}
+
+    /// Forgets the queries of the batch before.
+    void clear();
+    /// Forgets this query, the last one added: it is rejected and writes nothing.
+    void drop(std::uint32_t query);
+    /// Adds what a query writes to. Returns success, or what is wrong with it: then drop it.
+    [[nodiscard]] Status add(const ResidentFieldTarget& target, std::uint32_t query);
+    [[nodiscard]] Status add(const ResidentBufferTarget& target, std::uint32_t query);
+
+private:
+    struct OfQuery {
+        std::uint32_t query = 0;
+        ResidentImageTarget image;    // or
+        ResidentBufferTarget buffer;  // if its handle is not null
+    };
+
+    [[nodiscard]] Status add_image(const ResidentImageTarget& target, VkFormat format,
+                                   std::string_view name, std::uint32_t query);
+
+    std::uint64_t offset_alignment_;
+    std::vector<OfQuery> added_;
+};
+
+/// Checks that a field of this many cells fits the images.
+[[nodiscard]] Status check_room(const ResidentFieldTarget& target, std::uint64_t width,
+                                std::uint64_t height);
+/// Checks that this many bytes fit the range of the buffer; `what` they are: "records".
+[[nodiscard]] Status check_room(const ResidentBufferTarget& target, double bytes,
+                                std::string_view what);
+
+}  // namespace nearfield::plan
