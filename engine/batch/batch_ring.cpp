@@ -106,6 +106,7 @@ Ticket BatchRing::start_batch(const Batch& batch, Results* memory, const Start& 
         std::swap(*memory, frame.runner.results());
     }
     frame.runner.results().batch = batch.number();
+    frame.runner.time_queries(batch.times_queries());
     try {
         start(frame, find_shape_for(frame));
     } catch (...) {

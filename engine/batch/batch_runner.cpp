@@ -52,8 +52,10 @@ void BatchRunner::copy(std::span<const AnyQuery> queries) {
     }
 }
 
-void BatchRunner::begin_timings() {
+void BatchRunner::begin_timings(std::size_t queries) {
     Timings& timings = results_.timings;
+    timings.queries.assign(times_queries_ ? queries : 0, {});
+    plan_.times = timings.queries;
     timings.localize = timings.plan = timings.record = timings.device = 0.0;
     timings.decode = timings.total = 0.0;
     // Names stay, so that a frame like the one before allocates nothing; passes that have not run
@@ -117,7 +119,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     late_failure_ = nullptr;
     Timings& timings = results_.timings;
     const Stopwatch start;
-    begin_timings();
+    begin_timings(queries.size());
     copy(queries);
     if (submissions == plan::Submissions::one) {
         keep_off_the_device();
@@ -300,6 +302,48 @@ void BatchRunner::collect() {
     decoder_.finish(plan_, results_.results);
     timings.decode += start.milliseconds();
     std::erase_if(timings.passes, [](const PassTime& pass) { return pass.milliseconds < 0.0; });
+    time_device();
+}
+
+/// The position of the query that all work on the device was for, if it was for one alone.
+std::optional<std::size_t> BatchRunner::only_query_on_device() const {
+    const AnyQuery* only = nullptr;
+    bool is_only = true;
+    const auto add = [&](std::uint32_t planned) {
+        const AnyQuery* const query = plan_.queries[planned].query;
+        is_only = is_only && (only == nullptr || only == query);
+        only = query;
+    };
+    for (const plan::Tile& tile : plan_.tiles) {
+        add(tile.query);
+    }
+    for (const plan::SearchedQuery& searched : plan_.searched) {
+        add(searched.query);
+    }
+    // Even without tiles these have passes that state that there is nothing.
+    for (const plan::RecordsOutput& records : resident_.records) {
+        add(records.query);
+    }
+    for (const plan::SamplesOutput& samples : resident_.samples) {
+        add(samples.query);
+    }
+    return is_only && only != nullptr
+               ? std::optional(static_cast<std::size_t>(only - queries_.data()))
+               : std::nullopt;
+}
+
+/// The passes are attributed only where they worked for one query alone.
+void BatchRunner::time_device() {
+    Timings& timings = results_.timings;
+    if (timings.queries.empty() || timings.passes.empty()) {
+        return;
+    }
+    if (const std::optional<std::size_t> query = only_query_on_device()) {
+        double& sum = timings.queries[*query].device.emplace(0.0);
+        for (const PassTime& pass : timings.passes) {
+            sum += pass.milliseconds;
+        }
+    }
 }
 
 void BatchRunner::decode(std::uint32_t number) {

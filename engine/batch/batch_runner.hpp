@@ -46,6 +46,9 @@ public:
     /// renderer (null) there is no device: the planner must reject everything that needs one.
     BatchRunner(Planning& planning, render::Renderer* renderer);
 
+    /// Whether the next batches state the time of each query.
+    void time_queries(bool on) { times_queries_ = on; }
+
     /// Copies the queries, selects their techniques, plans them and submits their tile batches with
     /// the semaphores of `order`; if nothing is rendered, only the semaphores, if any. Then answers
     /// the CPU's queries while the device is working; errors there are reported by collect(). Does
@@ -103,7 +106,9 @@ private:
     [[nodiscard]] bool has_device_work() const;
     void answer_on_cpu();
     void copy(std::span<const AnyQuery> queries);
-    void begin_timings();
+    void begin_timings(std::size_t queries);
+    void time_device();
+    [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
     void make_tile_batches();
     void plan_batch(plan::Submissions submissions);
     void wait();
@@ -127,6 +132,7 @@ private:
     plan::ResidentOutputs resident_;
     results::ResultDecoder decoder_;
     Results results_;
+    bool times_queries_ = false;
     Stopwatch submitted_;
     std::optional<double> device_milliseconds_;  // from submission until completion was observed
     std::exception_ptr late_failure_;            // of a batch that was submitted nevertheless

@@ -1,6 +1,7 @@
 #include <engine/base/interruption.hpp>
 #include <engine/batch/gradient_normals.hpp>
 #include <engine/plan/empty_result.hpp>
+#include <engine/plan/query_timer.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +38,13 @@ void GradientNormals::apply(BatchRunner& main) {
             continue;
         }
         try {
-            decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
+            {
+                const plan::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
+                decoder_.find(main.plan(), planned, main.point_words(), result.cell, contacts_);
+            }
             set_normals(planned, result, results.timings);
             if (result.status.ok()) {
+                const plan::QueryTimer timer(main.plan().times, index, &QueryTime::answer);
                 contacts_.write(*planned.a, *planned.b, std::get<ContactQuery>(*planned.query),
                                 result);
             }

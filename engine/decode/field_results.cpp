@@ -1,6 +1,7 @@
 #include <engine/base/interruption.hpp>
 #include <engine/decode/field_results.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/query_timer.hpp>
 #include <engine/records/field_features.hpp>
 #include <engine/records/field_reconstruction.hpp>
 #include <engine/records/nearest_feature.hpp>
@@ -52,6 +53,7 @@ void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& round,
         checkpoint();
         if (draw.field) {
             const Tile& tile = plan.tiles[round.tile_index[draw.tile]];
+            const plan::QueryTimer timer(plan.times, tile.query, &QueryTime::answer);
             add_tile(plan.queries[tile.query], tile, draw, words,
                      std::get<DistanceFieldResult>(results[tile.query]));
         }
@@ -59,6 +61,7 @@ void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& round,
     for (const plan::FieldPointRun& run : round.field_point_runs) {
         const plan::PlannedQuery& planned = plan.queries[run.query];
         auto& result = std::get<DistanceFieldResult>(results[run.query]);
+        const plan::QueryTimer timer(plan.times, run.query, &QueryTime::answer);
         SparseCheckpoint<256> checkpoint;
         for (std::uint32_t i = 0; i < run.count; ++i) {
             checkpoint.step();

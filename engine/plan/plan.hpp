@@ -10,6 +10,7 @@
 #include <engine/plan/needed_blocks.hpp>
 #include <nearfield/localization.hpp>
 #include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -172,6 +173,9 @@ struct Plan {
     double result_bytes = 0.0;
     /// Number of jobs that can run at the same time within the memory limit; at least 1.
     std::uint32_t max_jobs = 1;
+    /// The times of the batch's queries, which planning and answering add to; empty if nobody asked
+    /// for them. Outlives clear().
+    std::span<QueryTime> times;
 
     void clear();
 };

@@ -6,6 +6,7 @@
 #include <engine/plan/empty_result.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/planner.hpp>
+#include <engine/plan/query_timer.hpp>
 #include <engine/plan/region.hpp>
 #include <engine/plan/technique.hpp>
 #include <nearfield/jobs.hpp>
@@ -85,6 +86,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
     plan.queries.resize(queries.size());
     for (query_ = 0; query_ < queries.size(); ++query_) {
         checkpoint();
+        const QueryTimer timer(plan.times, query_, &QueryTime::plan);
         plan.queries[query_] = {};
         plan.queries[query_].query = &queries[query_];
         query_bytes_ = 0.0;

@@ -2,6 +2,7 @@
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/empty_result.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/query_timer.hpp>
 #include <engine/records/intersection_samples.hpp>
 #include <engine/results/query_answers.hpp>
 
@@ -137,6 +138,7 @@ std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::
             continue;
         }
         ++count;
+        const plan::QueryTimer timer(plan.times, i, &QueryTime::answer);
         try {
             write({plan, static_cast<std::uint32_t>(i), words, fields}, on_cpu, results[i]);
         } catch (const Interrupted& interrupted) {

@@ -62,6 +62,25 @@ TEST_F(SceneCommand, AnswersEveryQueryAsTheQueryCommandDoes) {
     }
 }
 
+TEST_F(SceneCommand, WritesTheTimeOfEachQueryIfAskedTo) {
+    const std::string file = scene(
+        R"({"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05, "technique": "cpu"},
+           {"query": "contacts", "a": "A", "b": "nobody", "tolerance": 0.05},
+           {"query": "distance-field", "a": "A", "b": "B", "tolerance": 0.05,
+            "technique": "compute"})");
+    const Outcome outcome = run_program({"scene", file, "--query-times", "--json", "-"});
+    const Json results = Json::parse(outcome.out).at("results");
+    ASSERT_EQ(results.size(), 3U);
+    for (const std::size_t answered : {0U, 2U}) {
+        const Json& time = results.at(answered).at("time_ms");
+        EXPECT_GT(time.at("plan").get<double>(), 0.0);
+        EXPECT_GT(time.at("answer").get<double>(), 0.0);
+    }
+    EXPECT_TRUE(results.at(0).at("time_ms").at("device").is_null());
+    EXPECT_GT(results.at(2).at("time_ms").at("device").get<double>(), 0.0);
+    EXPECT_FALSE(results.at(1).contains("time_ms"));
+}
+
 TEST_F(SceneCommand, FindsTheSameWithSeveralThreads) {
     std::string queries;
     for (const char* tolerance : {"0.01", "0.02", "0.03", "0.04", "0.05"}) {

@@ -170,6 +170,8 @@ CLI::App* add_scene_command(CLI::App& program, SceneArguments& arguments) {
         "--strict", arguments.strict,
         "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
         "the standard error");
+    command->add_flag("--query-times", arguments.query_times,
+                      "Write the time of each query of a pair into the JSON (time_ms)");
     add_settings_options(*command, arguments.settings);
     command
         ->add_option("--json", arguments.json,
@@ -198,6 +200,9 @@ int run_scene(const SceneArguments& arguments) {
     ReportTarget report(arguments.json);
     Context context = open_context(settings, techniques_of(scene));
     SceneRunner runner(scene, scene.files.front(), context, BadEntries::recorded);
+    if (arguments.query_times) {
+        runner.time_queries();
+    }
     const bool is_stopped = run_until_ctrl_c(runner);
     const std::vector<SceneAnswer> answers = runner.answers();
     if (std::ostream* json = report.json()) {

@@ -16,6 +16,7 @@ struct SceneArguments {
     std::vector<std::string> files;
     std::optional<std::string> technique;
     bool strict = false;
+    bool query_times = false;
     // These are for outlines.
     std::vector<std::string> queries;
     std::optional<double> tolerance;

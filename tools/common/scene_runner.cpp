@@ -46,6 +46,7 @@ void add_timings(const Timings& more, Timings& sum) {
     sum.device += more.device;
     sum.decode += more.decode;
     sum.total += more.total;
+    sum.queries.insert(sum.queries.end(), more.queries.begin(), more.queries.end());
     for (const PassTime& pass : more.passes) {
         const auto found =
             std::find_if(sum.passes.begin(), sum.passes.end(),
@@ -186,11 +187,13 @@ void SceneRunner::answer_one_by_one(const Limits& limits) {
         }
         Batch batch;
         Results one;
+        batch.time_queries(batch_.times_queries());
         add_to(batch, entry);
         const Status status = context_.run(batch, one, limits);
         if (status.code() == StatusCode::too_large) {
             all.results.push_back(
                 refusal({status.code(), without_prefix(full_message(status), "query 0 with ")}));
+            all.timings.queries.resize(batch_.times_queries() ? all.results.size() : 0);
             continue;
         }
         require(status, place_of(entry.query));
@@ -368,6 +371,11 @@ const AnyResult& SceneRunner::result_of(const Entry& entry) const {
                                               : results_.results[entry.result];
 }
 
+const QueryTime* SceneRunner::time_of(const Entry& entry) const {
+    const bool is_timed = batch_.times_queries() && !entry.is_refused && !entry.is_world;
+    return is_timed ? &results_.timings.queries[entry.result] : nullptr;
+}
+
 std::vector<SceneAnswer> SceneRunner::answers() const {
     std::vector<SceneAnswer> answers;
     for (const Entry& entry : entries_) {
@@ -383,10 +391,10 @@ std::vector<SceneAnswer> SceneRunner::answers() const {
         }
         const bool is_answered_world = entry.is_world && summary_of(result).status.ok();
         const bool has_pair = entry.a != Entry::all;
-        answers.push_back({query.request, has_pair ? scene_.instances[entry.a].name : query.name_a,
-                           has_pair ? scene_.instances[entry.b].name : query.name_b, result,
-                           query.kind,
-                           is_answered_world ? &worlds_->answer_of(entry.query) : nullptr});
+        answers.push_back(
+            {query.request, has_pair ? scene_.instances[entry.a].name : query.name_a,
+             has_pair ? scene_.instances[entry.b].name : query.name_b, result, query.kind,
+             is_answered_world ? &worlds_->answer_of(entry.query) : nullptr, time_of(entry)});
     }
     return answers;
 }

@@ -41,6 +41,9 @@ public:
     SceneRunner(const SceneRunner&) = delete;
     SceneRunner& operator=(const SceneRunner&) = delete;
 
+    /// The answers of the next frames state the time of each query of pairs.
+    void time_queries() noexcept { batch_.time_queries(true); }
+
     /// Runs one whole frame: shapes (which may have deformed), poses and queries in, results out.
     /// Returns the time in milliseconds. Throws LibraryError if the batch as a whole fails.
     double run_frame(FrameInput input = FrameInput::all);
@@ -112,6 +115,8 @@ private:
     void answer_world_queries(const Limits& limits);
     void answer_one_by_one(const Limits& limits);
     [[nodiscard]] const AnyResult& result_of(const Entry& entry) const;
+    /// Null if there is none.
+    [[nodiscard]] const QueryTime* time_of(const Entry& entry) const;
     [[nodiscard]] bool is_cancelled(const Entry& entry) const;
     [[nodiscard]] bool is_usable(std::size_t instance) const;
     /// "lid (shapes.box), left": with the shape where that is what is wrong.

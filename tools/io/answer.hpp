@@ -34,6 +34,7 @@ struct SceneAnswer {
     std::string_view kind;    ///< the name of the query, as the scene has it
     /// Of a query of all instances, if it is answered; `result` then only has its status.
     const WorldAnswer* world = nullptr;
+    const QueryTime* time = nullptr;  ///< if it was asked for
 };
 
 /// A context's device as text for people. `name`: Context::device_name().

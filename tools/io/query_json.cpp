@@ -279,6 +279,20 @@ void write_localization(JsonWriter& json, const LocalizationStatistics& statisti
     json.key("edges_kept").value(statistics.edges_kept).end_object();
 }
 
+/// Writes the time of one query of a scene.
+void write_time(JsonWriter& json, const QueryTime& time) {
+    json.key("time_ms").begin_object();
+    json.key("plan").value(time.plan);
+    json.key("answer").value(time.answer);
+    json.key("device");
+    if (time.device) {
+        json.value(*time.device);
+    } else {
+        json.null();
+    }
+    json.end_object();
+}
+
 /// Writes the members of an answer, alone or in a scene, except device and timings.
 void write_answer(JsonWriter& json, const QueryRequest& request, const AnyResult& result) {
     const ResultSummary& summary = summary_of(result);
@@ -336,6 +350,9 @@ void write_scene_json(std::ostream& stream, std::span<const SceneAnswer> answers
             write_world_answer(json, *answer.world);
         } else if (status.ok()) {
             write_answer(json, answer.request, answer.result);
+            if (answer.time != nullptr) {
+                write_time(json, *answer.time);
+            }
         } else {
             json.key("query").value_or_null(answer.kind);
             json.key("message").value(std::string_view(full_message(status)));
