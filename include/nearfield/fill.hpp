@@ -47,8 +47,8 @@ struct ResolvedFill {
     /// Empty if the region is.
     std::vector<Ring> rings;
     /// Every point farther than this from the boundary of the asked region is on the right side,
-    /// and no point of the rings is farther than this from that boundary. Pass it to
-    /// Context::add_shape.
+    /// and no point of the rings is farther than this from that boundary. So queries answer for a
+    /// region between the asked one shrunk by this and grown by it. Pass it to Context::add_shape.
     double deviation = 0.0;
 };
 
