@@ -35,6 +35,11 @@ TEST_F(HostStructures, OfAnOlderHostAreTakenAsFarAsTheyGo) {
     // Beyond its end there is no allocator, no cache and no log, whatever the bytes there.
     std::memset(static_cast<void*>(&old.allocator), 0xAB, sizeof(HostDevice) - old.structure_size);
     EXPECT_TRUE(create(old).ok()) << create(old).text();
+    // Nor are there an allocator of device memory, and families that read.
+    old = host_device();
+    old.structure_size = offsetof(HostDevice, memory);
+    std::memset(static_cast<void*>(&old.memory), 0xAB, sizeof(HostDevice) - old.structure_size);
+    EXPECT_TRUE(create(old).ok()) << create(old).text();
     old = host_device();
     old.structure_size = offsetof(HostDevice, debug_utils);
     EXPECT_TRUE(create(old).ok()) << create(old).text();
