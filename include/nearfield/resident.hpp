@@ -91,10 +91,10 @@ struct ResidentFieldTarget {
 /// of the host's, on the context's device. Only as much is written as resident() states. The header
 /// stays nearfield's own. Borrowed until the batch is collected; nothing is kept of it.
 struct ResidentBufferTarget {
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset = 0;       ///< a multiple of minStorageBufferOffsetAlignment
-    VkDeviceSize size = 0;         ///< bytes from `offset` on that may be written
-    VkBufferUsageFlags usage = 0;  ///< as created; contains VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
+    VkBuffer buffer = VK_NULL_HANDLE;  ///< not null
+    VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
+    VkDeviceSize size = 0;             ///< bytes from `offset` on that may be written
+    VkBufferUsageFlags usage = 0;      ///< as created; contains VK_BUFFER_USAGE_STORAGE_BUFFER_BIT
     TargetState before = former_readers;  ///< its layout is ignored
     TargetState after = read_by_shaders;  ///< its layout is ignored
 };
