@@ -235,6 +235,7 @@ void World::add_recordable(Batch& batch, double cells, Technique technique) cons
         batch.add(ContactQuery{here(), there(), tolerance, 0.1, ContactNormals::analytic, true,
                                technique, true});
         field.resident = true;
+        field.target = &target_;
         batch.add(field);
         field.resident = false;
         batch.add(IntersectionQuery{here(), there(), tolerance, IntersectionKind::boundary_volume,

@@ -53,7 +53,12 @@ public:
     explicit World(Technique technique)
         : technique_(technique),
           before_(driver_.make_semaphore(true)),
-          after_(driver_.make_semaphore(false)) {}
+          after_(driver_.make_semaphore(false)) {
+        target_.signed_distance = {driver_.make_image(),
+                                   VK_FORMAT_R32_SFLOAT,
+                                   {4096, 4096},
+                                   VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT};
+    }
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -112,6 +117,7 @@ private:
     VkSemaphore before_;
     VkSemaphore after_;
     MemoryFunctions memory_;
+    ResidentFieldTarget target_;  ///< of resident fields: one image is the host's
     std::optional<Context> context_;
     ShapeHandle a_;
     ShapeHandle b_;

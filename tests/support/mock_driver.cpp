@@ -112,6 +112,13 @@ VkSemaphore MockDriver::make_semaphore(bool signalled) {
     return semaphore;
 }
 
+VkImage MockDriver::make_image() {
+    const UnwatchedAllocations here;
+    const auto image = state_->make<VkImage>(the_host, state_->device);
+    state_->objects[number(image)].bound = true;
+    return image;
+}
+
 bool MockDriver::is_signalled(VkSemaphore semaphore) const {
     return state_->objects.at(number(semaphore)).signalled;
 }

@@ -56,6 +56,8 @@ public:
     /// A binary semaphore.
     [[nodiscard]] VkSemaphore make_semaphore(bool signalled);
     [[nodiscard]] bool is_signalled(VkSemaphore semaphore) const;
+    /// An image of the host, with memory.
+    [[nodiscard]] VkImage make_image();
     /// Sets the timeline semaphore support that host() reports.
     void enable_timeline_semaphores(bool enabled = true);
     [[nodiscard]] VkSemaphore make_timeline_semaphore(std::uint64_t value);
