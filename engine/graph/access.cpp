@@ -12,13 +12,23 @@ constexpr VkPipelineStageFlags shaders_of_users = VK_PIPELINE_STAGE_VERTEX_SHADE
                                                   VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
                                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 
-// What a queue family has that computes and does not draw, of all that the table names.
-constexpr VkPipelineStageFlags stages_without_drawing = VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                                                        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
-                                                        VK_PIPELINE_STAGE_TRANSFER_BIT;
-constexpr VkAccessFlags accesses_without_drawing =
-    VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-    VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+// What a queue family lacks that does not draw.
+constexpr VkPipelineStageFlags stages_of_drawing =
+    VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+    VK_PIPELINE_STAGE_TESSELLATION_CONTROL_SHADER_BIT |
+    VK_PIPELINE_STAGE_TESSELLATION_EVALUATION_SHADER_BIT | VK_PIPELINE_STAGE_GEOMETRY_SHADER_BIT |
+    VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+    VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+    VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT;
+constexpr VkAccessFlags accesses_of_drawing =
+    VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT |
+    VK_ACCESS_INPUT_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT |
+    VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+bool draws(VkQueueFlags queue) {
+    return (queue & VK_QUEUE_GRAPHICS_BIT) != 0;
+}
 
 // Attachments are read as well as written: load operations, blending, logic operations and tests
 // depend on the previous content. All reads of images share one layout, and all reads of one kind
@@ -110,12 +120,18 @@ const AccessTraits& traits(Access access) noexcept {
 
 AccessTraits traits(Access access, VkQueueFlags queue) noexcept {
     AccessTraits on_queue = traits(access);
-    if ((queue & VK_QUEUE_GRAPHICS_BIT) == 0) {
-        on_queue.stages &= stages_without_drawing;
-        on_queue.read_access &= accesses_without_drawing;
-        on_queue.write_access &= accesses_without_drawing;
-    }
+    on_queue.stages = stages_on(on_queue.stages, queue);
+    on_queue.read_access = access_on(on_queue.read_access, queue);
+    on_queue.write_access = access_on(on_queue.write_access, queue);
     return on_queue;
+}
+
+VkPipelineStageFlags stages_on(VkPipelineStageFlags stages, VkQueueFlags queue) noexcept {
+    return draws(queue) ? stages : stages & ~stages_of_drawing;
+}
+
+VkAccessFlags access_on(VkAccessFlags access, VkQueueFlags queue) noexcept {
+    return draws(queue) ? access : access & ~accesses_of_drawing;
 }
 
 }  // namespace nearfield::graph

@@ -26,5 +26,9 @@ struct AccessTraits {
 /// The same on a queue family with these flags: without the stages and accesses that a family that
 /// does not draw lacks. Nothing is left of an access by drawing.
 [[nodiscard]] AccessTraits traits(Access access, VkQueueFlags queue) noexcept;
+/// Of these stages or accesses those that such a family has.
+[[nodiscard]] VkPipelineStageFlags stages_on(VkPipelineStageFlags stages,
+                                             VkQueueFlags queue) noexcept;
+[[nodiscard]] VkAccessFlags access_on(VkAccessFlags access, VkQueueFlags queue) noexcept;
 
 }  // namespace nearfield::graph

@@ -21,22 +21,29 @@ constexpr VkAccessFlags all_writes =
     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT |
     VK_ACCESS_HOST_WRITE_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 
-/// `otherwise` where there are no stages: a barrier always has some.
-VkPipelineStageFlags stages_of(const ExternalUse& use, VkPipelineStageFlags otherwise) {
-    return use.stages == 0 ? otherwise : use.stages;
+/// A use outside the graph, as far as the queue's family knows it; a barrier always has stages, so
+/// `otherwise` where none are left.
+ExternalUse on_queue(ExternalUse use, VkQueueFlags queue, VkPipelineStageFlags otherwise) {
+    use.stages = stages_on(use.stages, queue);
+    use.access = use.stages == 0 ? 0 : access_on(use.access, queue);
+    use.stages = use.stages == 0 ? otherwise : use.stages;
+    return use;
 }
 
 /// A barrier whose side outside the graph is what the caller stated.
-Barrier with_uses(Barrier barrier, const std::optional<ExternalUses>& uses) {
+Barrier with_uses(Barrier barrier, const std::optional<ExternalUses>& uses, VkQueueFlags queue) {
     if (uses && barrier.from_outside) {
-        barrier.source_stages = stages_of(uses->before, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT);
-        barrier.source_access = uses->before.access & all_writes;
-        barrier.old_layout = uses->before.layout;
+        const ExternalUse before = on_queue(uses->before, queue, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT);
+        barrier.source_stages = before.stages;
+        barrier.source_access = before.access & all_writes;
+        barrier.old_layout = before.layout;
     }
     if (uses && barrier.to_outside) {
-        barrier.destination_stages = stages_of(uses->after, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
-        barrier.destination_access = uses->after.access;
-        barrier.new_layout = uses->after.layout;
+        const ExternalUse after =
+            on_queue(uses->after, queue, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
+        barrier.destination_stages = after.stages;
+        barrier.destination_access = after.access;
+        barrier.new_layout = after.layout;
     }
     return barrier;
 }
@@ -266,7 +273,8 @@ void Executor::set_buffer(Handle handle, const ImportedBuffer& imported) {
         for (std::size_t i = 0; i < call.buffers.size(); ++i) {
             PlacedBarrier& placed = call.buffer_barriers[i];
             if (placed.declared.resource == handle.resource) {
-                placed.effective = with_uses(placed.declared, imported.uses);
+                placed.effective =
+                    with_uses(placed.declared, imported.uses, device_->queue_flags());
                 VkBufferMemoryBarrier& barrier = call.buffers[i];
                 barrier.srcAccessMask = placed.effective.source_access;
                 barrier.dstAccessMask = placed.effective.destination_access;
@@ -284,7 +292,8 @@ void Executor::set_image(Handle handle, const ImportedImage& imported) {
         for (std::size_t i = 0; i < call.images.size(); ++i) {
             PlacedBarrier& placed = call.image_barriers[i];
             if (placed.declared.resource == handle.resource) {
-                placed.effective = with_uses(placed.declared, imported.uses);
+                placed.effective =
+                    with_uses(placed.declared, imported.uses, device_->queue_flags());
                 VkImageMemoryBarrier& barrier = call.images[i];
                 barrier.srcAccessMask = placed.effective.source_access;
                 barrier.dstAccessMask = placed.effective.destination_access;

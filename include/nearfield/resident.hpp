@@ -43,7 +43,8 @@ struct ResidentState {
 /// ownership between queue families, are the host's.
 struct TargetState {
     /// Before: stages that the batch waits for. After: stages that wait for the batch. 0: none; a
-    /// semaphore or a fence of the host's orders the uses.
+    /// semaphore or a fence of the host's orders the uses. Stages that the queue's family lacks are
+    /// left out, so that the defaults suit one that only computes.
     VkPipelineStageFlags stages = 0;
     VkAccessFlags access = 0;  ///< in these stages; 0 if there are none
     /// Of images. Before: its layout now; VK_IMAGE_LAYOUT_UNDEFINED discards what it holds, any

@@ -14,8 +14,8 @@ namespace nearfield {
 
 /// A tile: a rectangle of cells of a query's grid that the device processes as a unit, part of one
 /// of the query's regions. Technique::raster packs the tiles of all queries of a batch into an
-/// atlas image, each with its own scissor rectangle; tiles that do not fit go into further tile
-/// batches. Tiles of Technique::compute have no position in an atlas. Technique::cpu has no tiles.
+/// atlas image, four cells apart; tiles that do not fit go into further tile batches. Tiles of
+/// Technique::compute have no position in an atlas. Technique::cpu has no tiles.
 struct TileReport {
     std::uint32_t query = 0;                  ///< position of its query in the batch
     Technique technique = Technique::raster;  ///< raster or compute
