@@ -159,6 +159,23 @@ TEST_F(TargetRefusals, OfBuffers) {
     EXPECT_TRUE(run_alone(context(), overlap).status.ok());
 }
 
+TEST_F(TargetRefusals, RoomIsForTheRecordsOfBothBoundaries) {
+    const PenetrationQuery query = depths();
+    ContactQuery contacts{query.a, query.b, query.tolerance, 0.02};
+    contacts.resident = true;
+    Batch batch;
+    const auto handle = batch.add(contacts);
+    const auto layout = context().resident_layout(batch, handle);
+    ASSERT_TRUE(layout.has_value()) << layout.error().text();
+    ResidentBufferTarget exact = buffer_;
+    exact.size = layout->front().size;
+    ASSERT_LE(exact.size, buffer_.size);
+    contacts.target = &exact;
+    EXPECT_TRUE(run_alone(context(), contacts).status.ok());
+    --exact.size;
+    expect(run_alone(context(), contacts).status, "the records may take");
+}
+
 TEST_F(TargetRefusals, ATooSmallBufferIsAnErrorOfItsQueryAlone) {
     ResidentBufferTarget small = buffer_;
     small.size = 100;
