@@ -26,6 +26,10 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
     a_ = &a;
     b_ = &b;
     inside_ = &inside;
+    doubtful_.clear();
+    if (!is_small(b)) {
+        sides_.begin(b.tree());
+    }
     std::span<const narrowphase::Crossing> crossings =
         reversed ? crossings_.find_reversed(a, b) : crossings_.find(a, b);
     const geometry::Polygon& polygon = a.placed.polygon();
@@ -39,9 +43,9 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
             ++ring;
         }
         if (edge == polygon.ring_begin(ring)) {
-            side_ = Side::unknown;
+            side_.reset();
         } else if (edge != after_last) {
-            side_ = Side::outside;  // the edge before is outside B's box
+            side_ = is_outside;  // the edge before is outside B's box
         }
         after_last = edge + 1;
         const auto first =
@@ -52,12 +56,16 @@ void InsideSamples::find(const simd::TransformedEdges& a, const simd::Transforme
             std::find_if(crossings.begin(), crossings.end(),
                          [edge](const narrowphase::Crossing& one) { return one.edge != edge; });
         const std::span<const narrowphase::Crossing> of_edge(crossings.begin(), end);
-        if (of_edge.empty() && side_ == Side::unknown) {
+        if (of_edge.empty() && !side_) {
             side_ = side_of(a.start(edge));
         }
-        if (!of_edge.empty() || side_ == Side::inside) {
+        if (!of_edge.empty() || side_ != is_outside) {
             follow(edge, sampler.parts_of(edge), of_edge);
         }
+    }
+    if (!doubtful_.empty()) {
+        sides_.answer();
+        remove_outside();
     }
 }
 
@@ -66,7 +74,7 @@ void InsideSamples::follow(std::uint32_t edge, double parts,
     // Only a small part of a long edge may be in the box, and it may run along an edge of B.
     const plan::PartRange in_box = plan::parts_roughly_within(a_->placed, edge, parts, b_->box);
     if (in_box.first > 0.0) {
-        side_ = Side::outside;
+        side_ = is_outside;
     }
     auto part = static_cast<std::uint32_t>(in_box.first);
     const auto end = static_cast<std::uint32_t>(in_box.end);
@@ -81,11 +89,11 @@ void InsideSamples::follow(std::uint32_t edge, double parts,
         add_interval(edge, parts, part, from);
         add_one_by_one(edge, parts, from, to);
         part = std::max(part, to);
-        side_ = Side::unknown;
+        side_.reset();
     }
     add_interval(edge, parts, part, end);
     if (in_box.end < parts) {
-        side_ = Side::outside;
+        side_ = is_outside;
     }
 }
 
@@ -94,16 +102,15 @@ void InsideSamples::add_interval(std::uint32_t edge, double parts, std::uint32_t
     if (part >= end) {
         return;
     }
-    if (side_ == Side::unknown) {
+    if (!side_) {
         side_ = side_of(a_->at(edge, part / parts));
     }
-    if (side_ == Side::outside) {
+    if (side_ == is_outside) {
         return;
     }
     inside_->reserve(inside_->size() + (end - part));
     for (; part < end; ++part) {
-        const Vector point = a_->at(edge, part / parts);
-        inside_->push(point.x(), point.y());
+        add(a_->at(edge, part / parts), *side_);
     }
 }
 
@@ -114,14 +121,47 @@ void InsideSamples::add_one_by_one(std::uint32_t edge, double parts, std::uint32
     for (; part < end; ++part) {
         checkpoint.step();
         const Vector point = a_->at(edge, part / parts);
-        if (side_of(point) == Side::inside) {
-            inside_->push(point.x(), point.y());
-        }
+        add(point, side_of(point));
     }
 }
 
-InsideSamples::Side InsideSamples::side_of(const Vector& point) const {
-    return b_->box.contains(point) && contains(*b_, point) ? Side::inside : Side::outside;
+InsideSamples::Ticket InsideSamples::side_of(const Vector& point) {
+    if (!b_->box.contains(point)) {
+        return is_outside;
+    }
+    return is_small(*b_) ? narrowphase::RayParities::known(contains(*b_, point))
+                         : sides_.ask(point.x(), point.y());
+}
+
+void InsideSamples::add(const Vector& point, Ticket side) {
+    if (side == is_outside) {
+        return;
+    }
+    const auto index = static_cast<std::uint32_t>(inside_->size());
+    if (side != is_inside &&
+        (doubtful_.empty() || doubtful_.back().end != index || doubtful_.back().side != side)) {
+        doubtful_.push_back({index, index, side});
+    }
+    if (side != is_inside) {
+        ++doubtful_.back().end;
+    }
+    inside_->push(point.x(), point.y());
+}
+
+void InsideSamples::remove_outside() {
+    const simd::FoundPoints points = inside_->found();
+    auto doubtful = doubtful_.begin();
+    std::uint32_t kept = doubtful->first;
+    for (std::uint32_t i = kept; i < inside_->size(); ++i) {
+        while (doubtful != doubtful_.end() && doubtful->end <= i) {
+            ++doubtful;
+        }
+        points.x[kept] = points.x[i];
+        points.y[kept] = points.y[i];
+        const bool is_doubtful = doubtful != doubtful_.end() && doubtful->first <= i;
+        kept += !is_doubtful || sides_.is_odd(doubtful->side) ? 1U : 0U;
+    }
+    inside_->resize(kept);
 }
 
 }  // namespace nearfield::cpu

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <engine/narrowphase/crossings.hpp>
+#include <engine/narrowphase/ray_parities.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,8 +26,16 @@ public:
               double spacing, simd::PointList& inside);
 
 private:
-    /// The side of B at the current position on A's boundary.
-    enum class Side : std::uint8_t { unknown, inside, outside };
+    using Ticket = narrowphase::RayParities::Ticket;
+    static constexpr Ticket is_outside = narrowphase::RayParities::even;
+    static constexpr Ticket is_inside = narrowphase::RayParities::odd;
+
+    /// Samples that were added before it is known whether they are inside.
+    struct Doubtful {
+        std::uint32_t first;
+        std::uint32_t end;
+        Ticket side;
+    };
 
     [[nodiscard]] std::span<const std::uint32_t> edges_near(const simd::TransformedEdges& a,
                                                             const simd::TransformedEdges& b);
@@ -35,12 +45,18 @@ private:
     void add_interval(std::uint32_t edge, double parts, std::uint32_t part, std::uint32_t end);
     /// The same for parts that do not lie on one side.
     void add_one_by_one(std::uint32_t edge, double parts, std::uint32_t part, std::uint32_t end);
-    [[nodiscard]] Side side_of(const geometry::Vector& point) const;
+    [[nodiscard]] Ticket side_of(const geometry::Vector& point);
+    /// Adds a sample, unless it is known to be outside. Precondition: space is reserved.
+    void add(const geometry::Vector& point, Ticket side);
+    /// Removes the samples that turned out to be outside.
+    void remove_outside();
 
     const simd::TransformedEdges* a_ = nullptr;
     const simd::TransformedEdges* b_ = nullptr;
     simd::PointList* inside_ = nullptr;
-    Side side_ = Side::unknown;
+    std::optional<Ticket> side_;  // of B, at the current position on A's boundary; or unknown
+    narrowphase::RayParities sides_;
+    std::vector<Doubtful> doubtful_;
     narrowphase::CrossingFinder crossings_;
     std::vector<std::uint32_t> near_;  // edges of A
 };

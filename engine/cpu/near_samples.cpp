@@ -25,11 +25,10 @@ std::span<const std::uint32_t> NearSamples::find_edges() {
 }
 
 std::span<const simd::ParameterInterval> NearSamples::find_intervals(std::uint32_t edge) {
-    const std::uint32_t count =
-        is_small(*b_)
-            ? simd::kernels::find_intervals_near(*a_, edge, picked_.edges(), reach_,
-                                                 intervals_.data())
-            : simd::kernels::find_intervals_near(*a_, edge, *tree_, reach_, intervals_.data());
+    const std::uint32_t count = is_small(*b_)
+                                    ? simd::kernels::find_intervals_near(*a_, edge, picked_.edges(),
+                                                                         reach_, intervals_.data())
+                                    : find_intervals_by_tree(edge);
     if (count > 1) {
         std::sort(intervals_.begin(), intervals_.begin() + count,
                   [](const simd::ParameterInterval& i, const simd::ParameterInterval& j) {
@@ -37,6 +36,23 @@ std::span<const simd::ParameterInterval> NearSamples::find_intervals(std::uint32
                   });
     }
     return {intervals_.data(), count};
+}
+
+std::uint32_t NearSamples::find_intervals_by_tree(std::uint32_t edge) {
+    if (!trials_.skip()) {
+        // Several times what a tree takes that divides the edges well.
+        constexpr std::uint32_t many_visits = 32;
+        simd::VisitsLeft left{many_visits};
+        const std::uint32_t count =
+            simd::kernels::find_intervals_near(*a_, edge, *tree_, reach_, left, intervals_.data());
+        trials_.record(left.count == 0);
+        if (left.count > 0) {
+            return count;
+        }
+    }
+    // Any part of the edge may be near.
+    intervals_.front() = {};
+    return 1;
 }
 
 void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
@@ -55,6 +71,7 @@ void NearSamples::find(const simd::TransformedEdges& a, const simd::TransformedE
         }
     } else {
         tree_.emplace(b.tree());
+        trials_ = {};
     }
     plan::EdgeSampler sampler(a.placed.polygon(), spacing);
     SparseCheckpoint<16> checkpoint;

@@ -34,6 +34,7 @@ private:
     /// The edges of A that may come close to B.
     [[nodiscard]] std::span<const std::uint32_t> find_edges();
     [[nodiscard]] std::span<const simd::ParameterInterval> find_intervals(std::uint32_t edge);
+    [[nodiscard]] std::uint32_t find_intervals_by_tree(std::uint32_t edge);
     void add(std::uint32_t edge, double parts);
 
     const simd::TransformedEdges* a_ = nullptr;
@@ -42,6 +43,7 @@ private:
     geometry::Box near_b_;                // contains all points within reach_ of B
     simd::EdgeSubset picked_;             // of a small B
     std::optional<simd::AabbTree> tree_;  // of a B that is not small
+    simd::SearchTrials trials_;           // of the tree
     std::vector<std::uint32_t> edges_;    // of A
     std::array<simd::ParameterInterval, simd::max_intervals> intervals_;
     simd::PointList points_;

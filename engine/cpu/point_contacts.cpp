@@ -17,19 +17,25 @@ using simd::TransformedEdges;
 class SidesOfPoints {
 public:
     /// Points nearer to the boundary than `touching` are not inside.
-    SidesOfPoints(const simd::TransformedEdges& edges, double touching)
-        : edges_(edges), touching_(touching) {}
+    SidesOfPoints(const simd::TransformedEdges& edges, double touching,
+                  narrowphase::RayParities& parities)
+        : edges_(edges), touching_(touching), parities_(parities) {
+        if (!is_small(edges)) {
+            parities.begin(edges.tree());
+        }
+    }
 
-    /// `distance`: from the boundary.
-    [[nodiscard]] bool is_inside(const Vector& point, double distance) {
+    /// `distance`: from the boundary. Odd: inside.
+    [[nodiscard]] narrowphase::RayParities::Ticket ask(const Vector& point, double distance) {
         if (distance <= touching_) {
-            return false;
+            return narrowphase::RayParities::even;
         }
         // If two points are closer to each other than the sum of their distances to the boundary,
         // no boundary lies between them.
         const double clear = distance + distance_ - touching_;
         if (distance_ == 0.0 || (point - point_).squaredNorm() >= clear * clear) {
-            inside_ = contains(edges_, point);
+            inside_ = is_small(edges_) ? narrowphase::RayParities::known(contains(edges_, point))
+                                       : parities_.ask(point.x(), point.y());
         }
         point_ = point;
         distance_ = distance;
@@ -39,9 +45,10 @@ public:
 private:
     const simd::TransformedEdges& edges_;
     double touching_;
+    narrowphase::RayParities& parities_;
     Vector point_ = Vector::Zero();  // the last one that did not touch
     double distance_ = 0.0;          // 0: none
-    bool inside_ = false;
+    narrowphase::RayParities::Ticket inside_ = narrowphase::RayParities::even;
 };
 
 }  // namespace
@@ -86,6 +93,7 @@ void PointContacts::find(const simd::TransformedEdges& a, const simd::Transforme
                          result.intersects = result.intersects || resolved.inside;
                          found_.add_of_b(place, resolved, boundary_);
                      });
+    found_.decide_normals(boundary_of_b);
 }
 
 template <class Use>
@@ -99,8 +107,16 @@ void PointContacts::for_each_contact(const simd::TransformedEdges& a,
     }
     nearest_.find(points, b, result.tolerance * plan::uniqueness_margin);
     const simd::NearestArrays& nearest = nearest_.arrays();
-    SidesOfPoints sides(b, a.rounding + b.rounding);
+    SidesOfPoints sides(b, a.rounding + b.rounding, parities_);
     SparseCheckpoint<64> checkpoint;
+    sides_.resize(points.count);
+    for (std::size_t i = 0; i < points.count; ++i) {
+        checkpoint.step();
+        if (nearest.distance[i] <= contact_distance) {
+            sides_[i] = sides.ask({points.x[i], points.y[i]}, nearest.distance[i]);
+        }
+    }
+    parities_.answer();
     for (std::size_t i = 0; i < points.count; ++i) {
         checkpoint.step();
         if (nearest.distance[i] > contact_distance) {
@@ -114,7 +130,7 @@ void PointContacts::for_each_contact(const simd::TransformedEdges& a,
                                                       nearest.parameter[i],
                                                       records::feature_at(b.placed, nearest.edge[i],
                                                                           nearest.parameter[i]),
-                                                      sides.is_inside(point, nearest.distance[i]),
+                                                      parities_.is_odd(sides_[i]),
                                                       nearest_.is_unique(i)});
     }
 }

@@ -10,6 +10,8 @@
 #include <engine/simd/transformed_edges.hpp>
 #include <nearfield/result.hpp>
 
+#include <vector>
+
 namespace nearfield::cpu {
 
 /// Answers contact queries by Technique::cpu, from query to result, for boundaries whose samples
@@ -32,8 +34,10 @@ private:
               double contact_distance, ContactResult& result);
 
     NearSamples samples_;
-    narrowphase::NearestPoints nearest_;  // to the samples
-    narrowphase::Boundary boundary_;      // of B
+    narrowphase::NearestPoints nearest_;                   // to the samples
+    narrowphase::RayParities parities_;                    // at the samples
+    std::vector<narrowphase::RayParities::Ticket> sides_;  // by sample
+    narrowphase::Boundary boundary_;                       // of B
     records::FoundContacts found_;
     narrowphase::OverlapTest overlap_test_;
 };

@@ -41,16 +41,18 @@ void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
     found.begin(
         cell, localize::placement_rounding(a, a.box()) + localize::placement_rounding(b, b.box()));
     const double near = std::get<ContactQuery>(*query.query).contact_distance;
+    const auto boundary_of_b = [this]() -> narrowphase::Boundary& {
+        return a_in_b_.boundary_of_b();
+    };
     for_each_near(plan, query, words, near, a_in_b_,
                   [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
-                      found.add_of_a(planned.point, resolved, [this]() -> narrowphase::Boundary& {
-                          return a_in_b_.boundary_of_b();
-                      });
+                      found.add_of_a(planned.point, resolved, boundary_of_b);
                   });
     for_each_near(plan, reverse, words, near, b_in_a_,
                   [&](const plan::PlannedPoint& planned, const records::ResolvedPoint& resolved) {
-                      found.add_of_b(planned.point, resolved, a_in_b_.boundary_of_b());
+                      found.add_of_b(planned.point, resolved, boundary_of_b());
                   });
+    found.decide_normals(boundary_of_b);
 }
 
 }  // namespace nearfield::decode

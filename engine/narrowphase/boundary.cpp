@@ -10,6 +10,7 @@ using geometry::Vector;
 void Boundary::set(const simd::TransformedEdges& edges) {
     edges_ = &edges;
     tree_.emplace(edges.tree());
+    parities_.begin(*tree_);
     if (near_.size() < simd::padded(edges.count)) {
         near_.resize(simd::padded(edges.count));
     }
@@ -28,13 +29,13 @@ NearestPoint Boundary::nearest(const Vector& point, std::uint32_t first_guess) c
     return {edge, nearest_on(edge, point)};
 }
 
-std::uint32_t Boundary::keep_inside(std::uint32_t count, const simd::FoundPoints& points) const {
+std::uint32_t Boundary::keep_inside(std::uint32_t count, const simd::FoundPoints& points) {
     // If no edge's box intersects the box of these points, they all lie on one side. The previous
     // point, added to the box, determines which.
     constexpr std::uint32_t together = 8;
-    std::uint32_t kept = 0;
-    bool inside = false;
+    RayParities::Ticket inside = RayParities::even;
     Vector last;
+    tickets_.clear();
     for (std::uint32_t first = 0; first < count; first += together) {
         const std::uint32_t end = std::min(first + together, count);
         geometry::Box box;
@@ -48,11 +49,16 @@ std::uint32_t Boundary::keep_inside(std::uint32_t count, const simd::FoundPoints
         }
         for (std::uint32_t i = first; i < end; ++i) {
             last = {points.x[i], points.y[i]};
-            inside = on_one_side ? inside : contains(last);
-            points.x[kept] = last.x();
-            points.y[kept] = last.y();
-            kept += inside ? 1 : 0;
+            inside = on_one_side ? inside : parities_.ask(last.x(), last.y());
+            tickets_.push_back(inside);
         }
+    }
+    parities_.answer();
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        points.x[kept] = points.x[i];
+        points.y[kept] = points.y[i];
+        kept += parities_.is_odd(tickets_[i]) ? 1U : 0U;
     }
     return kept;
 }
@@ -70,21 +76,20 @@ bool Boundary::is_unique(const Vector& point, const NearestPoint& nearest, doubl
     });
 }
 
-Vector Boundary::outward_normal(std::uint32_t edge, double parameter) {
+AskedNormal Boundary::ask_outward_normal(std::uint32_t edge, double parameter) {
     const Vector start = edges_->start(edge);
     const Vector direction = edges_->end(edge) - start;
     const double length = direction.norm();
     if (length == 0.0) {
-        return Vector::Zero();
+        return {};
     }
     const Vector left(-direction.y() / length, direction.x() / length);
     // The ray leaves the edge across its longer extent; the side just off the edge decides.
     const bool upwards = std::abs(direction.y()) < std::abs(direction.x());
     const Vector point = start + parameter * direction;
-    const bool inside_ahead = simd::kernels::crossings_of_others_are_odd(
-        *tree_, {point.x(), point.y(), upwards}, {direction.x(), direction.y(), edges_->rounding});
-    const bool left_is_ahead = left[upwards ? 1 : 0] > 0.0;
-    return inside_ahead == left_is_ahead ? Vector(-left) : left;
+    return {left, left[upwards ? 1 : 0] > 0.0,
+            parities_.ask({point.x(), point.y(), upwards},
+                          {direction.x(), direction.y(), edges_->rounding})};
 }
 
 }  // namespace nearfield::narrowphase

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/segment.hpp>
+#include <engine/narrowphase/ray_parities.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstdint>
@@ -24,6 +25,13 @@ struct NearestPoint {
     return other.squared_distance <= limit * limit &&
            (other.point - nearest.point).squaredNorm() > 4.0 * along_wall;
 }
+
+/// An outward normal that has been asked for.
+struct AskedNormal {
+    geometry::Vector left = geometry::Vector::Zero();  ///< the normal, or its opposite
+    bool left_is_ahead = true;
+    RayParities::Ticket inside_ahead = RayParities::even;
+};
 
 /// Exact queries for single points and one boundary, in double precision, with an AABB tree over
 /// its edges: the time grows with the nearby features, not with the shape. Reuses its memory
@@ -54,13 +62,19 @@ public:
 
     /// Keeps only the points inside, in order, and returns their number. The nearer each point is
     /// to the one before, the faster.
-    [[nodiscard]] std::uint32_t keep_inside(std::uint32_t count,
-                                            const simd::FoundPoints& points) const;
+    [[nodiscard]] std::uint32_t keep_inside(std::uint32_t count, const simd::FoundPoints& points);
 
     /// Returns the unit normal of an edge that points out of the polygon at `parameter` along the
     /// edge; the side changes where the boundary crosses itself. Unspecified if both sides are
     /// inside, or neither is (an even number of coincident edges). Zero for a zero-length edge.
-    [[nodiscard]] geometry::Vector outward_normal(std::uint32_t edge, double parameter);
+    [[nodiscard]] AskedNormal ask_outward_normal(std::uint32_t edge, double parameter);
+    /// Answers what has been asked; many at once take less time than one by one.
+    void answer_asked() { parities_.answer(); }
+    /// Precondition: answer_asked() has been called since, and the boundary is the same.
+    [[nodiscard]] geometry::Vector outward_normal(const AskedNormal& asked) const {
+        const bool left_is_inside = parities_.is_odd(asked.inside_ahead) == asked.left_is_ahead;
+        return left_is_inside ? geometry::Vector(-asked.left) : asked.left;
+    }
 
 private:
     [[nodiscard]] geometry::NearestOnSegment nearest_on(std::uint32_t edge,
@@ -71,7 +85,9 @@ private:
     const simd::TransformedEdges* edges_ = nullptr;
     std::optional<simd::AabbTree> tree_;  // over edges_
     simd::TransformedInstances own_;      // the edges of set(TransformedPolygon)
-    std::vector<std::uint32_t> near_;     // scratch: edges
+    RayParities parities_;
+    std::vector<std::uint32_t> near_;           // scratch: edges
+    std::vector<RayParities::Ticket> tickets_;  // scratch: by point
 };
 
 }  // namespace nearfield::narrowphase

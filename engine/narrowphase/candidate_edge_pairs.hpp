@@ -3,6 +3,8 @@
 #include <engine/simd/edge_subset.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
+#include <vector>
+
 namespace nearfield::narrowphase {
 
 /// Finds the pairs of edges of two transformed polygons that may intersect: by brute force for two
@@ -18,6 +20,11 @@ public:
         return is_small(a) && is_small(b) ? for_each_of_small(a, b, use)
                                           : for_each_by_boxes(a, b, use);
     }
+
+    /// Lists the same pairs. Returns false, and an incomplete list, if that takes several times
+    /// what trees take that divide the edges well.
+    [[nodiscard]] bool find_all(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                                std::vector<simd::EdgePair>& pairs);
 
 private:
     template <class Use>

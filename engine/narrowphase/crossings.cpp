@@ -30,11 +30,7 @@ Crossing crossing_of(const simd::TransformedEdges& a, const simd::TransformedEdg
 
 std::span<const Crossing> CrossingFinder::find(const simd::TransformedEdges& a,
                                                const simd::TransformedEdges& b) {
-    pairs_.clear();
-    overlap_test_.for_each(a, b, [this](const simd::EdgePair& pair) {
-        pairs_.push_back(pair);
-        return true;
-    });
+    has_pairs_ = candidates_.find_all(a, b, pairs_);
     return cut(a, b);
 }
 
@@ -52,6 +48,12 @@ std::span<const Crossing> CrossingFinder::cut(const simd::TransformedEdges& a,
     // too.
     const double margin = 8.0 * (a.rounding + b.rounding);
     found_.clear();
+    if (!has_pairs_) {
+        for (std::uint32_t edge = 0; edge < a.count; ++edge) {
+            found_.push_back({edge, 0.0, 1.0});
+        }
+        return found_;
+    }
     for (const simd::EdgePair& pair : pairs_) {
         found_.push_back(crossing_of(a, b, pair, margin));
     }

@@ -21,7 +21,8 @@ struct Crossing {
 class CrossingFinder {
 public:
     /// Returns all crossings, sorted by edge, then by start; they may overlap. Each covers the part
-    /// that the rounding of the vertices leaves undecided. Precondition: unless both polygons are
+    /// that the rounding of the vertices leaves undecided. Where too many pairs of edges would have
+    /// to be compared, all edges are returned whole. Precondition: unless both polygons are
     /// small, both are complete. Valid until the next call.
     [[nodiscard]] std::span<const Crossing> find(const simd::TransformedEdges& a,
                                                  const simd::TransformedEdges& b);
@@ -33,7 +34,8 @@ private:
     [[nodiscard]] std::span<const Crossing> cut(const simd::TransformedEdges& a,
                                                 const simd::TransformedEdges& b);
 
-    CandidateEdgePairs overlap_test_;
+    CandidateEdgePairs candidates_;
+    bool has_pairs_ = true;
     std::vector<simd::EdgePair> pairs_;  // candidate pairs of an edge of A and one of B
     std::vector<Crossing> found_;
 };

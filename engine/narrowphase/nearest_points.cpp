@@ -31,7 +31,8 @@ void NearestPoints::find(const simd::PointArrays& points, const simd::Transforme
         simd::kernels::find_nearest_of(points, edges, margin, near_.data(), arrays_);
     } else {
         boundary_.set(edges);
-        simd::kernels::find_nearest_of(points, edges.tree(), margin, near_.data(), arrays_);
+        simd::kernels::find_nearest_of(points, edges.tree(), margin, near_.data(), division_,
+                                       arrays_);
     }
 }
 

@@ -37,7 +37,8 @@ private:
     std::vector<double> numbers_;         // storage of arrays_
     std::vector<std::uint32_t> indices_;  // the same
     std::vector<std::uint32_t> near_;     // scratch: edges
-    Boundary boundary_;                   // of edges that are not small
+    simd::DivisionMemory division_;
+    Boundary boundary_;  // of edges that are not small
 };
 
 }  // namespace nearfield::narrowphase

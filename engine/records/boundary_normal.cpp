@@ -4,32 +4,51 @@ namespace nearfield::records {
 namespace {
 
 using geometry::Vector;
+using narrowphase::AskedNormal;
+using narrowphase::Boundary;
 
 // At this parameter from an end of an edge, its sides are the edge's own, not a neighbour's.
 constexpr double just_inside = 1.0 / 1024.0;
 
-}  // namespace
-
-Vector outward_normal(narrowphase::Boundary& boundary, std::uint32_t edge, double parameter) {
+AskedNormal ask_normal(Boundary& boundary, std::uint32_t edge, double parameter) {
     const geometry::Polygon& polygon = boundary.polygon().polygon();
-    Vector normal = boundary.outward_normal(edge, parameter);
-    for (std::uint32_t other = polygon.next(edge); normal.isZero() && other != edge;
+    AskedNormal asked = boundary.ask_outward_normal(edge, parameter);
+    for (std::uint32_t other = polygon.next(edge); asked.left.isZero() && other != edge;
          other = polygon.next(other)) {
-        normal = boundary.outward_normal(other, just_inside);
+        asked = boundary.ask_outward_normal(other, just_inside);
     }
-    return normal;
+    return asked;
 }
 
-Vector outward_normal_at(narrowphase::Boundary& boundary, const plan::BoundaryPoint& point) {
+}  // namespace
+
+AskedBoundaryNormal ask_outward_normal(Boundary& boundary, std::uint32_t edge, double parameter) {
+    return {{}, ask_normal(boundary, edge, parameter), false};
+}
+
+AskedBoundaryNormal ask_outward_normal_at(Boundary& boundary, const plan::BoundaryPoint& point) {
     if (point.parameter > 0.0) {
-        return outward_normal(boundary, point.edge, point.parameter);
+        return ask_outward_normal(boundary, point.edge, point.parameter);
     }
     const geometry::Polygon& polygon = boundary.polygon().polygon();
-    const Vector after = outward_normal(boundary, point.edge, just_inside);
-    const Vector sum =
-        outward_normal(boundary, polygon.previous(point.edge), 1.0 - just_inside) + after;
+    return {ask_normal(boundary, polygon.previous(point.edge), 1.0 - just_inside),
+            ask_normal(boundary, point.edge, just_inside), true};
+}
+
+Vector outward_normal(const Boundary& boundary, const AskedBoundaryNormal& asked) {
+    const Vector after = boundary.outward_normal(asked.after);
+    if (!asked.at_vertex) {
+        return after;
+    }
+    const Vector sum = boundary.outward_normal(asked.before) + after;
     const double length = sum.norm();
     return length > 1e-9 ? Vector(sum / length) : after;
+}
+
+Vector outward_normal_at(Boundary& boundary, const plan::BoundaryPoint& point) {
+    const AskedBoundaryNormal asked = ask_outward_normal_at(boundary, point);
+    boundary.answer_asked();
+    return outward_normal(boundary, asked);
 }
 
 }  // namespace nearfield::records

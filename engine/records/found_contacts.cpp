@@ -15,6 +15,8 @@ void FoundContacts::begin(double cell, double rounding) {
     undirected_ = std::max(std::ldexp(cell, -15), 1024.0 * rounding);
     of_a_.clear();
     of_b_.clear();
+    normals_of_a_.clear();
+    normals_of_b_.clear();
 }
 
 void FoundContacts::append_points(std::vector<Vector2>& points) const {
@@ -73,11 +75,25 @@ Vector FoundContacts::growth_of_distance(const ResolvedPoint& resolved) {
     return resolved.inside ? Vector(-away) : away;
 }
 
-Vector FoundContacts::normal_at_nearest(narrowphase::Boundary& boundary,
-                                        const ResolvedPoint& resolved) {
+AskedBoundaryNormal FoundContacts::ask_normal_at_nearest(narrowphase::Boundary& boundary,
+                                                         const ResolvedPoint& resolved) {
     return resolved.feature.kind == Feature::Kind::edge
-               ? outward_normal(boundary, resolved.edge, resolved.parameter)
-               : outward_normal_at(boundary, {resolved.feature.index, 0.0});
+               ? ask_outward_normal(boundary, resolved.edge, resolved.parameter)
+               : ask_outward_normal_at(boundary, {resolved.feature.index, 0.0});
+}
+
+void FoundContacts::decide_normals_by(narrowphase::Boundary& boundary_of_b) {
+    boundary_of_b.answer_asked();
+    const auto decide = [&](std::vector<NormalOfContact>& normals,
+                            std::vector<TransformedContact>& contacts) {
+        for (const NormalOfContact& normal : normals) {
+            contacts[normal.contact].record.normal =
+                geometry::to_public(outward_normal(boundary_of_b, normal.asked));
+        }
+        normals.clear();
+    };
+    decide(normals_of_a_, of_a_);
+    decide(normals_of_b_, of_b_);
 }
 
 }  // namespace nearfield::records

@@ -8,6 +8,7 @@
 #include <nearfield/query.hpp>
 #include <nearfield/result.hpp>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -23,21 +24,33 @@ public:
 
     /// Adds a sample of A's boundary that is close to B, in order along A's rings.
     /// `boundary_of_b()` returns a narrowphase::Boundary & and is called only if the normal
-    /// requires it.
+    /// requires it; see decide_normals().
     template <class BoundaryOfB>
     void add_of_a(const plan::BoundaryPoint& place, const ResolvedPoint& resolved,
                   const BoundaryOfB& boundary_of_b) {
-        const geometry::Vector normal = resolved.distance > undirected_
-                                            ? growth_of_distance(resolved)
-                                            : normal_at_nearest(boundary_of_b(), resolved);
-        of_a_.push_back({make_record(resolved, Side::a, normal), place, place});
+        if (resolved.distance > undirected_) {
+            of_a_.push_back(
+                {make_record(resolved, Side::a, growth_of_distance(resolved)), place, place});
+            return;
+        }
+        of_a_.push_back({make_record(resolved, Side::a, geometry::Vector::Zero()), place, place});
+        normals_of_a_.push_back(
+            {of_a_.size() - 1, ask_normal_at_nearest(boundary_of_b(), resolved)});
     }
     /// The same for a sample of B's boundary.
     void add_of_b(const plan::BoundaryPoint& place, const ResolvedPoint& resolved,
                   narrowphase::Boundary& boundary_of_b) {
-        of_b_.push_back({make_record(resolved, Side::b, outward_normal_at(boundary_of_b, place)),
+        of_b_.push_back({make_record(resolved, Side::b, geometry::Vector::Zero()),
                          place,
                          {resolved.edge, resolved.parameter}});
+        normals_of_b_.push_back({of_b_.size() - 1, ask_outward_normal_at(boundary_of_b, place)});
+    }
+    /// Sets the normals of the contacts added, all at once. `boundary_of_b()` as above.
+    template <class BoundaryOfB>
+    void decide_normals(const BoundaryOfB& boundary_of_b) {
+        if (!normals_of_a_.empty() || !normals_of_b_.empty()) {
+            decide_normals_by(boundary_of_b());
+        }
     }
 
     /// Appends the points of the contacts found: A's, then B's.
@@ -51,18 +64,26 @@ public:
                ContactResult& result);
 
 private:
+    struct NormalOfContact {
+        std::size_t contact;
+        AskedBoundaryNormal asked;
+    };
+
     [[nodiscard]] ContactRecord make_record(const ResolvedPoint& resolved, Side on,
                                             const geometry::Vector& normal) const;
     /// The gradient of the signed distance.
     [[nodiscard]] static geometry::Vector growth_of_distance(const ResolvedPoint& resolved);
-    [[nodiscard]] static geometry::Vector normal_at_nearest(narrowphase::Boundary& boundary,
-                                                            const ResolvedPoint& resolved);
+    [[nodiscard]] static AskedBoundaryNormal ask_normal_at_nearest(narrowphase::Boundary& boundary,
+                                                                   const ResolvedPoint& resolved);
+    void decide_normals_by(narrowphase::Boundary& boundary_of_b);
 
     // At distances below this, rounding would determine the direction to the nearest point.
     double undirected_ = 0.0;
     double touching_depth_ = 0.0;  // of points that do not count as inside
     std::vector<TransformedContact> of_a_;
     std::vector<TransformedContact> of_b_;
+    std::vector<NormalOfContact> normals_of_a_;  // that are not decided yet
+    std::vector<NormalOfContact> normals_of_b_;
     ManifoldBuilder manifold_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <engine/simd/edge_kernels.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -77,6 +78,35 @@ private:
     std::uint32_t top_level_ = 0;
 };
 
+/// How many more groups of eight boxes, or pairs of boxes, a search may look at. At 0 it has given
+/// up, and its answer is not complete.
+struct VisitsLeft {
+    std::uint32_t count = ~0U;
+};
+
+/// Whether searches of a tree are worth trying: after one that gave up, the next ones probably do
+/// too, so one is skipped, and more each time.
+class SearchTrials {
+public:
+    /// True if the next search is to be skipped.
+    [[nodiscard]] bool skip() {
+        if (skip_ == 0) {
+            return false;
+        }
+        --skip_;
+        return true;
+    }
+    void record(bool gave_up) {
+        skipped_ = gave_up ? std::min(2 * skipped_ + 1, most_skipped) : 0;
+        skip_ = skipped_;
+    }
+
+private:
+    static constexpr std::uint32_t most_skipped = 63;
+    std::uint32_t skipped_ = 0;
+    std::uint32_t skip_ = 0;  // how many more
+};
+
 /// A vertex (the start of an edge) and a nearby edge of the other shape.
 struct VertexAndEdge {
     std::uint32_t vertex = 0;
@@ -106,29 +136,6 @@ void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, doub
 /// True if the point is inside by the even-odd rule, as contain().
 [[nodiscard]] bool contain(const AabbTree& tree, double x, double y);
 
-/// The start and direction of an axis-parallel ray.
-struct Ray {
-    double x = 0.0;
-    double y = 0.0;
-    bool upwards = false;  ///< otherwise to the right
-};
-
-/// The line of the edge that a ray starts on.
-struct LineOfEdge {
-    double along_x = 0.0;
-    double along_y = 0.0;
-    double rounding = 0.0;  ///< rounding error of the vertices and of the ray's start
-};
-
-/// True if a ray crosses an odd number of edges.
-[[nodiscard]] bool crossings_are_odd(const AabbTree& tree, const Ray& ray);
-
-/// The same, without the edges that run along a line through the ray's start: the edge it starts
-/// on, and any others that contain the start. Precondition: the ray leaves the line at an angle of
-/// 45 degrees or more.
-[[nodiscard]] bool crossings_of_others_are_odd(const AabbTree& tree, const Ray& ray,
-                                               const LineOfEdge& line);
-
 /// Returns the nearest of the edges that are nearer to a point than `guess`, or `guess` if none is.
 [[nodiscard]] NearEdge find_nearer(const AabbTree& tree, double x, double y, const NearEdge& guess);
 
@@ -151,6 +158,8 @@ struct LineOfEdge {
 /// returns whether it did.
 bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
                          const EdgePairSink& sink);
+bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
+                         const EdgePairSink& sink, VisitsLeft& left);
 
 /// Calls `sink` for every vertex of either shape and edge of the other whose distance is at most
 /// `margin` above the minimum, up to rounding, and for others that were the closest so far, until

@@ -125,10 +125,12 @@ HWY_INLINE void for_leaves(const AabbTree& tree, const Enter& enter, const Use& 
 
 // Defined in tree_kernels.cpp, for other kernels of the same instruction set.
 
-NearEdge FindNearer(const AabbTree& tree, double x, double y, const NearEdge& guess);
+NearEdge FindNearer(const AabbTree& tree, double x, double y, const NearEdge& guess,
+                    VisitsLeft& left);
 /// Stops once it has found more than `enough`.
 std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double point_y,
-                                    double most, std::uint32_t enough, std::uint32_t* found);
+                                    double most, std::uint32_t enough, VisitsLeft& left,
+                                    std::uint32_t* found);
 
 }  // namespace nearfield::simd::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

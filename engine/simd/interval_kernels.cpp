@@ -134,11 +134,20 @@ std::uint32_t FindIntervalsNear(const EdgeArrays& edges, std::uint32_t edge,
 }
 
 std::uint32_t FindIntervalsNearTree(const EdgeArrays& edges, std::uint32_t edge,
-                                    const AabbTree& others, double reach,
+                                    const AabbTree& others, double reach, VisitsLeft& left,
                                     ParameterInterval* found) {
     IntervalSearch search(edges, edge, reach, found);
-    for_leaves(
-        others, [&](const LanesOfExtent& boxes) HWY_ATTR { return meet(boxes, search.box()); },
+    for_leaves_opened(
+        others,
+        [&](std::uint32_t level, std::uint32_t first) HWY_ATTR {
+            if (left.count == 0) {
+                return 0U;
+            }
+            --left.count;
+            return bits_of_eight([&](std::size_t i) HWY_ATTR {
+                return meet(boxes_at(others.level(level), first + i), search.box());
+            });
+        },
         [&](std::uint32_t box) HWY_ATTR {
             const EdgeRange some = others.edges_of(box);
             for (std::size_t i = some.first; i < some.end; i += hn::Lanes(Tag())) {
@@ -167,8 +176,9 @@ std::uint32_t find_intervals_near(const EdgeArrays& edges, std::uint32_t edge,
 }
 
 std::uint32_t find_intervals_near(const EdgeArrays& edges, std::uint32_t edge,
-                                  const AabbTree& others, double reach, ParameterInterval* found) {
-    return HWY_DYNAMIC_DISPATCH(FindIntervalsNearTree)(edges, edge, others, reach, found);
+                                  const AabbTree& others, double reach, VisitsLeft& left,
+                                  ParameterInterval* found) {
+    return HWY_DYNAMIC_DISPATCH(FindIntervalsNearTree)(edges, edge, others, reach, left, found);
 }
 
 }  // namespace nearfield::simd::kernels

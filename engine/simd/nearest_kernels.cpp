@@ -26,13 +26,16 @@ struct DiscOfPoints {
     double radius;
 };
 
-HWY_INLINE DiscOfPoints disc_around(const PointArrays& points, std::uint32_t first,
-                                    std::uint32_t count) {
-    const Extent box = extent_of({first + count, points.x, points.y}, first);
+HWY_INLINE DiscOfPoints disc_around(const Extent& box) {
     const double across = box.high_x - box.low_x;
     const double up = box.high_y - box.low_y;
     return {0.5 * (box.low_x + box.high_x), 0.5 * (box.low_y + box.high_y),
             0.5 * std::sqrt(across * across + up * up)};
+}
+
+HWY_INLINE DiscOfPoints disc_around(const PointArrays& points, std::uint32_t first,
+                                    std::uint32_t count) {
+    return disc_around(extent_of({first + count, points.x, points.y}, first));
 }
 
 /// No edge farther than the square root of this from a disc's centre can be nearest to a point of
@@ -171,32 +174,193 @@ void FindNearestOf(const PointArrays& points, const EdgeArrays& edges, double ma
     }
 }
 
+/// The edges at `listed` and the following entries, including their lengths.
+HWY_INLINE EdgesAlong gather_along(const EdgeArrays& edges, const std::uint32_t* listed) {
+    const Tag tag;
+    const hn::Rebind<std::uint32_t, Tag> half;
+    const hn::RebindToSigned<Tag> whole;
+    const auto edge =
+        hn::BitCast(whole, hn::PromoteTo(hn::RebindToUnsigned<Tag>(), hn::LoadU(half, listed)));
+    EdgesAlong along;
+    along.start_x = hn::GatherIndex(tag, edges.start_x, edge);
+    along.start_y = hn::GatherIndex(tag, edges.start_y, edge);
+    along.along_x = hn::Sub(hn::GatherIndex(tag, edges.end_x, edge), along.start_x);
+    along.along_y = hn::Sub(hn::GatherIndex(tag, edges.end_y, edge), along.start_y);
+    const Lanes squared =
+        hn::Add(hn::Mul(along.along_x, along.along_x), hn::Mul(along.along_y, along.along_y));
+    along.inverse_length = hn::Div(hn::Set(tag, 1.0), squared);
+    return along;
+}
+
+/// If no more edges are near a group of points, none of them is worth excluding.
+constexpr std::uint32_t few_edges = 32;
+
+/// The nearest edges of points among edges that boxes do not tell apart: halves the points again
+/// and again, each half with those of the edges that can be nearest to one of its points.
+class NearestByDivision {
+public:
+    HWY_INLINE NearestByDivision(const PointArrays& points, const EdgeArrays& edges, double margin,
+                                 DivisionMemory& memory, const NearestArrays& nearest)
+        : points_(points), edges_(edges), margin_(margin), memory_(memory), nearest_(nearest) {}
+
+    /// `chosen`: indices of points; their order changes.
+    void Solve(std::uint32_t* chosen, std::uint32_t count) {
+        std::uint32_t* const all = memory_.list(1, edges_.count);
+        for (std::uint32_t i = 0; i < edges_.count; ++i) {
+            all[i] = i;
+        }
+        squared_ = memory_.numbers(0, edges_.count);
+        Divide(chosen, count, all, edges_.count, 2);
+    }
+
+private:
+    /// `listed`: in ascending order, all edges that can be nearest to one of the points.
+    void Divide(std::uint32_t* chosen, std::uint32_t count, std::uint32_t* listed,
+                std::uint32_t edges, std::uint32_t depth) {
+        checkpoint_.step();
+        if (count <= max_together || edges <= few_edges) {
+            for (std::uint32_t i = 0; i < count; i += max_together) {
+                SolveGroup(chosen + i, std::min(count - i, max_together), listed, edges);
+            }
+            return;
+        }
+        const Extent box = BoxOf(chosen, count);
+        std::uint32_t* const left = memory_.list(depth, edges);
+        const std::uint32_t left_count = Narrow(disc_around(box), listed, edges, left);
+        const double* const along =
+            box.high_x - box.low_x > box.high_y - box.low_y ? points_.x : points_.y;
+        const std::uint32_t half = count / 2;
+        std::nth_element(chosen, chosen + half, chosen + count,
+                         [along](std::uint32_t i, std::uint32_t j) { return along[i] < along[j]; });
+        Divide(chosen, half, left, left_count, depth + 1);
+        Divide(chosen + half, count - half, left, left_count, depth + 1);
+    }
+
+    [[nodiscard]] Extent BoxOf(const std::uint32_t* chosen, std::uint32_t count) const {
+        Extent box{points_.x[*chosen], points_.y[*chosen], points_.x[*chosen], points_.y[*chosen]};
+        for (std::uint32_t i = 1; i < count; ++i) {
+            const double x = points_.x[chosen[i]];
+            const double y = points_.y[chosen[i]];
+            box = {std::min(box.low_x, x), std::min(box.low_y, y), std::max(box.high_x, x),
+                   std::max(box.high_y, y)};
+        }
+        return box;
+    }
+
+    /// Copies the edges that can be nearest to a point of a disc; returns their number.
+    HWY_INLINE std::uint32_t Narrow(const DiscOfPoints& disc, std::uint32_t* listed,
+                                    std::uint32_t edges, std::uint32_t* left) {
+        const Tag tag;
+        const auto step = static_cast<std::uint32_t>(hn::Lanes(tag));
+        std::fill(listed + edges, listed + edges + max_lanes, listed[edges - 1]);
+        const Lanes x = hn::Set(tag, disc.x);
+        const Lanes y = hn::Set(tag, disc.y);
+        Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
+        for (std::uint32_t i = 0; i < edges; i += step) {
+            const Lanes squared = squared_distances(gather_along(edges_, listed + i), x, y);
+            hn::StoreU(squared, tag, squared_ + i);
+            least = hn::Min(least, squared);
+        }
+        const double reach = squared_reach(disc, min_lane(least), margin_);
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < edges; ++i) {
+            left[count] = listed[i];
+            count += squared_[i] <= reach ? 1U : 0U;
+        }
+        return count;
+    }
+
+    void SolveGroup(const std::uint32_t* chosen, std::uint32_t count, const std::uint32_t* listed,
+                    std::uint32_t edges) {
+        double x[max_together];
+        double y[max_together];
+        for (std::uint32_t i = 0; i < max_together; ++i) {
+            x[i] = points_.x[chosen[std::min(i, count - 1)]];
+            y[i] = points_.y[chosen[std::min(i, count - 1)]];
+        }
+        double numbers[6][max_together];
+        std::uint32_t indices[2][max_together];
+        const NearestArrays found{numbers[0], numbers[1], numbers[2], numbers[3],
+                                  numbers[4], numbers[5], indices[0], indices[1]};
+        solve({max_together, x, y}, 0, max_together, edges_, listed, edges, found);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t at = chosen[i];
+            nearest_.x[at] = found.x[i];
+            nearest_.y[at] = found.y[i];
+            nearest_.distance[at] = found.distance[i];
+            nearest_.parameter[at] = found.parameter[i];
+            nearest_.second_squared[at] = found.second_squared[i];
+            nearest_.third_squared[at] = found.third_squared[i];
+            nearest_.edge[at] = found.edge[i];
+            nearest_.second[at] = found.second[i];
+        }
+    }
+
+    const PointArrays& points_;
+    const EdgeArrays& edges_;
+    double margin_;
+    DivisionMemory& memory_;
+    const NearestArrays& nearest_;
+    double* squared_ = nullptr;  // scratch: distances of listed edges
+    SparseCheckpoint<16> checkpoint_;
+};
+
 /// Finds the nearest edges of points, in groups where few edges can be nearest to any of them.
 class NearestByTree {
 public:
     HWY_INLINE NearestByTree(const PointArrays& points, const AabbTree& tree, double margin,
-                             std::uint32_t* near, const NearestArrays& nearest)
-        : points_(points), tree_(tree), margin_(margin), near_(near), nearest_(nearest) {}
+                             std::uint32_t* near, std::uint32_t* crowded,
+                             const NearestArrays& nearest)
+        : points_(points),
+          tree_(tree),
+          margin_(margin),
+          near_(near),
+          crowded_(crowded),
+          nearest_(nearest) {}
 
+    /// For consecutive points, or lists them as crowded.
     void Solve(std::uint32_t first, std::uint32_t together) {
-        constexpr std::uint32_t few_edges = 32;
-        const DiscOfPoints disc = disc_around(points_, first, together);
-        const NearEdge guess{last_, LengthTo(disc, last_)};
-        const NearEdge closest = FindNearer(tree_, disc.x, disc.y, guess);
-        last_ = closest.edge;
-        const std::uint32_t count = FindEdgesWithinByTree(
-            tree_, disc.x, disc.y, squared_reach(disc, closest.squared, margin_),
-            together > 1 ? few_edges : tree_.edges().count, near_);
-        if (count <= few_edges || together == 1) {
-            solve(points_, first, together, tree_.edges(), near_, count, nearest_);
-        } else {
-            const std::uint32_t half = together / 2;
-            Solve(first, half);
-            Solve(first + half, together - half);
+        if (trials_.skip()) {
+            SetAside(first, together);
+            return;
+        }
+        VisitsLeft left{most_visits};
+        Solve(first, together, left);
+        trials_.record(left.count == 0);
+    }
+
+    /// The number of points that are crowded: among so many boxes that the tree does not help.
+    [[nodiscard]] std::uint32_t crowded_count() const { return crowded_count_; }
+
+private:
+    // Several times what a tree takes that divides the edges well.
+    static constexpr std::uint32_t most_visits = 128;
+
+    void SetAside(std::uint32_t first, std::uint32_t together) {
+        for (std::uint32_t i = first; i < first + together; ++i) {
+            crowded_[crowded_count_++] = i;
         }
     }
 
-private:
+    void Solve(std::uint32_t first, std::uint32_t together, VisitsLeft& left) {
+        const DiscOfPoints disc = disc_around(points_, first, together);
+        const NearEdge guess{last_, LengthTo(disc, last_)};
+        const NearEdge closest = FindNearer(tree_, disc.x, disc.y, guess, left);
+        last_ = closest.edge;
+        const std::uint32_t count = FindEdgesWithinByTree(
+            tree_, disc.x, disc.y, squared_reach(disc, closest.squared, margin_),
+            together > 1 ? few_edges : tree_.edges().count, left, near_);
+        if (left.count == 0) {
+            SetAside(first, together);
+        } else if (count <= few_edges || together == 1) {
+            solve(points_, first, together, tree_.edges(), near_, count, nearest_);
+        } else {
+            const std::uint32_t half = together / 2;
+            Solve(first, half, left);
+            Solve(first + half, together - half, left);
+        }
+    }
+
     [[nodiscard]] double LengthTo(const DiscOfPoints& disc, std::uint32_t edge) const {
         const Tag tag;
         return hn::GetLane(squared_distances(same_along(tree_.edges(), edge), hn::Set(tag, disc.x),
@@ -207,17 +371,26 @@ private:
     const AabbTree& tree_;
     double margin_;
     std::uint32_t* near_;
+    std::uint32_t* crowded_;
+    std::uint32_t crowded_count_ = 0;
+    SearchTrials trials_;  // of groups
     const NearestArrays& nearest_;
     std::uint32_t last_ = 0;  // the edge nearest to the previous points
 };
 
 void FindNearestOfByTree(const PointArrays& points, const AabbTree& tree, double margin,
-                         std::uint32_t* near, const NearestArrays& nearest) {
-    NearestByTree search(points, tree, margin, near, nearest);
+                         std::uint32_t* near, DivisionMemory& memory,
+                         const NearestArrays& nearest) {
+    std::uint32_t* const crowded = memory.list(0, points.count);
+    NearestByTree search(points, tree, margin, near, crowded, nearest);
     SparseCheckpoint<16> checkpoint;
     for (std::uint32_t i = 0; i < points.count; i += max_together) {
         checkpoint.step();
         search.Solve(i, std::min(points.count - i, max_together));
+    }
+    if (search.crowded_count() > 0) {
+        NearestByDivision(points, tree.edges(), margin, memory, nearest)
+            .Solve(crowded, search.crowded_count());
     }
 }
 
@@ -236,8 +409,8 @@ void find_nearest_of(const PointArrays& points, const EdgeArrays& edges, double 
 }
 
 void find_nearest_of(const PointArrays& points, const AabbTree& tree, double margin,
-                     std::uint32_t* near, const NearestArrays& nearest) {
-    HWY_DYNAMIC_DISPATCH(FindNearestOfByTree)(points, tree, margin, near, nearest);
+                     std::uint32_t* near, DivisionMemory& memory, const NearestArrays& nearest) {
+    HWY_DYNAMIC_DISPATCH(FindNearestOfByTree)(points, tree, margin, near, memory, nearest);
 }
 
 }  // namespace nearfield::simd::kernels

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/simd/aabb_tree.hpp>
+#include <engine/simd/division_memory.hpp>
 #include <engine/simd/edge_kernels.hpp>
 
 #include <cstdint>
@@ -28,8 +29,10 @@ namespace kernels {
 /// capacity of padded(edges.count) entries.
 void find_nearest_of(const PointArrays& points, const EdgeArrays& edges, double margin,
                      std::uint32_t* near, const NearestArrays& nearest);
+/// Where boxes do not tell which edge is near, as for long slanted edges side by side, points and
+/// edges are divided together in `memory`, whatever their order.
 void find_nearest_of(const PointArrays& points, const AabbTree& tree, double margin,
-                     std::uint32_t* near, const NearestArrays& nearest);
+                     std::uint32_t* near, DivisionMemory& memory, const NearestArrays& nearest);
 
 }  // namespace kernels
 

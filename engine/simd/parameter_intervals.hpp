@@ -28,7 +28,7 @@ namespace kernels {
                                                 ParameterInterval* found);
 [[nodiscard]] std::uint32_t find_intervals_near(const EdgeArrays& edges, std::uint32_t edge,
                                                 const AabbTree& others, double reach,
-                                                ParameterInterval* found);
+                                                VisitsLeft& left, ParameterInterval* found);
 
 }  // namespace kernels
 

@@ -109,15 +109,24 @@ HWY_INLINE std::uint32_t in_order(const AabbTree& tree, std::uint32_t* found, st
 }
 
 std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double point_y,
-                                    double most, std::uint32_t enough, std::uint32_t* found) {
+                                    double most, std::uint32_t enough, VisitsLeft& left,
+                                    std::uint32_t* found) {
     const Tag tag;
     const LanesOfExtent point = lanes_of({point_x, point_y, point_x, point_y});
     const Lanes limit = hn::Set(tag, most);
     std::uint32_t count = 0;
-    for_leaves(
+    for_leaves_opened(
         tree,
-        [&](const LanesOfExtent& boxes)
-            HWY_ATTR { return hn::Le(squared_between(boxes, point), limit); },
+        [&](std::uint32_t level, std::uint32_t first) HWY_ATTR {
+            if (left.count == 0) {
+                return 0U;
+            }
+            --left.count;
+            return bits_of_eight([&](std::size_t i) HWY_ATTR {
+                return hn::Le(squared_between(boxes_at(tree.level(level), first + i), point),
+                              limit);
+            });
+        },
         [&](std::uint32_t box) HWY_ATTR {
             const EdgeRange edges = tree.edges_of(box);
             for (std::size_t i = edges.first; i < edges.end; i += hn::Lanes(tag)) {
@@ -125,7 +134,7 @@ std::uint32_t FindEdgesWithinByTree(const AabbTree& tree, double point_x, double
                     squared_distances(edges_along(tree.edges(), i), point.low_x, point.low_y);
                 count = append_lanes(hn::Le(squared, limit), i, edges.end, found, count);
             }
-            return count <= enough;
+            return count <= enough && left.count > 0;
         });
     return in_order(tree, found, count);
 }
@@ -189,10 +198,15 @@ std::uint32_t FindEdgesNear(const AabbTree& tree, const Extent& box, const AabbT
 /// Finds the edge nearest to a point, visiting the nearest box first.
 class NearestSearch {
 public:
-    HWY_INLINE NearestSearch(const AabbTree& tree, double x, double y, const NearEdge& guess)
-        : tree_(tree), point_{x, y, x, y}, best_(guess) {}
+    HWY_INLINE NearestSearch(const AabbTree& tree, double x, double y, const NearEdge& guess,
+                             VisitsLeft& left)
+        : tree_(tree), point_{x, y, x, y}, best_(guess), left_(left) {}
 
     void Visit(std::uint32_t level, std::uint32_t first) {
+        if (left_.count == 0) {
+            return;
+        }
+        --left_.count;
         const Tag tag;
         const LanesOfExtent point = lanes_of(point_);
         double squared[fan_out];
@@ -253,12 +267,25 @@ private:
     const AabbTree& tree_;
     Extent point_;
     NearEdge best_;
+    VisitsLeft& left_;
 };
 
-NearEdge FindNearer(const AabbTree& tree, double x, double y, const NearEdge& guess) {
-    NearestSearch search(tree, x, y, guess);
+NearEdge FindNearer(const AabbTree& tree, double x, double y, const NearEdge& guess,
+                    VisitsLeft& left) {
+    NearestSearch search(tree, x, y, guess, left);
     search.Visit(tree.top_level(), 0);
     return search.best();
+}
+
+NearEdge FindNearestEdge(const AabbTree& tree, double x, double y, const NearEdge& guess) {
+    VisitsLeft unlimited;
+    return FindNearer(tree, x, y, guess, unlimited);
+}
+
+std::uint32_t FindAllEdgesWithin(const AabbTree& tree, double x, double y, double most,
+                                 std::uint32_t* found) {
+    VisitsLeft unlimited;
+    return FindEdgesWithinByTree(tree, x, y, most, tree.edges().count, unlimited, found);
 }
 
 }  // namespace nearfield::simd::kernels::HWY_NAMESPACE
@@ -268,8 +295,8 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::simd::kernels {
 
 HWY_EXPORT(FindBoxes);
-HWY_EXPORT(FindNearer);
-HWY_EXPORT(FindEdgesWithinByTree);
+HWY_EXPORT(FindNearestEdge);
+HWY_EXPORT(FindAllEdgesWithin);
 HWY_EXPORT(FindEdgesInByTree);
 HWY_EXPORT(FindEdgesNear);
 HWY_EXPORT(Meets);
@@ -279,12 +306,12 @@ void find_boxes(const EdgeArrays& edges, std::span<const EdgeRange> pieces, doub
 }
 
 NearEdge find_nearer(const AabbTree& tree, double x, double y, const NearEdge& guess) {
-    return HWY_DYNAMIC_DISPATCH(FindNearer)(tree, x, y, guess);
+    return HWY_DYNAMIC_DISPATCH(FindNearestEdge)(tree, x, y, guess);
 }
 
 std::uint32_t find_edges_within(const AabbTree& tree, double x, double y, double most,
                                 std::uint32_t* found) {
-    return HWY_DYNAMIC_DISPATCH(FindEdgesWithinByTree)(tree, x, y, most, tree.edges().count, found);
+    return HWY_DYNAMIC_DISPATCH(FindAllEdgesWithin)(tree, x, y, most, found);
 }
 
 std::uint32_t find_edges_in(const AabbTree& tree, const Extent& box, std::uint32_t* found) {

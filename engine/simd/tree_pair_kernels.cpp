@@ -22,8 +22,8 @@ namespace nearfield::simd::kernels::HWY_NAMESPACE {
 template <class Leaves>
 class PairWalk {
 public:
-    HWY_INLINE PairWalk(const AabbTree& a, const AabbTree& b, Leaves& leaves)
-        : a_(a), b_(b), leaves_(leaves) {}
+    HWY_INLINE PairWalk(const AabbTree& a, const AabbTree& b, Leaves& leaves, VisitsLeft& left)
+        : a_(a), b_(b), leaves_(leaves), left_(left) {}
 
     bool Run() {
         const std::uint32_t top = a_.top_level();
@@ -75,6 +75,10 @@ private:
     bool Visit(std::uint32_t level_a, std::uint32_t box_a, std::uint32_t level_b,
                std::uint32_t box_b) {
         checkpoint_.step();
+        if (left_.count == 0) {
+            return false;
+        }
+        --left_.count;
         if (level_a == 0 && level_b == 0) {
             return leaves_.Use(box_a, box_b);
         }
@@ -85,6 +89,7 @@ private:
     const AabbTree& a_;
     const AabbTree& b_;
     Leaves& leaves_;
+    VisitsLeft& left_;
     SparseCheckpoint<1024> checkpoint_;
 };
 
@@ -133,9 +138,9 @@ private:
 };
 
 bool ForCandidatePairs(const AabbTree& first, const AabbTree& second, double margin,
-                       const EdgePairSink& sink) {
+                       const EdgePairSink& sink, VisitsLeft& left) {
     IntersectingLeaves leaves(first, second, margin, sink);
-    return !PairWalk<IntersectingLeaves>(first, second, leaves).Run();
+    return !PairWalk<IntersectingLeaves>(first, second, leaves, left).Run();
 }
 
 /// Finds vertices of either shape and edges of the other within a bound, which `Bound` lowers as
@@ -247,7 +252,8 @@ double ForClosest(const AabbTree& first, const AabbTree& second, double most, do
                   const VertexAndEdgeSink& sink) {
     LeastBound bound(most, margin);
     NearLeaves<LeastBound> leaves(first, second, bound, sink);
-    PairWalk<NearLeaves<LeastBound>>(first, second, leaves).Run();
+    VisitsLeft unlimited;
+    PairWalk<NearLeaves<LeastBound>>(first, second, leaves, unlimited).Run();
     return bound.least();
 }
 
@@ -255,7 +261,8 @@ bool ForWithin(const AabbTree& first, const AabbTree& second, double most,
                const VertexAndEdgeSink& sink) {
     FixedBound bound(most);
     NearLeaves<FixedBound> leaves(first, second, bound, sink);
-    return !PairWalk<NearLeaves<FixedBound>>(first, second, leaves).Run();
+    VisitsLeft unlimited;
+    return !PairWalk<NearLeaves<FixedBound>>(first, second, leaves, unlimited).Run();
 }
 
 }  // namespace nearfield::simd::kernels::HWY_NAMESPACE
@@ -270,7 +277,13 @@ HWY_EXPORT(ForWithin);
 
 bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
                          const EdgePairSink& sink) {
-    return HWY_DYNAMIC_DISPATCH(ForCandidatePairs)(first, second, margin, sink);
+    VisitsLeft unlimited;
+    return for_candidate_pairs(first, second, margin, sink, unlimited);
+}
+
+bool for_candidate_pairs(const AabbTree& first, const AabbTree& second, double margin,
+                         const EdgePairSink& sink, VisitsLeft& left) {
+    return HWY_DYNAMIC_DISPATCH(ForCandidatePairs)(first, second, margin, sink, left);
 }
 
 double for_closest(const AabbTree& first, const AabbTree& second, double most, double margin,

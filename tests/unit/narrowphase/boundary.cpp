@@ -75,11 +75,18 @@ TEST(ExactBoundary, NormalsLeadOut) {
     for_each_shape([&](const TransformedPolygon& placed, samples::Random& random) {
         Boundary boundary;
         boundary.set(placed);
+        std::vector<double> parameters;
+        std::vector<AskedNormal> asked;
+        for (std::uint32_t edge = 0; edge < placed.polygon().size(); ++edge) {
+            parameters.push_back(random.between(0.1, 0.9));
+            asked.push_back(boundary.ask_outward_normal(edge, parameters.back()));
+        }
+        boundary.answer_asked();
         for (std::uint32_t edge = 0; edge < placed.polygon().size(); ++edge) {
             const Vector a = placed.vertex(edge);
             const Vector b = placed.vertex(placed.polygon().next(edge));
-            const double parameter = random.between(0.1, 0.9);
-            const Vector normal = boundary.outward_normal(edge, parameter);
+            const double parameter = parameters[edge];
+            const Vector normal = boundary.outward_normal(asked[edge]);
             if (a == b) {
                 EXPECT_TRUE(normal.isZero());
                 continue;

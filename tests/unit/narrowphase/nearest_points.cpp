@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
+#include <tests/unit/support/awkward_shapes.hpp>
 #include <tests/unit/support/point_samples.hpp>
-#include <tests/unit/support/shape_samples.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace nearfield::narrowphase {
 namespace {
@@ -76,6 +79,66 @@ TEST(NearestPoints, AreThoseOfBruteForce) {
         }
     });
     EXPECT_GT(large, 300U);
+}
+
+/// Samples of two nearby edges out of many in turns, so that consecutive ones are far apart, and
+/// any other points.
+Points many_points(const simd::TransformedEdges& edges, samples::Random& random) {
+    Points points;
+    for (int i = 0; i < 700; ++i) {
+        const std::uint32_t edge = random.below(edges.count);
+        const Vector along = edges.end(edge) - edges.start(edge);
+        const double aside = random.below(3) == 0 ? 0.0 : random.between(-0.1, 0.1);
+        points.push(edges.at(edge, random.below(4) == 0 ? 0.0 : random.between(0.0, 1.0)) +
+                    aside * Vector(-along.y(), along.x()));
+    }
+    // Several in almost the same place.
+    const Vector place(points.x[0], points.y[0]);
+    for (int i = 0; i < 40; ++i) {
+        points.push(place + 1e-6 * Vector(random.between(-1.0, 1.0), random.between(-1.0, 1.0)));
+    }
+    return points;
+}
+
+/// The nearest edge, and every other one within the margin, bit for bit: of equally near ones the
+/// first.
+TEST(NearestPoints, OfPointsAmongCrowdedEdgesAreThoseOfBruteForce) {
+    constexpr double margin = 1e-3;
+    NearestPoints nearest;
+    samples::Random random(96);
+    for (const samples::NamedRings& shape : samples::awkward_shapes(random)) {
+        for (const Pose& pose : {Pose{}, Pose{{1e6, -3e5}, 0.3}}) {
+            SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
+            const Polygon polygon = samples::polygon(shape.rings);
+            simd::TransformedInstances instances;
+            const std::uint32_t index = instances.place(polygon, pose);
+            instances.complete(index);
+            const simd::TransformedEdges& edges = instances[index];
+            const Points points = many_points(edges, random);
+            nearest.find(points.arrays(), edges, margin);
+            const simd::NearestArrays& found = nearest.arrays();
+            for (std::uint32_t i = 0; i < points.count; ++i) {
+                const Vector point(points.x[i], points.y[i]);
+                std::vector<double> squared;
+                for (std::uint32_t edge = 0; edge < edges.count; ++edge) {
+                    squared.push_back(
+                        geometry::nearest_on_segment(point, edges.start(edge), edges.end(edge))
+                            .squared_distance);
+                }
+                std::partial_sort(squared.begin(), squared.begin() + 3, squared.end());
+                const double allowed = 16.0 * edges.rounding;
+                EXPECT_NEAR(found.distance[i], std::sqrt(squared[0]), allowed) << i;
+                const double limit = std::sqrt(squared[0]) + margin;
+                for (const auto& [other, truth] : {std::pair(found.second_squared[i], squared[1]),
+                                                   std::pair(found.third_squared[i], squared[2])}) {
+                    EXPECT_GE(std::sqrt(other), std::sqrt(truth) - allowed) << i;
+                    if (std::sqrt(truth) <= limit) {
+                        EXPECT_NEAR(std::sqrt(other), std::sqrt(truth), allowed) << i;
+                    }
+                }
+            }
+        }
+    }
 }
 
 TEST(NearestPoints, AreUniqueWhereTheBoundarySaysSo) {

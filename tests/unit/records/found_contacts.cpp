@@ -40,6 +40,7 @@ protected:
             on_b.feature = {Feature::Kind::edge, 0};
             contacts_.add_of_b({2, 0.5 - 0.5 * x}, on_b, boundary_of_b_);
         }
+        contacts_.decide_normals([&]() -> narrowphase::Boundary& { return boundary_of_b_; });
     }
 
     std::vector<ContactRecord> written() {

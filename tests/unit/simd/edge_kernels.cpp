@@ -77,7 +77,9 @@ std::vector<double> said_of(const Polygon& a, const Polygon& b, const Pose& pose
     };
     for (std::uint32_t edge = 0; edge < edges_b.count; ++edge) {
         add_stretches(kernels::find_intervals_near(edges_b, edge, edges_a, 0.05, intervals.data()));
-        add_stretches(kernels::find_intervals_near(edges_b, edge, tree, 0.05, intervals.data()));
+        VisitsLeft unlimited;
+        add_stretches(
+            kernels::find_intervals_near(edges_b, edge, tree, 0.05, unlimited, intervals.data()));
     }
     const auto say_pair = [](void* numbers, const EdgePair& pair) {
         static_cast<std::vector<double>*>(numbers)->insert(

@@ -139,13 +139,14 @@ TEST(NearEdges, OfManyPointsTheOthersAreThoseOfBruteForceOnEveryInstructionSet) 
                                   indices.data(),       indices.data() + 64};
         for_each_shape([&](const TransformedEdges& edges) {
             std::vector<std::uint32_t> near(padded(edges.count));
+            DivisionMemory memory;
             for (const double margin : {0.0, 1e-3, 0.2}) {
                 const Points points = points_about(edges, random);
                 if (is_small(edges)) {
                     kernels::find_nearest_of(points.arrays(), edges, margin, near.data(), found);
                 } else {
                     kernels::find_nearest_of(points.arrays(), edges.tree(), margin, near.data(),
-                                             found);
+                                             memory, found);
                 }
                 check_others(edges, points, margin, found);
             }

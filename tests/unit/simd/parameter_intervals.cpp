@@ -23,7 +23,8 @@ void find_both_ways(const TransformedEdges& a, std::uint32_t edge, const Transfo
         return std::vector<ParameterInterval>(found.begin(), found.begin() + count);
     };
     check(first(kernels::find_intervals_near(a, edge, b, reach, found.data())));
-    check(first(kernels::find_intervals_near(a, edge, b.tree(), reach, found.data())));
+    VisitsLeft unlimited;
+    check(first(kernels::find_intervals_near(a, edge, b.tree(), reach, unlimited, found.data())));
 }
 
 TEST(Stretches, HoldWhatIsNearAndHardlyMore) {
