@@ -36,7 +36,7 @@ AskedBoundaryNormal ask_outward_normal_at(Boundary& boundary, const plan::Bounda
 }
 
 Vector outward_normal(const Boundary& boundary, const AskedBoundaryNormal& asked) {
-    const Vector after = boundary.outward_normal(asked.after);
+    Vector after = boundary.outward_normal(asked.after);
     if (!asked.at_vertex) {
         return after;
     }
