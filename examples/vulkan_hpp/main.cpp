@@ -133,7 +133,8 @@ public:
                 .front());
     }
     void write(Slot& slot, const nearfield::ResidentRecords& contacts) const {
-        const vk::DescriptorBufferInfo records(contacts.buffer, contacts.offset, contacts.size);
+        // The size is that of one frame's records; the set outlasts it.
+        const vk::DescriptorBufferInfo records(contacts.buffer, contacts.offset, VK_WHOLE_SIZE);
         const vk::DescriptorBufferInfo counts(*slot.counts.buffer, 0, sizeof(Counts));
         constexpr auto storage = vk::DescriptorType::eStorageBuffer;
         device_->updateDescriptorSets(

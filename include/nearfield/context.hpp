@@ -81,7 +81,7 @@ struct Ticket {
     friend bool operator==(const Ticket&, const Ticket&) = default;
 };
 
-/// Device memory allocated by one context (vkAllocateMemory), in bytes.
+/// Device memory of one context, in bytes: allocated, or asked of HostDevice::memory.
 struct MemoryUse {
     std::uint64_t in_use = 0;  ///< now
     std::uint64_t peak = 0;    ///< maximum since the context was created

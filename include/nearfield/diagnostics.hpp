@@ -58,8 +58,9 @@ enum class GraphFormat {
 };
 
 /// The render graph of the last batch submitted or recorded: passes, resources, lifetimes,
-/// barriers. Empty before the first batch and in a context without a device. Fails with
-/// invalid_settings if `format` is not a valid enumerator, or with out_of_memory.
+/// barriers; those of a host's targets as by default, not as stated. Empty before the first batch
+/// and in a context without a device. Fails with invalid_settings if `format` is not a valid
+/// enumerator, or with out_of_memory.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::string> describe_graph(const Context& context,
                                                                     GraphFormat format);
 

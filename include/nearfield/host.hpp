@@ -112,7 +112,8 @@ struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE;  ///< created for Vulkan 1.1 or later
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;  ///< the one that `device` was created from
     VkDevice device = VK_NULL_HANDLE;                   ///< owner of all objects of the library
-    /// All work is submitted to it. May be null if queue_access.submit is set.
+    /// All work is submitted to it. Needed also by a host that only records. May be null if
+    /// queue_access.submit is set.
     VkQueue queue = VK_NULL_HANDLE;
     /// Every entry point is loaded through this function.
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;

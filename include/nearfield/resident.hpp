@@ -117,7 +117,8 @@ struct ResidentSlot {
     std::uint32_t index = 0;
     /// Changes whenever a handle or an offset of any resident output of the slot does: when one
     /// grows beyond what was reserved, when there are more of them, and by Context::trim(). Images
-    /// and buffers of the host do not count.
+    /// and buffers of the host do not count. Sizes and capacities are those of a batch and change
+    /// without it: a descriptor that is to last takes VK_WHOLE_SIZE.
     std::uint64_t revision = 0;
 };
 
