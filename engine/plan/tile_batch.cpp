@@ -2,9 +2,8 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
-#include <engine/geometry/offset_mesh.hpp>
-#include <engine/plan/overlap_boundary.hpp>
 #include <engine/plan/tile_batch.hpp>
+#include <engine/plan/tile_triangles.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,72 +18,6 @@ using geometry::Mesh;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-// Minimum cells of a tile for an occlusion query, which costs about as much as searching this many
-// samples (docs/performance.md) and gains nothing if some pass.
-constexpr std::uint32_t smallest_watched = 128U * 128U;
-
-/// With stencil or depth, only samples of the intersection pass while A is drawn. Where colour
-/// decides, all of A passes, so the occlusion query says too little.
-bool worth_watching(IntersectionStrategy strategy, const Tile& tile) {
-    return (strategy == IntersectionStrategy::stencil || strategy == IntersectionStrategy::depth) &&
-           tile.width * tile.height >= smallest_watched;
-}
-
-/// The tile at depth 1, as two triangles in the atlas.
-std::array<geometry::MeshVertex, 6> rectangle_of(const Tile& tile, std::uint32_t id) {
-    const auto left = static_cast<float>(tile.place.x);
-    const auto low = static_cast<float>(tile.place.y);
-    const auto right = static_cast<float>(tile.place.x + tile.width);
-    const auto top = static_cast<float>(tile.place.y + tile.height);
-    return {{{left, low, 1.0F, id},
-             {right, low, 1.0F, id},
-             {right, top, 1.0F, id},
-             {left, low, 1.0F, id},
-             {right, top, 1.0F, id},
-             {left, top, 1.0F, id}}};
-}
-
-void add_rectangle(const Tile& tile, Mesh& mesh) {
-    const auto rectangle = rectangle_of(tile, 0);
-    mesh.insert(mesh.end(), rectangle.begin(), rectangle.end());
-}
-
-/// Moves vertices, from `first` on, from cells of a tile to its place in the atlas.
-void move_to_atlas(const Tile& tile, std::size_t first, Mesh& mesh) {
-    const auto x = static_cast<float>(tile.place.x);
-    const auto y = static_cast<float>(tile.place.y);
-    for (std::size_t i = first; i < mesh.size(); ++i) {
-        mesh[i].x += x;
-        mesh[i].y += y;
-    }
-}
-
-void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
-                std::vector<TileVertex>& mesh) {
-    mesh.push_back(
-        {vertex, static_cast<std::uint16_t>(tile.place.x), static_cast<std::uint16_t>(tile.place.y),
-         static_cast<std::uint16_t>(tile.width), static_cast<std::uint16_t>(tile.height)});
-}
-
-/// Appends groups of width x height cells that cover a tile; `first` describes the low one.
-void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
-                std::vector<CellGroup>& groups) {
-    for (std::uint32_t row = 0; row < draw.height; row += height) {
-        for (std::uint32_t column = 0; column < draw.width; column += width) {
-            first.cell = column | row << 16U;
-            groups.push_back(first);
-        }
-    }
-}
-
-/// Whether a triangle, in cells of a tile, lies on one side of it.
-bool is_outside(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle) {
-    const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-    const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
-    return right <= 0.0F || high <= 0.0F || left >= static_cast<float>(tile.width) ||
-           low >= static_cast<float>(tile.height);
-}
-
 /// The part of an edge within `border` cells of a tile; far ends would only degrade the raster's
 /// precision.
 TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
@@ -94,22 +27,6 @@ TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
         return part;
     }
     return edge;
-}
-
-/// Sets which part of each shape takes part, and whether samples are listed.
-void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
-                      TileBatch& round) {
-    const bool volumes = query.kind == IntersectionKind::volume_volume;
-    draw.part_a = volumes ? Part::volume : Part::boundary;
-    draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
-    draw.list = query.records;
-    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
-    if (query.resident && query.resident_samples) {
-        round.keeps_hits = true;
-        draw.first_hit = round.hit_words;
-        // The compute technique keeps hits in its masks.
-        round.hit_words += round.by_compute ? 0 : tile.width * tile.height;
-    }
 }
 
 }  // namespace
@@ -187,29 +104,6 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     }
     add_points(plan, number, round);
     add_field_points(plan, number, round);
-}
-
-/// Selects the largest tiles that are worth an occlusion query.
-void TileBatchBuilder::select_watched(const Plan& plan, std::uint32_t number) {
-    watched_.clear();
-    if (number >= plan.raster_tile_batches) {
-        return;
-    }
-    const auto is_larger = [&](std::uint32_t i, std::uint32_t j) {
-        return plan.tiles[i].width * plan.tiles[i].height >
-               plan.tiles[j].width * plan.tiles[j].height;
-    };
-    for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
-        const Tile& tile = plan.tiles[i];
-        if (tile.kind != TileKind::overlap) {
-            continue;
-        }
-        const auto& query = std::get<IntersectionQuery>(*plan.queries[tile.query].query);
-        if (worth_watching(query.strategy, tile)) {
-            watched_.insert(std::upper_bound(watched_.begin(), watched_.end(), i, is_larger), i);
-            watched_.resize(std::min<std::size_t>(watched_.size(), max_watched));
-        }
-    }
 }
 
 void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
@@ -399,95 +293,6 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
     data.outside = query.outside ? 1 : 0;
     round.distance_draws.push_back(draw);
-}
-
-void TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
-                                    std::vector<EdgeRun>* runs, Mesh& mesh) const {
-    const std::size_t first = mesh.size();
-    SparseCheckpoint<64> checkpoint;
-    boundary.for_offset_edges(tile.width, tile.height, offset, [&](std::uint32_t i) {
-        checkpoint.step();
-        const std::size_t before = mesh.size();
-        const auto run = runs != nullptr ? static_cast<std::uint32_t>(runs->size()) : 0U;
-        if (run == max_runs) {
-            throw StatusException(
-                {StatusCode::too_large, "the boundaries of one round have more than " +
-                                            std::to_string(max_runs) +
-                                            " edges; use a larger tolerance"});
-        }
-        geometry::append_offset_polygon(boundary.start(i), boundary.end(i), offset, tile.width,
-                                        tile.height, grid_, run << run_shift, mesh);
-        if (runs != nullptr && mesh.size() > before) {
-            runs->push_back({boundary.edge(i).first, boundary.edge(i).count});
-        }
-    });
-    move_to_atlas(tile, first, mesh);
-}
-
-void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                                        TileBatch& round) {
-    const auto& asked = std::get<IntersectionQuery>(*query.query);
-    describe_overlap(asked, tile, draw, round);
-    add_groups(draw, overlap_group_width, overlap_group_height,
-               {draw.tile, 0, draw.list ? 1U : 0U, draw.first_hit},
-               round.groups[group_list(asked.strategy)]);
-    add_rectangle(tile, round.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
-    add_overlap_b(query, tile, draw, round);
-    add_overlap_a(query, tile, draw, round);
-    round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
-}
-
-void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
-                                  Mesh& parity, Mesh& rectangles) {
-    crossing_.clear();
-    crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
-    add_fill(crossing_, tile, parity);
-    add_rectangle(tile, rectangles);
-}
-
-void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& round) {
-    const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
-    const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return round.meshes[overlaps_of(strategy, step)];
-    };
-    const double cell = tile.grid.cell;
-    const TileBoundary boundary =
-        overlap_boundary(*query.b, query.pose_b, query.budget, tile, shapes_);
-    if (draw.part_b == Part::boundary) {
-        add_boundary(boundary, tile, query.budget.offset / cell, nullptr,
-                     mesh(OverlapStep::boundary_b));
-    } else {
-        add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_b),
-                   mesh(OverlapStep::volume_b));
-    }
-}
-
-void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& round) {
-    const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
-    const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return round.meshes[overlaps_of(strategy, step)];
-    };
-    const bool is_watched =
-        std::find(watched_.begin(), watched_.end(), round.tile_index[draw.tile]) != watched_.end();
-    Mesh& drawn = is_watched                      ? mesh(OverlapStep::watched_a)
-                  : draw.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
-                                                  : mesh(OverlapStep::volume_a);
-    const auto first = static_cast<std::uint32_t>(drawn.size());
-    const double cell = tile.grid.cell;
-    const TileBoundary boundary =
-        overlap_boundary(*query.a, query.pose_a, query.budget, tile, shapes_);
-    if (draw.part_a == Part::boundary) {
-        add_boundary(boundary, tile, query.budget.offset / cell, &round.runs, drawn);
-    } else {
-        add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_a),
-                   drawn);
-    }
-    if (is_watched) {
-        const auto count = static_cast<std::uint32_t>(drawn.size()) - first;
-        round.watched.push_back({draw.tile, strategy, draw.part_a, {first, count}});
-    }
 }
 
 void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& round) {

@@ -133,6 +133,7 @@ public:
     void build(const Plan& plan, std::uint32_t number, TileBatch& round);
 
 private:
+    /// Selects the largest tiles that are worth an occlusion query.
     void select_watched(const Plan& plan, std::uint32_t number);
     void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
                         TileBatch& round);
@@ -145,6 +146,9 @@ private:
                           TileBatch& round) const;
     /// Appends words to those of the fields; returns the first one.
     static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& round);
+    /// Sets which part of each shape takes part, and whether samples are listed.
+    static void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
+                                 TileBatch& round);
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
                           TileBatch& round);
     void add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
