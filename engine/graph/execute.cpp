@@ -268,44 +268,48 @@ void Executor::add_up_stages(BarrierCall& call) {
     }
 }
 
-void Executor::set_buffer(Handle handle, const ImportedBuffer& imported) {
+template <class VulkanBarrier, class Set>
+void Executor::set_imported(Handle handle, const std::optional<ExternalUses>& uses,
+                            std::vector<VulkanBarrier> BarrierCall::*barriers,
+                            std::vector<PlacedBarrier> BarrierCall::*placed, const Set& set) {
     for (BarrierCall& call : calls_) {
-        for (std::size_t i = 0; i < call.buffers.size(); ++i) {
-            PlacedBarrier& placed = call.buffer_barriers[i];
-            if (placed.declared.resource == handle.resource) {
-                placed.effective =
-                    with_uses(placed.declared, imported.uses, device_->queue_flags());
-                VkBufferMemoryBarrier& barrier = call.buffers[i];
-                barrier.srcAccessMask = placed.effective.source_access;
-                barrier.dstAccessMask = placed.effective.destination_access;
-                barrier.buffer = imported.buffer;
-                barrier.offset = imported.offset;
-                barrier.size = imported.size;
+        bool changes_stages = false;
+        for (std::size_t i = 0; i < (call.*barriers).size(); ++i) {
+            PlacedBarrier& one = (call.*placed)[i];
+            if (one.declared.resource != handle.resource) {
+                continue;
             }
+            one.effective = with_uses(one.declared, uses, device_->queue_flags());
+            VulkanBarrier& barrier = (call.*barriers)[i];
+            barrier.srcAccessMask = one.effective.source_access;
+            barrier.dstAccessMask = one.effective.destination_access;
+            set(barrier, one.effective);
+            changes_stages = true;
         }
-        add_up_stages(call);
+        if (changes_stages) {
+            add_up_stages(call);
+        }
     }
 }
 
+void Executor::set_buffer(Handle handle, const ImportedBuffer& imported) {
+    set_imported(handle, imported.uses, &BarrierCall::buffers, &BarrierCall::buffer_barriers,
+                 [&](VkBufferMemoryBarrier& barrier, const Barrier&) {
+                     barrier.buffer = imported.buffer;
+                     barrier.offset = imported.offset;
+                     barrier.size = imported.size;
+                 });
+}
+
 void Executor::set_image(Handle handle, const ImportedImage& imported) {
-    for (BarrierCall& call : calls_) {
-        for (std::size_t i = 0; i < call.images.size(); ++i) {
-            PlacedBarrier& placed = call.image_barriers[i];
-            if (placed.declared.resource == handle.resource) {
-                placed.effective =
-                    with_uses(placed.declared, imported.uses, device_->queue_flags());
-                VkImageMemoryBarrier& barrier = call.images[i];
-                barrier.srcAccessMask = placed.effective.source_access;
-                barrier.dstAccessMask = placed.effective.destination_access;
-                barrier.oldLayout = placed.effective.old_layout;
-                barrier.newLayout = placed.effective.new_layout;
-                barrier.image = imported.image;
-                barrier.subresourceRange.baseMipLevel = imported.level;
-                barrier.subresourceRange.baseArrayLayer = imported.layer;
-            }
-        }
-        add_up_stages(call);
-    }
+    set_imported(handle, imported.uses, &BarrierCall::images, &BarrierCall::image_barriers,
+                 [&](VkImageMemoryBarrier& barrier, const Barrier& effective) {
+                     barrier.oldLayout = effective.old_layout;
+                     barrier.newLayout = effective.new_layout;
+                     barrier.image = imported.image;
+                     barrier.subresourceRange.baseMipLevel = imported.level;
+                     barrier.subresourceRange.baseArrayLayer = imported.layer;
+                 });
 }
 
 VkImageView Executor::sampled_view(Handle handle) const {

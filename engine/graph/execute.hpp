@@ -107,6 +107,11 @@ private:
     [[nodiscard]] BarrierCall make_call(const Graph& graph,
                                         const std::vector<Barrier>& barriers) const;
     static void add_up_stages(BarrierCall& call);
+    /// Sets the accesses of an imported resource's barriers, and by `set` the rest of each.
+    template <class VulkanBarrier, class Set>
+    void set_imported(Handle handle, const std::optional<ExternalUses>& uses,
+                      std::vector<VulkanBarrier> BarrierCall::*barriers,
+                      std::vector<PlacedBarrier> BarrierCall::*placed, const Set& set);
     void record_barriers(const Graph& graph, VkCommandBuffer commands,
                          const BarrierCall& call) const;
 
