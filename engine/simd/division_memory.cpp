@@ -1,5 +1,6 @@
 #include <engine/simd/division_memory.hpp>
-#include <engine/simd/edge_kernels.hpp>
+
+#include <algorithm>
 
 namespace nearfield::simd {
 namespace {
@@ -24,6 +25,27 @@ std::uint32_t* DivisionMemory::list(std::size_t depth, std::size_t count) {
 
 double* DivisionMemory::numbers(std::size_t depth, std::size_t count) {
     return with_room(numbers_, depth, count);
+}
+
+Extent extent_of_points(const double* x, const double* y, const std::uint32_t* chosen,
+                        std::uint32_t count) {
+    Extent box{x[*chosen], y[*chosen], x[*chosen], y[*chosen]};
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const double at_x = x[chosen[i]];
+        const double at_y = y[chosen[i]];
+        box = {std::min(box.low_x, at_x), std::min(box.low_y, at_y), std::max(box.high_x, at_x),
+               std::max(box.high_y, at_y)};
+    }
+    return box;
+}
+
+std::uint32_t halve(const double* x, const double* y, const Extent& box, std::uint32_t* chosen,
+                    std::uint32_t count) {
+    const double* const along = box.high_x - box.low_x > box.high_y - box.low_y ? x : y;
+    const std::uint32_t half = count / 2;
+    std::nth_element(chosen, chosen + half, chosen + count,
+                     [along](std::uint32_t i, std::uint32_t j) { return along[i] < along[j]; });
+    return half;
 }
 
 }  // namespace nearfield::simd

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <engine/simd/edge_kernels.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -19,5 +21,14 @@ private:
     std::deque<std::vector<std::uint32_t>> lists_;
     std::deque<std::vector<double>> numbers_;
 };
+
+/// The box of the chosen points. Precondition: there is one.
+[[nodiscard]] Extent extent_of_points(const double* x, const double* y, const std::uint32_t* chosen,
+                                      std::uint32_t count);
+
+/// Orders the chosen points so that the first half lies before the others along the longer side of
+/// their box; returns the size of that half.
+[[nodiscard]] std::uint32_t halve(const double* x, const double* y, const Extent& box,
+                                  std::uint32_t* chosen, std::uint32_t count);
 
 }  // namespace nearfield::simd

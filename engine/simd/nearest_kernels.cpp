@@ -224,27 +224,12 @@ private:
             }
             return;
         }
-        const Extent box = BoxOf(chosen, count);
+        const Extent box = extent_of_points(points_.x, points_.y, chosen, count);
         std::uint32_t* const left = memory_.list(depth, edges);
         const std::uint32_t left_count = Narrow(disc_around(box), listed, edges, left);
-        const double* const along =
-            box.high_x - box.low_x > box.high_y - box.low_y ? points_.x : points_.y;
-        const std::uint32_t half = count / 2;
-        std::nth_element(chosen, chosen + half, chosen + count,
-                         [along](std::uint32_t i, std::uint32_t j) { return along[i] < along[j]; });
+        const std::uint32_t half = halve(points_.x, points_.y, box, chosen, count);
         Divide(chosen, half, left, left_count, depth + 1);
         Divide(chosen + half, count - half, left, left_count, depth + 1);
-    }
-
-    [[nodiscard]] Extent BoxOf(const std::uint32_t* chosen, std::uint32_t count) const {
-        Extent box{points_.x[*chosen], points_.y[*chosen], points_.x[*chosen], points_.y[*chosen]};
-        for (std::uint32_t i = 1; i < count; ++i) {
-            const double x = points_.x[chosen[i]];
-            const double y = points_.y[chosen[i]];
-            box = {std::min(box.low_x, x), std::min(box.low_y, y), std::max(box.high_x, x),
-                   std::max(box.high_y, y)};
-        }
-        return box;
     }
 
     /// Copies the edges that can be nearest to a point of a disc; returns their number.
