@@ -223,6 +223,60 @@ TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
     EXPECT_FALSE(brute_force());
 }
 
+TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) {
+    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.1};
+    query.technique = Technique::raster;
+    query.resident = query.resident_samples = true;
+    const auto status_with_room = [&](double cells, std::uint64_t less) {
+        limits_.largest_range = sizeof(IntersectionSummaryData) +
+                                static_cast<std::uint64_t>(cells) * sizeof(IntersectionSampleData) -
+                                less;
+        run({query});
+        return std::get<IntersectionResult>(results_.front()).status;
+    };
+    const Status refused = status_with_room(1.0, 0);
+    ASSERT_EQ(refused.code(), StatusCode::too_large);
+    const auto at = refused.message().find("has ");
+    ASSERT_NE(at, std::string::npos) << refused.message();
+    const double cells = std::stod(refused.message().substr(at + 4));
+    ASSERT_GT(cells, 100.0);
+    EXPECT_TRUE(status_with_room(cells, 0).ok());
+    EXPECT_EQ(status_with_room(cells, 1).code(), StatusCode::too_large);
+}
+
+TEST_F(PlannerTest, BoundariesMeetWhereBothAreGrownByTheBound) {
+    IntersectionQuery query{.a = penetration_.a, .b = {{1, 0}, {}}, .tolerance = 0.01};
+    query.technique = Technique::raster;
+    query.kind = IntersectionKind::boundary_boundary;
+    const auto tiles_at = [&](double gap) {
+        query.b.pose.translation = {10.0 + gap, 0.0};
+        run({query});
+        EXPECT_TRUE(std::get<IntersectionResult>(results_.front()).status.ok());
+        return plan_.tiles.size();
+    };
+    ASSERT_GT(tiles_at(0.0), 0U);
+    const double bound = std::get<IntersectionResult>(results_.front()).error_bound;
+    EXPECT_GT(tiles_at(1.99 * bound), 0U);
+    EXPECT_EQ(tiles_at(2.01 * bound), 0U);
+}
+
+TEST_F(PlannerTest, TheDeviceSearchesForContactsAsFarAsTheyReach) {
+    ContactQuery query;
+    query.a = penetration_.a;
+    query.b = {{1, 0}, {}};
+    query.tolerance = 0.01;
+    query.contact_distance = 0.5;
+    query.technique = Technique::compute;
+    const auto searched_at = [&](double gap) {
+        query.b.pose.translation = {10.0 + gap, 0.0};
+        run({query});
+        return plan_.searched.size();
+    };
+    EXPECT_EQ(searched_at(-1.0), 2U) << "points of either boundary";
+    EXPECT_EQ(searched_at(0.49), 2U);
+    EXPECT_EQ(searched_at(0.51), 0U);
+}
+
 TEST_F(PlannerTest, ShapesFarApartPlanNothing) {
     penetration_.b.pose.translation = {1000.0, 0.0};
     run({penetration_});
