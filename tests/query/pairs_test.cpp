@@ -26,6 +26,25 @@ TEST_F(Pairs, AreThoseWhoseBoxesAreWithinReach) {
     ASSERT_TRUE(context().remove_shape(*square).ok());
 }
 
+TEST_F(Pairs, FollowShapesThatChangeAndInstancesThatMove) {
+    const auto shape = context().add_shape(rectangle({0, 0}, {1, 1}));
+    ASSERT_TRUE(shape.has_value());
+    std::vector<Instance> instances{{*shape, {{0, 0}, 0.0}}, {*shape, {{3, 0}, 0.0}}};
+    const auto count = [&] {
+        const Expected<std::span<const InstancePair>> pairs = context().find_pairs(instances, 0.0);
+        EXPECT_TRUE(pairs.has_value()) << pairs.error().text();
+        return pairs->size();
+    };
+    EXPECT_EQ(count(), 0U);
+    ASSERT_TRUE(context().update_shape(*shape, rectangle({0, 0}, {4, 1})).ok());
+    EXPECT_EQ(count(), 1U);
+    ASSERT_TRUE(context().update_shape(*shape, rectangle({0, 0}, {2, 1})).ok());
+    EXPECT_EQ(count(), 0U);
+    instances[1].pose.translation.x = 1.5;
+    EXPECT_EQ(count(), 1U);
+    ASSERT_TRUE(context().remove_shape(*shape).ok());
+}
+
 TEST_F(Pairs, OfBadInstancesAreRefusedByPosition) {
     const auto square = context().add_shape(rectangle({0, 0}, {1, 1}));
     ASSERT_TRUE(square.has_value());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace nearfield::test {
 namespace {
@@ -168,6 +169,39 @@ TEST(WorldCastsOfSquares, TouchAtTheExpectedTimes) {
     EXPECT_EQ(hits[3].state, ImpactState::intersecting_at_start);
     EXPECT_EQ(hits[3].time, 0.0);
     EXPECT_EQ(hits[3].instance, scene.handle(0));
+}
+
+TEST(WorldCastsOfSquares, ComeWithinTheContactDistanceBesideTheirPath) {
+    Scene scene({{"beside the path", rectangle({0, 0}, {1, 1}), {{4.0, 1.25}}}});
+    ShapeCastQuery query{scene.add_shape(rectangle({0, 0}, {1, 1}))};
+    query.tolerance = 1e-9;
+    const Sweep sweep{{{0, 0}, 0}, {{8, 0}, 0}};
+    ShapeCastHit hit;
+    for (const double contact_distance : {0.2, 0.25, 0.5}) {
+        query.contact_distance = contact_distance;
+        ASSERT_TRUE(scene.world().cast_shape(query, {&sweep, 1}, {&hit, 1}).ok());
+        EXPECT_EQ(hit.state, contact_distance < 0.25 ? ImpactState::separated : ImpactState::hit);
+    }
+    // The corners come within 0.5: 0.25 above, and so much before.
+    EXPECT_NEAR(hit.time, (3.0 - std::sqrt(0.25 - 0.0625)) / 8.0, 1e-8);
+}
+
+TEST(WorldCastsOfBars, ThatTurnHitWhatIsFarFromTheirStartAndTheirEnd) {
+    // A bar that turns half a circle about its end, from the right to the left.
+    Scene scene({{"above", rectangle({-0.5, 0}, {0.5, 1}), {{0.0, 9.0}}},
+                 {"out of reach", rectangle({-0.5, 0}, {0.5, 1}), {{0.0, 10.5}}}});
+    ShapeCastQuery query{scene.add_shape(rectangle({0, -0.1}, {10, 0.1}))};
+    query.tolerance = 1e-9;
+    const Sweep sweep{{{0, 0}, 0}, {{0, 0}, std::numbers::pi}};
+    ShapeCastHit hit;
+    ASSERT_TRUE(scene.world().cast_shape(query, {&sweep, 1}, {&hit, 1}).ok());
+    ASSERT_EQ(hit.state, ImpactState::hit);
+    EXPECT_EQ(hit.instance, scene.handle(0));
+    // The bar's upper side meets the corner (0.5, 9), whose direction is the bar's plus asin(0.1 /
+    // r).
+    const double radius = std::hypot(0.5, 9.0);
+    const double angle = std::atan2(9.0, 0.5) - std::asin(0.1 / radius);
+    EXPECT_NEAR(hit.time, angle / std::numbers::pi, 1e-8);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 namespace nearfield::test {
 namespace {
@@ -62,6 +63,19 @@ TEST(WorldJobs, GiveTheSameAnswersHoweverMany) {
             }
         }
         EXPECT_EQ(calls > 0, count > 1) << "the work is not divided";
+    }
+}
+
+TEST(WorldJobs, AreAtLeastOneAndAtMostTheirMaximum) {
+    for (const std::uint32_t count : {0U, 1U, max_jobs, max_jobs + 1U}) {
+        Settings settings;
+        settings.jobs = JobSystem{nullptr, count, run_on_threads};
+        const Expected<Context> context = Context::create_cpu(settings);
+        EXPECT_EQ(context.has_value(), count >= 1 && count <= max_jobs) << count << " jobs";
+        if (!context) {
+            EXPECT_EQ(context.error().code(), StatusCode::invalid_settings);
+            EXPECT_NE(context.error().message().find(std::to_string(count)), std::string::npos);
+        }
     }
 }
 

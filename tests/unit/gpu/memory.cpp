@@ -45,6 +45,11 @@ TEST_F(GpuMemory, PiecesOfABlockDoNotOverlapWhateverIsGivenBack) {
             EXPECT_EQ(taken.back().offset() % alignment, 0U);
             EXPECT_EQ(taken.back().data() != nullptr, kind == MemoryKind::mapped_buffer);
             EXPECT_EQ(reinterpret_cast<std::uintptr_t>(taken.back().data()) % 64, 0U);
+            if (kind == MemoryKind::mapped_buffer) {  // flushing a piece touches no other
+                const std::uint64_t atom = device.limits().nonCoherentAtomSize;
+                EXPECT_EQ(taken.back().offset() % atom, 0U);
+                EXPECT_EQ(taken.back().size() % atom, 0U);
+            }
             asked += bytes;
         }
         std::map<VkDeviceMemory, std::vector<std::pair<std::uint64_t, std::uint64_t>>> pieces;

@@ -42,6 +42,39 @@ TEST_F(GpuSubmission, IsUsedOverAndOver) {
     }
 }
 
+// The value that a timeline semaphore is said to have reached.
+std::uint64_t reached_value = 0;
+VkResult VKAPI_CALL said_value(VkDevice, VkSemaphore, std::uint64_t* value) {
+    *value = reached_value;
+    return VK_SUCCESS;
+}
+
+TEST_F(GpuSubmission, ByTimelineIsDoneWhenItsValueIsReachedAndNoSooner) {
+    test_support::VulkanHost host({.timeline_semaphore = true});
+    Lies lies;
+    for (const char* name : {"vkGetSemaphoreCounterValue", "vkGetSemaphoreCounterValueKHR"}) {
+        lies.entry_points[name] = reinterpret_cast<PFN_vkVoidFunction>(&said_value);
+    }
+    {
+        HostDevice truth = host.device();
+        ASSERT_TRUE(truth.timeline_semaphore) << "the driver has no timeline semaphores";
+        truth.completion_by_timeline = true;
+        const FakeLoader fake(truth, lies);
+        const gpu::Device device(fake.host());
+        gpu::Submission submission(device);
+        for (std::uint64_t round = 1; round <= 3; ++round) {
+            (void)submission.begin();
+            submission.submit();
+            submission.wait();
+            for (std::uint64_t value = 0; value <= round + 1; ++value) {
+                reached_value = value;
+                EXPECT_EQ(submission.is_done(), value >= round) << value << " of " << round;
+            }
+        }
+    }
+    EXPECT_EQ(host.close(), std::vector<std::string>{});
+}
+
 VkResult VKAPI_CALL lost_submit(VkQueue, std::uint32_t, const VkSubmitInfo*, VkFence) {
     return VK_ERROR_DEVICE_LOST;
 }

@@ -85,6 +85,9 @@ TEST(ToolsSameRings, AreFoundInAnyOrder) {
     EXPECT_FALSE(are_same_rings(rings, turned, 0.09));
     EXPECT_FALSE(are_same_rings(rings, std::vector<Ring>{rings[0]}, 1.0));
     EXPECT_FALSE(are_same_rings(rings, std::vector<Ring>{rings[0], rings[0]}, 1e-9));
+    // One ring is not the match of two.
+    EXPECT_FALSE(are_same_rings(std::vector<Ring>{rings[0], rings[0]}, rings, 1e-9));
+    EXPECT_TRUE(are_same_rings(std::vector<Ring>(2, rings[0]), std::vector<Ring>(2, rings[0]), 0));
     std::vector<Ring> swapped = rings;
     std::swap(swapped[1][1], swapped[1][2]);
     EXPECT_FALSE(are_same_rings(rings, swapped, 0.5));

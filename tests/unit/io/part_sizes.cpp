@@ -52,15 +52,19 @@ TEST(ToolsPartSizes, OfWellKnownBinary) {
     const std::string none =
         "0103000000"
         "00000000";
+    const std::string one_and_an_empty_hole =
+        "0103000000"
+        "02000000" +
+        ring + "00000000";
     SkippedParts skipped;
     Sizes sizes;
     const std::string text =
         "0106000000"
-        "03000000" +
-        two + none + one;
-    EXPECT_EQ(parse_hex_wkb(text, "f", skipped, &sizes).size(), 3U);
-    EXPECT_EQ(sizes, (Sizes{2, 1}));
-    EXPECT_EQ(parse_outline({"f", text}).part_sizes, (Sizes{2, 1}));
+        "04000000" +
+        two + none + one_and_an_empty_hole + one;
+    EXPECT_EQ(parse_hex_wkb(text, "f", skipped, &sizes).size(), 4U);
+    EXPECT_EQ(sizes, (Sizes{2, 1, 1}));
+    EXPECT_EQ(parse_outline({"f", text}).part_sizes, (Sizes{2, 1, 1}));
 }
 
 }  // namespace

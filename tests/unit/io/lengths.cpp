@@ -1,0 +1,34 @@
+#include <gtest/gtest.h>
+#include <tools/io/length_unit.hpp>
+#include <tools/io/svg_length.hpp>
+
+#include <string>
+
+namespace nearfield::tools {
+namespace {
+
+double pixels_of(const std::string& text) {
+    const std::string file = "a.svg";
+    return parse_length(SvgText(text, 0, text, file), SvgAxis::x, SvgViewport{200.0, 100.0});
+}
+
+TEST(ToolsLengths, OfAnInchAreTheSameInEveryUnit) {
+    for (const char* const inch :
+         {"1in", "96", "96px", "72pt", "6pc", "25.4mm", "2.54cm", "101.6Q", "48%", " 1e0in "}) {
+        EXPECT_NEAR(pixels_of(inch), 96.0, 1e-12) << inch;
+    }
+}
+
+TEST(ToolsLengths, HaveUnitsThatAreFoundByName) {
+    const double inch = pixels_per(LengthUnit::inch);
+    EXPECT_EQ(inch, 96.0);
+    EXPECT_NEAR(25.4 * pixels_per(parse_length_unit("mm", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(2.54 * pixels_per(parse_length_unit("cm", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(72.0 * pixels_per(parse_length_unit("pt", "--unit")), inch, 1e-12);
+    EXPECT_NEAR(6.0 * pixels_per(parse_length_unit("pc", "--unit")), inch, 1e-12);
+    EXPECT_EQ(pixels_per(parse_length_unit("px", "--unit")), 1.0);
+    EXPECT_EQ(pixels_per(parse_length_unit("user", "--unit")), 1.0);
+}
+
+}  // namespace
+}  // namespace nearfield::tools
