@@ -5,7 +5,8 @@
     mutation.py check                    fails if one of them no longer applies to the sources
     mutation.py run [--again] [PATTERN...]
                                          builds each mutant, runs the suites that use its module
-                                         until one fails, and writes the table of all results
+                                         until one fails, and writes the table of all results;
+                                         the test that noticed a mutant last time goes first
 
 The mutants are in the folder `mutants`, a file per module (mutants.py has the format). They are
 built in build/mutants, from a copy of the sources. A run that was interrupted goes on where it was,
@@ -90,6 +91,7 @@ class Run:
         self.place.configure()
         self.suites = suites.Suites(self.place)
         self.sound = {}  # by group of suites: the seconds of each
+        self.former = noticed_before()
 
     def require_sound(self, stage):
         """Builds a group of suites without a mistake and runs it once for each state of the code and
@@ -117,26 +119,31 @@ class Run:
         """How long a suite takes without a mistake."""
         return self.sound[suite.stage][suite.name]
 
-    def notice(self, stage):
+    def notice(self, stage, former=""):
         """The test of a group that fails with the mistake that is in place; SURVIVED if there is
-        none, BAD if it is no program."""
+        none, BAD if it is no program. `former`: looks only at the suite that noticed it before."""
         if said := self.place.make([self.suites.target(stage)], BUILD_LIMIT):
             if "[-Werror=" in said:
                 return "a warning of the compiler"
             print(said[-2000:], flush=True)
             return BAD
-        quickest_first = sorted(self.suites.of(stage), key=self.seconds_of)
+        every = self.suites.of(stage)
+        if former:
+            every = [each for each in every if former.startswith(f"{each.name}: ")]
+        quickest_first = sorted(every, key=self.seconds_of)
         return suites.run(quickest_first, self.place.folder / "logs", self.limit_of)
 
     def run(self, mutant):
-        stages = self.suites.stages(mutant.module)
+        former = self.former.get(mutant.full_name, "")
+        looks = [(stage, "") for stage in self.suites.stages(mutant.module)]
+        looks = [(stage, former) for stage, _ in looks if suites.is_of(former, stage)] + looks
         noticed, seconds = SURVIVED, 0.0
-        while stages and noticed == SURVIVED:
-            self.require_sound(stages[0])
+        while looks and noticed == SURVIVED:
+            self.require_sound(looks[0][0])
             start = time.monotonic()
             with self.place.mistake(mutant):
-                while stages and stages[0] in self.sound and noticed == SURVIVED:
-                    noticed = self.notice(stages.pop(0))
+                while looks and looks[0][0] in self.sound and noticed == SURVIVED:
+                    noticed = self.notice(*looks.pop(0))
             seconds += time.monotonic() - start
         self.store.results[mutant.full_name] = Result(
             mutant.digest, self.code, self.tests, noticed, round(seconds, 1)
@@ -152,6 +159,14 @@ class Run:
             and (result.change, result.code) == (mutant.digest, self.code)
             and (result.tests == self.tests or result.noticed_by not in (SURVIVED, BAD))
         )
+
+
+def noticed_before():
+    """What noticed each mutant, by the table of the last run."""
+    if not TABLE.is_file():
+        return {}
+    rows = (line.split(" | ") for line in TABLE.read_text().splitlines())
+    return {cells[0].removeprefix("| "): cells[2] for cells in rows if len(cells) == 4}
 
 
 def word_for(mutant, noticed):

@@ -129,6 +129,12 @@ class Suites:
         ]
 
 
+def is_of(noticed_by, stage):
+    """Whether it is a suite of the group that noticed something."""
+    pattern = GROUPS.get(stage, (None,))[0] or re.escape(f"{stage}: ")
+    return re.match(pattern, noticed_by) is not None
+
+
 def verdict(output, status):
     """What a failed process said: its first failed test, or how it ended."""
     failed = re.search(r"\[  FAILED  \] ([\w/]+\.[\w/]+)", output)
@@ -148,7 +154,7 @@ class Process:
         self.begun = time.monotonic()
         self.process = subprocess.Popen(
             suite.command, stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True,
-            env=os.environ | suite.environment, cwd=log.parent,
+            env=os.environ | suite.environment | {"GTEST_FAIL_FAST": "1"}, cwd=log.parent,
         )
 
     def ended(self):
