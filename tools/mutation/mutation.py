@@ -3,16 +3,17 @@
 
     mutation.py list [PATTERN...]        lists the mutants, of all or of those whose name has a match
     mutation.py check                    fails if one of them no longer applies to the sources
-    mutation.py run [--again] [PATTERN...]
+    mutation.py run [--again | --new] [PATTERN...]
                                          builds each mutant, runs the suites that use its module
                                          until one fails, and writes the table of all results;
                                          the test that noticed a mutant last time goes first
 
 The mutants are in the folder `mutants`, a file per module (mutants.py has the format). They are
-built in build/mutants, from a copy of the sources. A run that was interrupted goes on where it was,
-unless the code has changed since; where only tests have changed, those that were noticed are left
-out. --again leaves out none. Fails if a mutant is noticed by no suite, and is not marked as
-equivalent, or cannot be built.
+built in build/mutants, from a copy of the sources. Results are kept beside the table, in
+docs/measurements/mutants.json: a run that was interrupted goes on where it was, unless the code has
+changed since; where only tests have changed, those that were noticed are left out. --again leaves
+out none; --new all that were run with some older code. Fails if a mutant is noticed by no suite,
+and is not marked as equivalent, or cannot be built.
 """
 
 import dataclasses
@@ -29,6 +30,7 @@ import workplace  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = ROOT / "docs" / "measurements" / "mutants.md"
+RESULTS = TABLE.with_suffix(".json")
 BUILD_LIMIT = 900.0  # seconds for what one mutant needs compiled and linked
 SOUND_LIMIT = 1200.0  # seconds for a suite without a mistake
 SURVIVED, BAD = "", "not built"
@@ -61,23 +63,21 @@ class Result:
 
 
 class Store:
-    """Results and the times of the suites, kept from run to run."""
+    """Results, which are part of the repository, and the times of the suites on this machine."""
 
-    def __init__(self, path):
-        self.path = path
-        kept = json.loads(path.read_text()) if path.is_file() else {}
-        self.results = {name: Result(**each) for name, each in kept.get("results", {}).items()}
+    def __init__(self, times):
+        self.times = times
+        results = json.loads(RESULTS.read_text()) if RESULTS.is_file() else {}
+        self.results = {name: Result(**each) for name, each in results.items()}
         # By group of suites: the state of code and tests at which they pass, and their times.
-        self.sound = kept.get("sound", {})
+        self.sound = json.loads(times.read_text()) if times.is_file() else {}
 
     def save(self):
-        content = {
-            "results": {name: dataclasses.asdict(each) for name, each in self.results.items()},
-            "sound": self.sound,
-        }
-        part = self.path.with_suffix(".part")
-        part.write_text(json.dumps(content, indent=1))
-        part.replace(self.path)
+        results = {name: dataclasses.asdict(self.results[name]) for name in sorted(self.results)}
+        for path, content in ((RESULTS, results), (self.times, self.sound)):
+            part = path.with_suffix(".part")
+            part.write_text(json.dumps(content, indent=1) + "\n")
+            part.replace(path)
 
 
 class Run:
@@ -86,12 +86,11 @@ class Run:
     def __init__(self):
         self.place = workplace.Workplace(ROOT)
         self.place.folder.mkdir(parents=True, exist_ok=True)
-        self.store = Store(self.place.folder / "results.json")
+        self.store = Store(self.place.folder / "times.json")
         self.code, self.tests = self.place.refresh()
         self.place.configure()
         self.suites = suites.Suites(self.place)
         self.sound = {}  # by group of suites: the seconds of each
-        self.former = noticed_before()
 
     def require_sound(self, stage):
         """Builds a group of suites without a mistake and runs it once for each state of the code and
@@ -134,7 +133,8 @@ class Run:
         return suites.run(quickest_first, self.place.folder / "logs", self.limit_of)
 
     def run(self, mutant):
-        former = self.former.get(mutant.full_name, "")
+        known = self.store.results.get(mutant.full_name)
+        former = known.noticed_by if known else ""
         looks = [(stage, "") for stage in self.suites.stages(mutant.module)]
         looks = [(stage, former) for stage, _ in looks if suites.is_of(former, stage)] + looks
         noticed, seconds = SURVIVED, 0.0
@@ -151,22 +151,15 @@ class Run:
         self.store.save()
         return noticed, seconds
 
-    def is_done(self, mutant):
+    def is_done(self, mutant, any_code=False):
         """Whether its result holds: tests that have changed can only notice more."""
         result = self.store.results.get(mutant.full_name)
         return (
             result
-            and (result.change, result.code) == (mutant.digest, self.code)
+            and result.change == mutant.digest
+            and (any_code or result.code == self.code)
             and (result.tests == self.tests or result.noticed_by not in (SURVIVED, BAD))
         )
-
-
-def noticed_before():
-    """What noticed each mutant, by the table of the last run."""
-    if not TABLE.is_file():
-        return {}
-    rows = (line.split(" | ") for line in TABLE.read_text().splitlines())
-    return {cells[0].removeprefix("| "): cells[2] for cells in rows if len(cells) == 4}
 
 
 def word_for(mutant, noticed):
@@ -185,14 +178,14 @@ def chosen(patterns, every):
     return [each for each in every if any(re.search(p, each.full_name) for p in patterns)]
 
 
-def run(patterns, again):
+def run(patterns, flags):
     every = mutants.read_all()
     work = Run()
     faults = 0
     # Those of one file one after the other: it is compiled once for each, and once more at the end.
     wanted = sorted(chosen(patterns, every), key=lambda each: (each.module, each.file))
     for number, mutant in enumerate(wanted, 1):
-        if work.is_done(mutant) and not again:
+        if work.is_done(mutant, "--new" in flags) and "--again" not in flags:
             noticed, seconds = work.store.results[mutant.full_name].noticed_by, 0.0
         else:
             noticed, seconds = work.run(mutant)
@@ -241,16 +234,17 @@ def check():
 
 def main():
     command, *rest = sys.argv[1:] or [""]
-    patterns = [word for word in rest if word != "--again"]
-    if any(word.startswith("-") for word in patterns):
+    flags = [word for word in rest if word.startswith("-")]
+    patterns = [word for word in rest if word not in flags]
+    if len(flags) > 1 or not set(flags) <= {"--again", "--new"}:
         command = ""
     try:
-        if command == "list":
+        if command == "list" and not flags:
             return list_mutants(patterns)
         if command == "check" and not rest:
             return check()
         if command == "run":
-            return run(patterns, "--again" in rest)
+            return run(patterns, flags)
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1

@@ -24,7 +24,7 @@ GROUPS = {
     "simulation": (r"simulation\.", "test_simulation"),
     "painter": (r"viewer\.Painter$", "test_painter"),
     "viewer": (r"viewer\.Window$", "test_viewer"),
-    "cli": (None, "test_cli"),
+    "cli": (None, "test_program"),
 }
 # Of each module the groups that use it, in this order, after its own unit tests. By default those of
 # the CPU's answers.
