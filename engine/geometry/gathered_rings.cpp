@@ -7,6 +7,10 @@
 namespace nearfield::geometry {
 namespace {
 
+std::size_t vertex_count(const RingView& view) {
+    return (view.count() + view.stride() - 1) / view.stride();
+}
+
 void require_pairs(std::size_t ring, const RingView& view) {
     const auto refuse = [ring](const std::string& why) {
         throw StatusException(
@@ -20,11 +24,16 @@ void require_pairs(std::size_t ring, const RingView& view) {
         refuse("it has " + std::to_string(view.count()) + " numbers at a stride of " +
                std::to_string(view.stride()) + "; the last vertex lacks its y");
     }
+    // Said here, with the stride: one in bytes leaves too few.
+    if (vertex_count(view) < 3) {
+        refuse(std::to_string(view.count()) + " numbers at a stride of " +
+               std::to_string(view.stride()) + " numbers are fewer than three different vertices");
+    }
 }
 
 template <class Number>
 void read(const Number* numbers, const RingView& view, Ring& ring) {
-    ring.resize((view.count() + view.stride() - 1) / view.stride());
+    ring.resize(vertex_count(view));
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Number* const vertex = numbers + i * view.stride();
         ring[i] = {static_cast<double>(vertex[0]), static_cast<double>(vertex[1])};

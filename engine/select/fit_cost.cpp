@@ -8,9 +8,9 @@ WorkCost fit_cost(const MeasuredWork& least, const MeasuredWork& edges,
                   const MeasuredWork& samples) {
     // Gauss-Seidel: each measurement is dominated by one of the three numbers, so this converges,
     // and it clamps to 0 any number that noise would make negative.
-    constexpr int tile_batches = 50;
+    constexpr int iterations = 50;
     WorkCost cost;
-    for (int round = 0; round < tile_batches; ++round) {
+    for (int i = 0; i < iterations; ++i) {
         cost.query =
             std::max(0.0, least.time - cost.edge * least.edges - cost.sample * least.samples);
         cost.edge =

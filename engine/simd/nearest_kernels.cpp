@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/simd/nearest_kernels.cpp"
 // clang-format off
 #include <hwy/foreach_target.h>
-#include <engine/simd/box_lanes-inl.hpp>
+#include <engine/simd/disc_of_points-inl.hpp>
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -18,33 +18,6 @@ namespace nearfield::simd::kernels::HWY_NAMESPACE {
 
 /// The number of consecutive points processed together, for any instruction set.
 constexpr std::uint32_t max_together = max_lanes;
-
-/// A disc around a group of points.
-struct DiscOfPoints {
-    double x;
-    double y;
-    double radius;
-};
-
-HWY_INLINE DiscOfPoints disc_around(const Extent& box) {
-    const double across = box.high_x - box.low_x;
-    const double up = box.high_y - box.low_y;
-    return {0.5 * (box.low_x + box.high_x), 0.5 * (box.low_y + box.high_y),
-            0.5 * std::sqrt(across * across + up * up)};
-}
-
-HWY_INLINE DiscOfPoints disc_around(const PointArrays& points, std::uint32_t first,
-                                    std::uint32_t count) {
-    return disc_around(extent_of({first + count, points.x, points.y}, first));
-}
-
-/// No edge farther than the square root of this from a disc's centre can be nearest to a point of
-/// the disc, or as near up to `margin`; slightly increased for rounding. `least`: squared distance
-/// of the edge nearest to the centre.
-HWY_INLINE double squared_reach(const DiscOfPoints& disc, double least, double margin) {
-    const double reach = std::sqrt(least) + 2.0 * disc.radius + margin;
-    return beyond_rounding(reach);
-}
 
 /// Writes the results for the points at `i` of the arrays from their nearest edges, as
 /// geometry::nearest_on_segment() computes them.
