@@ -1,12 +1,9 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 #include <passes/record_context.hpp>
-
-#include <cstdint>
 
 namespace nearfield::passes {
 
@@ -16,35 +13,27 @@ namespace nearfield::passes {
 /// within a workgroup and shared memory cost the most.
 class Blocks {
 public:
-    Blocks(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context);
+    Blocks(const gpu::Device& device, const ComputeLayout& layout);
 
     /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
     /// Returns the new version of `field`, as the others do.
-    [[nodiscard]] graph::Handle declare_values(graph::Graph& graph, graph::Handle input,
+    [[nodiscard]] graph::Handle declare_values(TileGraph& graph, graph::Handle input,
                                                graph::Handle scratch, graph::Handle field) const;
     /// Adds the pass that writes the nearest features of cells.
-    [[nodiscard]] graph::Handle declare_features(graph::Graph& graph, graph::Handle input,
+    [[nodiscard]] graph::Handle declare_features(TileGraph& graph, graph::Handle input,
                                                  graph::Handle scratch, graph::Handle field) const;
     /// Adds the pass for points of fields; it writes the same words as ResolveFieldPoints.
-    [[nodiscard]] graph::Handle declare_points(graph::Graph& graph, graph::Handle input,
+    [[nodiscard]] graph::Handle declare_points(TileGraph& graph, graph::Handle input,
                                                graph::Handle scratch, graph::Handle field) const;
 
 private:
-    [[nodiscard]] graph::Handle declare(graph::Graph& graph, const char* name, graph::Handle input,
-                                        graph::Handle scratch, graph::Handle field,
-                                        graph::Record record) const;
-    void record_values(VkCommandBuffer commands) const;
-    void record_features(VkCommandBuffer commands) const;
-    void record_points(VkCommandBuffer commands) const;
-    void bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
-              VkDescriptorSet set) const;
+    void record_values(VkCommandBuffer commands, const RecordContext& context) const;
+    void record_features(VkCommandBuffer commands, const RecordContext& context) const;
+    void record_points(VkCommandBuffer commands, const RecordContext& context) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    const RecordContext* context_;
-    gpu::Owned<VkPipeline> values_;
-    gpu::Owned<VkPipeline> features_;
-    gpu::Owned<VkPipeline> points_;
+    ComputeShader values_;
+    ComputeShader features_;
+    ComputeShader points_;
 };
 
 }  // namespace nearfield::passes

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 #include <passes/record_context.hpp>
 
 namespace nearfield::passes {
@@ -14,7 +13,7 @@ namespace nearfield::passes {
 /// in any order; for tiles that keep their hits, the number found at every cell.
 class Collect {
 public:
-    Collect(const gpu::Device& device, const ComputeLayout& layout, const RecordContext& context);
+    Collect(const gpu::Device& device, const ComputeLayout& layout);
 
     /// The outputs: summaries, count and list, which the host has initialised; and the kept hits, a
     /// null handle if no tile keeps them.
@@ -23,17 +22,15 @@ public:
         graph::Handle kept_hits;
     };
     /// Adds the pass for the tiles of one strategy; returns the new versions of `output`.
-    [[nodiscard]] Output declare(graph::Graph& graph, graph::Handle input, graph::Handle hits,
+    [[nodiscard]] Output declare(TileGraph& graph, graph::Handle input, graph::Handle hits,
                                  Output output, IntersectionStrategy strategy) const;
 
 private:
-    void record(VkCommandBuffer commands, IntersectionStrategy strategy) const;
+    void record(VkCommandBuffer commands, const RecordContext& context,
+                IntersectionStrategy strategy) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    const RecordContext* context_;
-    gpu::Owned<VkPipeline> numbers_;
-    gpu::Owned<VkPipeline> colors_;
+    ComputeShader numbers_;
+    ComputeShader colors_;
 };
 
 }  // namespace nearfield::passes

@@ -1,9 +1,12 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/color_fill.hpp>
+#include <passes/drawing.hpp>
 #include <passes/tile_renderer.hpp>
 
 #include <shaders/color_frag.hpp>
 #include <shaders/mesh_vert.hpp>
+
+#include <functional>
 
 namespace nearfield::passes {
 namespace {
@@ -13,9 +16,8 @@ constexpr std::uint32_t white_everywhere = 0xffffffff;
 
 }  // namespace
 
-ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                     const RecordContext& context)
-    : device_(&device), layout_(layout), context_(&context) {
+ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
+    : device_(&device), layout_(layout) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -40,22 +42,15 @@ ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRende
     parity_ = gpu::make_graphics_pipeline(device, description);
 }
 
-graph::Handle ColorFill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    graph::Handle image =
-        graph.create_image({"white inside", white_format, extent, VK_FORMAT_R8_UINT});
-    graph.add_pass(
-        "color fill", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            image = pass.write(image, graph::Access::color_attachment);
-        },
-        [this](VkCommandBuffer commands) { record(commands); });
-    return image;
+graph::Handle ColorFill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    return add_drawing(graph, "color fill", {{mesh, graph::Access::vertex_buffer}},
+                       {"white inside", white_format, extent, VK_FORMAT_R8_UINT}, {},
+                       std::bind_front(&ColorFill::record, this));
 }
 
-void ColorFill::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const plan::TileMeshes& meshes = context_->round->meshes;
+void ColorFill::record(VkCommandBuffer commands, const RecordContext& context) const {
+    const TileRenderer renderer(*device_, layout_, commands, context);
+    const plan::TileMeshes& meshes = context.batch->meshes;
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::color)), 1.0F, black);

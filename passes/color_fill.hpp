@@ -12,18 +12,16 @@ namespace nearfield::passes {
 /// one minus it. Reads the mesh; writes the white image in every field tile with this encoding.
 class ColorFill {
 public:
-    ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-              const RecordContext& context);
+    ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
 
     /// Adds the pass; returns the image, sampled as unsigned bytes: 255 inside, 0 outside.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const RecordContext* context_;
     gpu::Owned<VkPipeline> clear_;
     gpu::Owned<VkPipeline> parity_;
 };

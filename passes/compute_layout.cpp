@@ -130,16 +130,4 @@ void ComputeLayout::end_updates() const {
         device_->handle(), static_cast<std::uint32_t>(writes_.size()), writes_.data(), 0, nullptr);
 }
 
-void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,
-                    std::uint32_t height) {
-    constexpr std::uint32_t side = 8;
-    functions.vkCmdDispatch(commands, (width + side - 1) / side, (height + side - 1) / side, 1);
-}
-
-void dispatch_threads(const gpu::Functions& functions, VkCommandBuffer commands,
-                      std::uint32_t count) {
-    constexpr std::uint32_t group_size = 64;
-    functions.vkCmdDispatch(commands, (count + group_size - 1) / group_size, 1, 1);
-}
-
 }  // namespace nearfield::passes

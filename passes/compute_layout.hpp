@@ -2,9 +2,7 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
-#include <engine/plan/tile_batch.hpp>
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -81,44 +79,5 @@ private:
     gpu::Owned<VkDescriptorSetLayout> set_layout_;
     gpu::Owned<VkPipelineLayout> pipeline_layout_;
 };
-
-/// The minimum of maxComputeWorkGroupCount that Vulkan guarantees.
-inline constexpr std::uint32_t max_groups = 65535;
-
-/// Dispatches a shader with one thread per element, in workgroups of 64, for the elements from
-/// `begin` to `end`, in as many dispatches as the device's limits require. `push(first)` is called
-/// before each with its first element.
-template <class Push>
-void dispatch_points(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t begin,
-                     std::uint32_t end, Push&& push) {
-    constexpr std::uint64_t group_size = 64;
-    for (std::uint64_t first = begin; first < end; first += max_groups * group_size) {
-        push(static_cast<std::uint32_t>(first));
-        const std::uint64_t groups = (end - first + group_size - 1) / group_size;
-        functions.vkCmdDispatch(
-            commands, static_cast<std::uint32_t>(std::min<std::uint64_t>(groups, max_groups)), 1,
-            1);
-    }
-}
-
-/// Dispatches a workgroup for each plan::CellGroup of a list, in as many dispatches as the device's
-/// limits require. `push(first)` is called before each with the position of its first group.
-template <class Push>
-void dispatch_groups(const gpu::Functions& functions, VkCommandBuffer commands,
-                     const plan::TileBatch& round, std::size_t list, Push&& push) {
-    const std::uint32_t begin = round.first_group(list);
-    const auto end = begin + static_cast<std::uint32_t>(round.groups[list].size());
-    for (std::uint32_t first = begin; first < end; first += max_groups) {
-        push(first);
-        functions.vkCmdDispatch(commands, std::min(end - first, max_groups), 1, 1);
-    }
-}
-
-/// Dispatches a shader with one thread per cell, in workgroups of 8 x 8, over a rectangle of cells.
-void dispatch_cells(const gpu::Functions& functions, VkCommandBuffer commands, std::uint32_t width,
-                    std::uint32_t height);
-/// Dispatches `count` threads in workgroups of 64, in a single dispatch.
-void dispatch_threads(const gpu::Functions& functions, VkCommandBuffer commands,
-                      std::uint32_t count);
 
 }  // namespace nearfield::passes

@@ -26,19 +26,19 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
 }
 
 constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies>
-    names_of_round{"nearfield resolve points set",
-                   "nearfield field by stencil set",
-                   "nearfield field by color set",
-                   "nearfield field by feature bit set",
-                   "nearfield collect gradients set",
-                   "nearfield collect set, stencil",
-                   "nearfield collect set, blend",
-                   "nearfield collect set, logic op",
-                   "nearfield collect set, depth",
-                   "nearfield masks set",
-                   "nearfield blocks set",
-                   "nearfield feature blocks set",
-                   "nearfield points by lists set"};
+    names_of_tile_batch{"nearfield resolve points set",
+                        "nearfield field by stencil set",
+                        "nearfield field by color set",
+                        "nearfield field by feature bit set",
+                        "nearfield collect gradients set",
+                        "nearfield collect set, stencil",
+                        "nearfield collect set, blend",
+                        "nearfield collect set, logic op",
+                        "nearfield collect set, depth",
+                        "nearfield masks set",
+                        "nearfield blocks set",
+                        "nearfield feature blocks set",
+                        "nearfield points by lists set"};
 
 }  // namespace
 
@@ -59,7 +59,7 @@ DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& l
 }
 
 ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
-    : sets_(device, layout, names_of_round) {}
+    : sets_(device, layout, names_of_tile_batch) {}
 
 void ComputeSets::bind_to(RecordContext& context) const {
     std::size_t next = 0;

@@ -1,5 +1,6 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/cone_mesh.hpp>
+#include <passes/drawing.hpp>
 #include <passes/stencil_pipelines.hpp>
 #include <passes/tile_renderer.hpp>
 
@@ -8,11 +9,12 @@
 #include <shaders/number_in_tile_frag.hpp>
 #include <shaders/tile_mesh_vert.hpp>
 
+#include <functional>
+
 namespace nearfield::passes {
 
-ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                   const RecordContext& context)
-    : device_(&device), layout_(layout), context_(&context) {
+ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
+    : device_(&device), layout_(layout) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -31,26 +33,19 @@ ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderP
     draw_ = gpu::make_graphics_pipeline(device, description);
 }
 
-graph::Handle ConeMesh::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    graph::Handle features = graph.create_image({"features", number_format, extent});
-    const graph::Handle depth = graph.create_image({"distance", distance_depth_format, extent});
-    graph.add_pass(
-        "cone mesh", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            features = pass.write(features, graph::Access::color_attachment);
-            static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
-        },
-        [this](VkCommandBuffer commands) { record(commands); });
-    return features;
+graph::Handle ConeMesh::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    return add_drawing(graph, "cone mesh", {{mesh, graph::Access::vertex_buffer}},
+                       {"features", number_format, extent},
+                       {"distance", distance_depth_format, extent},
+                       std::bind_front(&ConeMesh::record, this));
 }
 
-void ConeMesh::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *context_);
+void ConeMesh::record(VkCommandBuffer commands, const RecordContext& context) const {
+    const TileRenderer renderer(*device_, layout_, commands, context);
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
-    renderer.draw(context_->round->meshes.range(plan::rectangles_of(SignEncoding::stencil),
-                                                plan::rectangles_of(SignEncoding::color)),
+    renderer.draw(context.batch->meshes.range(plan::rectangles_of(SignEncoding::stencil),
+                                              plan::rectangles_of(SignEncoding::color)),
                   1.0F, plan::no_feature);
     renderer.bind(draw_.get());
     renderer.draw(plan::TileMeshId::distances);

@@ -13,18 +13,16 @@ namespace nearfield::passes {
 /// depth image is discarded: passes that need the distance compute it from the feature.
 class ConeMesh {
 public:
-    ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-             const RecordContext& context);
+    ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
 
     /// Adds the pass; returns the feature image.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const RecordContext* context_;
     gpu::Owned<VkPipeline> clear_;
     gpu::Owned<VkPipeline> draw_;
 };

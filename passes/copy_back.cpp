@@ -3,8 +3,7 @@
 namespace nearfield::passes {
 
 CopyBack::CopyBack(const gpu::Device& device)
-    : device_(&device),
-      words_(graph_.import_buffer({"words"}, {graph::Access::storage_write_in_compute, {}})),
+    : words_(graph_.import_buffer({"words"}, {graph::Access::storage_write_in_compute, {}})),
       read_back_(graph_.import_buffer({"read-back", false, true})) {
     graph_.add_pass(
         "copy back", graph::PassKind::compute,
@@ -12,21 +11,19 @@ CopyBack::CopyBack(const gpu::Device& device)
             pass.read(words_, graph::Access::transfer_read);
             static_cast<void>(pass.write(read_back_, graph::Access::transfer_write));
         },
-        [this](VkCommandBuffer commands) {
-            device_->functions().vkCmdCopyBuffer(
-                commands, from_, to_, static_cast<std::uint32_t>(ranges_.size()), ranges_.data());
+        [&device](VkCommandBuffer commands, const Item& item) {
+            device.functions().vkCmdCopyBuffer(commands, item.words, item.read_back,
+                                               static_cast<std::uint32_t>(item.ranges.size()),
+                                               item.ranges.data());
         });
-    executor_ = graph::make_executor(device, graph_);
+    graph_.compile(device);
 }
 
-void CopyBack::record(VkCommandBuffer commands, gpu::Timestamps& timestamps, VkBuffer words,
-                      VkBuffer read_back, std::span<const VkBufferCopy> ranges) {
-    from_ = words;
-    to_ = read_back;
-    ranges_ = ranges;
-    executor_->set_buffer(words_, words);
-    executor_->set_buffer(read_back_, read_back);
-    executor_->execute(graph_, commands, timestamps);
+void CopyBack::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                      const Item& item) const {
+    graph_.executor().set_buffer(words_, item.words);
+    graph_.executor().set_buffer(read_back_, item.read_back);
+    graph_.execute(commands, timestamps, item);
 }
 
 }  // namespace nearfield::passes

@@ -2,10 +2,8 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 
-#include <memory>
 #include <span>
 
 namespace nearfield::passes {
@@ -15,21 +13,18 @@ namespace nearfield::passes {
 class CopyBack {
 public:
     explicit CopyBack(const gpu::Device& device);
-    CopyBack(const CopyBack&) = delete;
-    CopyBack& operator=(const CopyBack&) = delete;
 
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, VkBuffer words,
-                VkBuffer read_back, std::span<const VkBufferCopy> ranges);
+    struct Item {
+        VkBuffer words = VK_NULL_HANDLE;
+        VkBuffer read_back = VK_NULL_HANDLE;
+        std::span<const VkBufferCopy> ranges;
+    };
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
 private:
-    const gpu::Device* device_;
-    graph::Graph graph_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle words_;
     graph::Handle read_back_;
-    std::unique_ptr<graph::Executor> executor_;
-    VkBuffer from_ = VK_NULL_HANDLE;
-    VkBuffer to_ = VK_NULL_HANDLE;
-    std::span<const VkBufferCopy> ranges_;
 };
 
 }  // namespace nearfield::passes

@@ -5,8 +5,7 @@
 
 namespace nearfield::passes {
 
-EarlyOut::EarlyOut(const gpu::Device& device, const RecordContext& context)
-    : device_(&device), context_(&context) {
+EarlyOut::EarlyOut(const gpu::Device& device) : device_(&device) {
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_OCCLUSION;
@@ -19,8 +18,8 @@ EarlyOut::EarlyOut(const gpu::Device& device, const RecordContext& context)
     device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "nearfield occlusion queries");
 }
 
-void EarlyOut::reset(VkCommandBuffer commands) const {
-    const auto count = static_cast<std::uint32_t>(context_->round->watched.size());
+void EarlyOut::reset(VkCommandBuffer commands, const RecordContext& context) const {
+    const auto count = static_cast<std::uint32_t>(context.batch->watched.size());
     if (count > 0) {
         device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0, count);
     }
@@ -34,26 +33,29 @@ void EarlyOut::end(VkCommandBuffer commands, std::uint32_t query) const {
     device_->functions().vkCmdEndQuery(commands, pool_.get(), query);
 }
 
-graph::Handle EarlyOut::declare(graph::Graph& graph, graph::Handle samples,
+graph::Handle EarlyOut::declare(TileGraph& graph, graph::Handle samples,
                                 IntersectionStrategy strategy) const {
     graph.add_pass(
         "early out", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             samples = pass.write(samples, graph::Access::transfer_write);
         },
-        [this, strategy](VkCommandBuffer commands) { record(commands, strategy); });
+        [this, strategy](VkCommandBuffer commands, const RecordContext& context) {
+            record(commands, context, strategy);
+        });
     return samples;
 }
 
-void EarlyOut::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
-    const std::vector<plan::WatchedTile>& watched = context_->round->watched;
+void EarlyOut::record(VkCommandBuffer commands, const RecordContext& context,
+                      IntersectionStrategy strategy) const {
+    const std::vector<plan::WatchedTile>& watched = context.batch->watched;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {
-            const VkDeviceSize offset = context_->summaries_offset +
+            const VkDeviceSize offset = context.summaries_offset +
                                         watched[query].tile * sizeof(plan::TileSummary) +
                                         offsetof(plan::TileSummary, passed);
             device_->functions().vkCmdCopyQueryPoolResults(
-                commands, pool_.get(), query, 1, context_->read_back, offset, sizeof(std::uint32_t),
+                commands, pool_.get(), query, 1, context.read_back, offset, sizeof(std::uint32_t),
                 VK_QUERY_RESULT_WAIT_BIT);
         }
     }

@@ -15,12 +15,12 @@ namespace nearfield::passes {
 /// themselves. Samples that pass beside the tile count as well, which only costs the search.
 class EarlyOut {
 public:
-    EarlyOut(const gpu::Device& device, const RecordContext& context);
+    explicit EarlyOut(const gpu::Device& device);
 
     /// Resets the queries; call before each tile batch, outside a render pass. All tile batches
     /// share the queries, so on the device the reset waits for the previous tile batch, also that
     /// of the previous submission.
-    void reset(VkCommandBuffer commands) const;
+    void reset(VkCommandBuffer commands, const RecordContext& context) const;
 
     /// Begins and ends a query, by position in plan::TileBatch::watched.
     void begin(VkCommandBuffer commands, std::uint32_t query) const;
@@ -30,14 +30,14 @@ public:
     /// (plan::TileSummary::passed). Declare it after the pass that draws them: queries are not
     /// resources of the graph, so only the order of declaration orders the two. Returns the new
     /// version of `samples`.
-    [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle samples,
+    [[nodiscard]] graph::Handle declare(TileGraph& graph, graph::Handle samples,
                                         IntersectionStrategy strategy) const;
 
 private:
-    void record(VkCommandBuffer commands, IntersectionStrategy strategy) const;
+    void record(VkCommandBuffer commands, const RecordContext& context,
+                IntersectionStrategy strategy) const;
 
     const gpu::Device* device_;
-    const RecordContext* context_;
     gpu::Owned<VkQueryPool> pool_;
 };
 

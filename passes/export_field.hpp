@@ -1,15 +1,12 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 
-#include <memory>
 #include <span>
 #include <string>
 
@@ -22,8 +19,6 @@ namespace nearfield::passes {
 class ExportField {
 public:
     ExportField(const gpu::Device& device, const ComputeLayout& layout);
-    ExportField(const ExportField&) = delete;
-    ExportField& operator=(const ExportField&) = delete;
 
     /// The input of one field's pass.
     struct Item {
@@ -34,22 +29,18 @@ public:
         graph::ImportedImage signed_distance;
         graph::ImportedImage feature;
     };
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
-    void dispatch(VkCommandBuffer commands) const;
+    void dispatch(VkCommandBuffer commands, const Item& item) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    gpu::Owned<VkPipeline> pipeline_;
-    graph::Graph graph_;
+    ComputeShader shader_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle words_;
     graph::Handle signed_distance_;
     graph::Handle feature_;
-    std::unique_ptr<graph::Executor> executor_;
-    Item item_;
 };
 
 }  // namespace nearfield::passes

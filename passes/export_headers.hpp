@@ -1,15 +1,12 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -20,8 +17,6 @@ namespace nearfield::passes {
 class ExportHeaders {
 public:
     ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
-    ExportHeaders(const ExportHeaders&) = delete;
-    ExportHeaders& operator=(const ExportHeaders&) = delete;
 
     /// The push constants of one header; see the shader.
     struct Header {
@@ -38,20 +33,16 @@ public:
         /// which reads the summaries there.
         VkPipelineStageFlags readers = 0;
     };
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
-    void dispatch(VkCommandBuffer commands) const;
+    void dispatch(VkCommandBuffer commands, const Item& item) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    gpu::Owned<VkPipeline> pipeline_;
-    graph::Graph graph_;
+    ComputeShader shader_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle headers_;
-    std::unique_ptr<graph::Executor> executor_;
-    Item item_;
 };
 
 }  // namespace nearfield::passes

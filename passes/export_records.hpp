@@ -1,16 +1,13 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -20,8 +17,6 @@ namespace nearfield::passes {
 class ExportRecords {
 public:
     ExportRecords(const gpu::Device& device, const ComputeLayout& layout);
-    ExportRecords(const ExportRecords&) = delete;
-    ExportRecords& operator=(const ExportRecords&) = delete;
 
     /// The input of one query's passes.
     struct Item {
@@ -33,26 +28,22 @@ public:
         VkBuffer blocks = VK_NULL_HANDLE;
         graph::ImportedBuffer output;  ///< of summary and records
     };
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
     enum class Step : std::uint32_t { count, place, write };
 
-    void dispatch_runs(VkCommandBuffer commands, Step step) const;
-    void dispatch_place(VkCommandBuffer commands) const;
+    void dispatch_runs(VkCommandBuffer commands, const Item& item, Step step) const;
+    void dispatch_place(VkCommandBuffer commands, const Item& item) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    gpu::Owned<VkPipeline> pipeline_;
-    graph::Graph graph_;
+    ComputeShader shader_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle words_;
     graph::Handle tables_;
     graph::Handle blocks_;
     graph::Handle records_;
-    std::unique_ptr<graph::Executor> executor_;
-    Item item_;
 };
 
 }  // namespace nearfield::passes

@@ -1,8 +1,8 @@
-#include <engine/gpu/pipeline.hpp>
-#include <engine/graph/print.hpp>
 #include <passes/export_samples.hpp>
 
 #include <shaders/export_samples_comp.hpp>
+
+#include <functional>
 
 namespace nearfield::passes {
 namespace {
@@ -14,17 +14,13 @@ struct SamplesPush {
         vertices;
     float cell;
 };
-static_assert(sizeof(SamplesPush) <= ComputeLayout::push_bytes);
 
 }  // namespace
 
 // The graphs of the tile batches leave their hits readable (render::CompiledGraph), wherever they
 // are stored.
 ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& layout)
-    : device_(&device),
-      layout_(layout.pipeline_layout()),
-      pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::export_samples_comp,
-                                           "nearfield export samples")),
+    : shader_(device, layout, shaders::export_samples_comp, "nearfield export samples"),
       summaries_(graph_.import_buffer({"tile summaries"}, {Access::storage_write_in_compute, {}})),
       hits_(graph_.import_buffer({"found in cells"}, {Access::storage_read_in_compute, {}})),
       tables_(graph_.import_buffer({"tables", true, false})),
@@ -43,14 +39,14 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
             blocks = pass.write(blocks_, Access::storage_write_in_compute);
             samples = pass.write(samples_, Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { dispatch_count(commands); });
+        std::bind_front(&ExportSamples::dispatch_count, this));
     graph_.add_pass(
         "place samples", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             blocks = pass.write(blocks, Access::storage_write_in_compute);
             samples = pass.write(samples, Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { dispatch_place(commands); });
+        std::bind_front(&ExportSamples::dispatch_place, this));
     graph_.add_pass(
         "write samples", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -59,84 +55,64 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
             pass.read(blocks, Access::storage_read_in_compute);
             static_cast<void>(pass.write(samples, Access::storage_write_in_compute));
         },
-        [this](VkCommandBuffer commands) { dispatch_rows(commands, Step::write); });
-    executor_ = graph::make_executor(device, graph_);
+        [this](VkCommandBuffer commands, const Item& item) {
+            dispatch_rows(commands, item, Step::write);
+        });
+    graph_.compile(device);
 }
 
 void ExportSamples::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
-                           const Item& item) {
-    item_ = item;
-    executor_->set_buffer(summaries_, item.summaries);
-    executor_->set_buffer(blocks_, item.blocks);
-    executor_->set_buffer(samples_, item.output);
-    executor_->execute(graph_, commands, timestamps);
+                           const Item& item) const {
+    graph::Executor& executor = graph_.executor();
+    executor.set_buffer(summaries_, item.summaries);
+    executor.set_buffer(blocks_, item.blocks);
+    executor.set_buffer(samples_, item.output);
+    graph_.execute(commands, timestamps, item);
 }
 
-void ExportSamples::dispatch_count(VkCommandBuffer commands) const {
-    device_->functions().vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                           pipeline_.get());
+void ExportSamples::dispatch_count(VkCommandBuffer commands, const Item& item) const {
+    shader_.bind(commands);
     std::uint32_t first_tile = 0;
-    for (std::size_t i = 0; i < item_.runs.size(); ++i) {
-        const plan::SampleRunOutput& run = item_.runs[i];
-        bind(commands, item_.sets[2 * i]);
-        dispatch(commands, Step::box, run.table, first_tile, run.tile_count, run.tile_count);
+    for (std::size_t i = 0; i < item.runs.size(); ++i) {
+        const plan::SampleRunOutput& run = item.runs[i];
+        shader_.bind_set(commands, item.sets[2 * i]);
+        dispatch(commands, item, Step::box, run.table, first_tile, run.tile_count, run.tile_count);
         first_tile += run.tile_count;
     }
-    dispatch_rows(commands, Step::count);
+    dispatch_rows(commands, item, Step::count);
 }
 
-void ExportSamples::dispatch_place(VkCommandBuffer commands) const {
-    device_->functions().vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                           pipeline_.get());
-    bind(commands, item_.sets.back());
-    dispatch(commands, Step::place, 0, 0, item_.samples->tile_count, 1);
+void ExportSamples::dispatch_place(VkCommandBuffer commands, const Item& item) const {
+    shader_.bind(commands, item.sets.back());
+    dispatch(commands, item, Step::place, 0, 0, item.samples->tile_count, 1);
 }
 
 /// One thread per row of each tile; nothing if the samples are omitted.
-void ExportSamples::dispatch_rows(VkCommandBuffer commands, Step step) const {
-    if (item_.samples->block_count == 0) {
+void ExportSamples::dispatch_rows(VkCommandBuffer commands, const Item& item, Step step) const {
+    if (item.samples->block_count == 0) {
         return;
     }
-    device_->functions().vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                           pipeline_.get());
+    shader_.bind(commands);
     constexpr std::uint32_t words_of_tile = sizeof(plan::SampleTileData) / sizeof(std::uint32_t);
-    for (std::size_t i = 0; i < item_.runs.size(); ++i) {
-        const plan::SampleRunOutput& run = item_.runs[i];
-        bind(commands, item_.sets[2 * i + 1]);
+    for (std::size_t i = 0; i < item.runs.size(); ++i) {
+        const plan::SampleRunOutput& run = item.runs[i];
+        shader_.bind_set(commands, item.sets[2 * i + 1]);
         for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
-            dispatch(commands, step, run.table + tile * words_of_tile, 0, item_.samples->tile_count,
-                     item_.tiles[run.first_tile + tile].height);
+            dispatch(commands, item, step, run.table + tile * words_of_tile, 0,
+                     item.samples->tile_count, item.tiles[run.first_tile + tile].height);
         }
     }
 }
 
-void ExportSamples::bind(VkCommandBuffer commands, VkDescriptorSet set) const {
-    device_->functions().vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_,
-                                                 0, 1, &set, 0, nullptr);
-}
-
-void ExportSamples::dispatch(VkCommandBuffer commands, Step step, std::uint32_t table,
-                             std::uint32_t first_tile, std::uint32_t tile_count,
-                             std::uint32_t threads) const {
-    const gpu::Functions& functions = device_->functions();
-    const plan::SamplesOutput& samples = *item_.samples;
-    const SamplesPush push{static_cast<std::uint32_t>(step),
-                           table,
-                           first_tile,
-                           tile_count,
-                           samples.block_count,
-                           samples.capacity,
-                           samples.rings.first_word,
-                           samples.rings.count,
-                           samples.vertices,
-                           static_cast<float>(samples.cell)};
-    functions.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push),
-                                 &push);
-    dispatch_threads(functions, commands, threads);
-}
-
-std::string ExportSamples::print(GraphFormat format) const {
-    return graph::print(graph_, executor_->baked(), format);
+void ExportSamples::dispatch(VkCommandBuffer commands, const Item& item, Step step,
+                             std::uint32_t table, std::uint32_t first_tile,
+                             std::uint32_t tile_count, std::uint32_t threads) const {
+    const plan::SamplesOutput& samples = *item.samples;
+    shader_.push(commands, SamplesPush{static_cast<std::uint32_t>(step), table, first_tile,
+                                       tile_count, samples.block_count, samples.capacity,
+                                       samples.rings.first_word, samples.rings.count,
+                                       samples.vertices, static_cast<float>(samples.cell)});
+    shader_.dispatch_threads(commands, threads);
 }
 
 }  // namespace nearfield::passes

@@ -1,16 +1,13 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/resident_outputs.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 
@@ -21,8 +18,6 @@ namespace nearfield::passes {
 class ExportSamples {
 public:
     ExportSamples(const gpu::Device& device, const ComputeLayout& layout);
-    ExportSamples(const ExportSamples&) = delete;
-    ExportSamples& operator=(const ExportSamples&) = delete;
 
     /// The input of one query's passes.
     struct Item {
@@ -36,32 +31,27 @@ public:
         VkBuffer blocks = VK_NULL_HANDLE;
         graph::ImportedBuffer output;  ///< of summary and samples
     };
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
     enum class Step : std::uint32_t { box, count, place, write };
 
-    void dispatch_count(VkCommandBuffer commands) const;
-    void dispatch_place(VkCommandBuffer commands) const;
-    void dispatch_rows(VkCommandBuffer commands, Step step) const;
-    void bind(VkCommandBuffer commands, VkDescriptorSet set) const;
+    void dispatch_count(VkCommandBuffer commands, const Item& item) const;
+    void dispatch_place(VkCommandBuffer commands, const Item& item) const;
+    void dispatch_rows(VkCommandBuffer commands, const Item& item, Step step) const;
     /// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
-    void dispatch(VkCommandBuffer commands, Step step, std::uint32_t table,
+    void dispatch(VkCommandBuffer commands, const Item& item, Step step, std::uint32_t table,
                   std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    gpu::Owned<VkPipeline> pipeline_;
-    graph::Graph graph_;
+    ComputeShader shader_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle summaries_;
     graph::Handle hits_;
     graph::Handle tables_;
     graph::Handle blocks_;
     graph::Handle samples_;
-    std::unique_ptr<graph::Executor> executor_;
-    Item item_;
 };
 
 }  // namespace nearfield::passes

@@ -1,5 +1,6 @@
 #include <engine/gpu/pipeline.hpp>
 #include <passes/cone_mesh.hpp>
+#include <passes/drawing.hpp>
 #include <passes/feature_bit.hpp>
 #include <passes/stencil_pipelines.hpp>
 #include <passes/tile_renderer.hpp>
@@ -8,6 +9,8 @@
 #include <shaders/color_in_tile_frag.hpp>
 #include <shaders/mesh_vert.hpp>
 #include <shaders/tile_mesh_vert.hpp>
+
+#include <functional>
 
 namespace nearfield::passes {
 namespace {
@@ -20,9 +23,8 @@ constexpr VkColorComponentFlags id_bytes =
 
 }  // namespace
 
-FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-                       const RecordContext& context)
-    : device_(&device), layout_(layout), context_(&context) {
+FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
+    : device_(&device), layout_(layout) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout;
@@ -59,26 +61,16 @@ FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRen
     draw_ = gpu::make_graphics_pipeline(device, description);
 }
 
-graph::Handle FeatureBit::declare(graph::Graph& graph, graph::Handle mesh,
-                                  VkExtent2D extent) const {
-    graph::Handle image =
-        graph.create_image({"signed features", signed_feature_format, extent, number_format});
-    const graph::Handle depth =
-        graph.create_image({"distance under signed features", distance_depth_format, extent});
-    graph.add_pass(
-        "signed cone mesh", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            image = pass.write(image, graph::Access::color_attachment);
-            static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
-        },
-        [this](VkCommandBuffer commands) { record(commands); });
-    return image;
+graph::Handle FeatureBit::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    return add_drawing(graph, "signed cone mesh", {{mesh, graph::Access::vertex_buffer}},
+                       {"signed features", signed_feature_format, extent, number_format},
+                       {"distance under signed features", distance_depth_format, extent},
+                       std::bind_front(&FeatureBit::record, this));
 }
 
-void FeatureBit::record(VkCommandBuffer commands) const {
-    const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const plan::TileMeshes& meshes = context_->round->meshes;
+void FeatureBit::record(VkCommandBuffer commands, const RecordContext& context) const {
+    const TileRenderer renderer(*device_, layout_, commands, context);
+    const plan::TileMeshes& meshes = context.batch->meshes;
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::feature_bit)), 1.0F,

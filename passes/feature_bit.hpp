@@ -13,18 +13,16 @@ namespace nearfield::passes {
 /// LESS. Reads the mesh; writes the image of ids and signs in every field tile with this encoding.
 class FeatureBit {
 public:
-    FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass,
-               const RecordContext& context);
+    FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass);
 
     /// Adds the pass; returns the image, sampled as one unsigned number per texel.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
-    const RecordContext* context_;
     gpu::Owned<VkPipeline> clear_;
     gpu::Owned<VkPipeline> parity_;
     gpu::Owned<VkPipeline> draw_;

@@ -1,27 +1,21 @@
+#include <passes/drawing.hpp>
 #include <passes/fill.hpp>
 #include <passes/tile_renderer.hpp>
 
+#include <functional>
+
 namespace nearfield::passes {
 
-graph::Handle Fill::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const {
-    graph::Handle sign = graph.create_image({"sign", number_format, extent});
-    const graph::Handle stencil =
-        graph.create_image({"fill stencil", device_->stencil_format(), extent});
-    graph.add_pass(
-        "fill", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            sign = pass.write(sign, graph::Access::color_attachment);
-            static_cast<void>(pass.write(stencil, graph::Access::depth_stencil_attachment));
-        },
-        [this](VkCommandBuffer commands) { record(commands); });
-    return sign;
+graph::Handle Fill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const {
+    return add_drawing(
+        graph, "fill", {{mesh, graph::Access::vertex_buffer}}, {"sign", number_format, extent},
+        {"fill stencil", device_->stencil_format(), extent}, std::bind_front(&Fill::record, this));
 }
 
-void Fill::record(VkCommandBuffer commands) const {
+void Fill::record(VkCommandBuffer commands, const RecordContext& context) const {
     using namespace stencil_bits;
-    const TileRenderer renderer(*device_, layout_, commands, *context_);
-    const plan::TileMeshes& meshes = context_->round->meshes;
+    const TileRenderer renderer(*device_, layout_, commands, context);
+    const plan::TileMeshes& meshes = context.batch->meshes;
     const plan::DrawRange rectangles = meshes.range(plan::rectangles_of(SignEncoding::stencil));
     renderer.bind(pipelines_->clear.get());
     renderer.stencil(all, all, 0);

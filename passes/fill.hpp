@@ -12,20 +12,18 @@ namespace nearfield::passes {
 /// with a distance field of this encoding.
 class Fill {
 public:
-    Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines,
-         const RecordContext& context)
-        : device_(&device), layout_(layout), pipelines_(&pipelines), context_(&context) {}
+    Fill(const gpu::Device& device, VkPipelineLayout layout, const StencilPipelines& pipelines)
+        : device_(&device), layout_(layout), pipelines_(&pipelines) {}
 
     /// Adds the pass; returns the sign image.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent) const;
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const StencilPipelines* pipelines_;
-    const RecordContext* context_;
 };
 
 /// The bits of a texel that are set inside B.

@@ -1,4 +1,5 @@
 #include <engine/gpu/pipeline.hpp>
+#include <passes/drawing.hpp>
 #include <passes/gradient.hpp>
 #include <passes/tile_renderer.hpp>
 
@@ -6,6 +7,7 @@
 #include <shaders/tile_mesh_vert.hpp>
 
 #include <array>
+#include <functional>
 #include <limits>
 
 namespace nearfield::passes {
@@ -54,9 +56,8 @@ VkPipelineColorBlendAttachmentState blending(VkBlendFactor source, VkBlendFactor
 
 }  // namespace
 
-Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
-                   const RecordContext& context)
-    : device_(&device), context_(&context), layout_(make_layout(device, layout.set_layout())) {
+Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass)
+    : device_(&device), layout_(make_layout(device, layout.set_layout())) {
     gpu::GraphicsPipelineDescription description;
     description.render_pass = render_pass;
     description.layout = layout_.get();
@@ -73,26 +74,21 @@ Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRen
     multiply_ = gpu::make_graphics_pipeline(device, description);
 }
 
-graph::Handle Gradient::declare(graph::Graph& graph, graph::Handle mesh, graph::Handle field,
+graph::Handle Gradient::declare(TileGraph& graph, graph::Handle mesh, graph::Handle field,
                                 VkExtent2D extent) const {
-    graph::Handle image = graph.create_image({"gradient", device_->gradient_format(), extent});
-    graph.add_pass(
-        "gradient", graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            pass.read(field, graph::Access::storage_read_in_fragment);
-            image = pass.write(image, graph::Access::color_attachment);
-        },
-        [this](VkCommandBuffer commands) { record(commands); });
-    return image;
+    return add_drawing(
+        graph, "gradient",
+        {{mesh, graph::Access::vertex_buffer}, {field, graph::Access::storage_read_in_fragment}},
+        {"gradient", device_->gradient_format(), extent}, {},
+        std::bind_front(&Gradient::record, this));
 }
 
-void Gradient::record(VkCommandBuffer commands) const {
+void Gradient::record(VkCommandBuffer commands, const RecordContext& context) const {
     const gpu::Functions& functions = device_->functions();
-    const TileRenderer renderer(*device_, layout_.get(), commands, *context_);
+    const TileRenderer renderer(*device_, layout_.get(), commands, context);
     // The sets of all field passes bind the same buffer of values.
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
-                                      1, &context_->gradients, 0, nullptr);
+                                      1, &context.gradients, 0, nullptr);
     const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT
                               ? largest_half
                               : std::numeric_limits<float>::max();

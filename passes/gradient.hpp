@@ -14,18 +14,16 @@ namespace nearfield::passes {
 /// gradient image in every tile with blended gradients.
 class Gradient {
 public:
-    Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass,
-             const RecordContext& context);
+    Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass);
 
     /// Adds the pass; returns the gradient image.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, graph::Handle field,
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, graph::Handle field,
                           VkExtent2D extent) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
     const gpu::Device* device_;
-    const RecordContext* context_;
     gpu::Owned<VkPipelineLayout> layout_;
     gpu::Owned<VkPipeline> shifted_;
     gpu::Owned<VkPipeline> subtract_;

@@ -1,3 +1,4 @@
+#include <passes/drawing.hpp>
 #include <passes/intersect.hpp>
 #include <passes/tile_renderer.hpp>
 
@@ -9,30 +10,25 @@ namespace nearfield::passes {
 using plan::OverlapStep;
 using plan::Part;
 
-graph::Handle Intersect::declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent,
+graph::Handle Intersect::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent,
                                  IntersectionStrategy strategy) const {
     const StrategySteps& steps = strategies_->steps(strategy);
     const std::string name = to_string(strategy);
-    graph::Handle hits = graph.create_image({name + " hits", steps.color_format, extent});
-    const graph::Handle depth_stencil =
-        graph.create_image({name + " depth and stencil", device_->stencil_format(), extent});
-    graph.add_pass(
-        steps.pass_name, graph::PassKind::graphics,
-        [&](graph::PassBuilder& pass) {
-            pass.read(mesh, graph::Access::vertex_buffer);
-            hits = pass.write(hits, graph::Access::color_attachment);
-            static_cast<void>(pass.write(depth_stencil, graph::Access::depth_stencil_attachment));
-        },
-        [this, strategy](VkCommandBuffer commands) { record(commands, strategy); });
-    return hits;
+    return add_drawing(graph, steps.pass_name, {{mesh, graph::Access::vertex_buffer}},
+                       {name + " hits", steps.color_format, extent},
+                       {name + " depth and stencil", device_->stencil_format(), extent},
+                       [this, strategy](VkCommandBuffer commands, const RecordContext& context) {
+                           record(commands, context, strategy);
+                       });
 }
 
-void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) const {
+void Intersect::record(VkCommandBuffer commands, const RecordContext& context,
+                       IntersectionStrategy strategy) const {
     using namespace stencil_bits;
     const StrategySteps& steps = strategies_->steps(strategy);
-    const TileRenderer renderer(*device_, layout_, commands, *context_);
+    const TileRenderer renderer(*device_, layout_, commands, context);
     const auto range = [&](OverlapStep step) {
-        return context_->round->meshes.range(plan::overlaps_of(strategy, step));
+        return context.batch->meshes.range(plan::overlaps_of(strategy, step));
     };
 
     renderer.bind(steps.clear);
@@ -63,7 +59,7 @@ void Intersect::record(VkCommandBuffer commands, IntersectionStrategy strategy) 
     take(Part::boundary, parity_a, steps.count_b);
     renderer.draw(range(OverlapStep::boundary_a), steps.depth_a, steps.value_a);
 
-    const std::vector<plan::WatchedTile>& watched = context_->round->watched;
+    const std::vector<plan::WatchedTile>& watched = context.batch->watched;
     const std::uint32_t first = range(OverlapStep::watched_a).first;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {

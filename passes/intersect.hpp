@@ -16,28 +16,23 @@ namespace nearfield::passes {
 class Intersect {
 public:
     Intersect(const gpu::Device& device, VkPipelineLayout layout,
-              const IntersectionStrategies& strategies, const EarlyOut& early_out,
-              const RecordContext& context)
-        : device_(&device),
-          layout_(layout),
-          strategies_(&strategies),
-          early_out_(&early_out),
-          context_(&context) {}
+              const IntersectionStrategies& strategies, const EarlyOut& early_out)
+        : device_(&device), layout_(layout), strategies_(&strategies), early_out_(&early_out) {}
 
     /// Adds the pass that draws every overlap tile of one strategy. Reads the mesh; returns the hit
     /// image: a colour in the low byte (plan::white: an intersection) and, if A takes part by its
     /// boundary, the number of the run of A's edges nearby (plan::TileBatch::runs) above it.
-    graph::Handle declare(graph::Graph& graph, graph::Handle mesh, VkExtent2D extent,
+    graph::Handle declare(TileGraph& graph, graph::Handle mesh, VkExtent2D extent,
                           IntersectionStrategy strategy) const;
 
 private:
-    void record(VkCommandBuffer commands, IntersectionStrategy strategy) const;
+    void record(VkCommandBuffer commands, const RecordContext& context,
+                IntersectionStrategy strategy) const;
 
     const gpu::Device* device_;
     VkPipelineLayout layout_;
     const IntersectionStrategies* strategies_;
     const EarlyOut* early_out_;
-    const RecordContext* context_;
 };
 
 }  // namespace nearfield::passes

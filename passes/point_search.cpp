@@ -1,5 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
-#include <engine/graph/print.hpp>
 #include <engine/plan/point_search.hpp>
 #include <passes/point_search.hpp>
 
@@ -8,6 +6,8 @@
 #include <shaders/search_pack_comp.hpp>
 #include <shaders/search_points_comp.hpp>
 #include <shaders/search_scan_comp.hpp>
+
+#include <functional>
 
 namespace nearfield::passes {
 namespace {
@@ -19,7 +19,6 @@ struct SearchPush {
     std::uint32_t item_blocks, edge_blocks, point_blocks, item_words;
     std::uint32_t edge_units, point_units, stage, capacity;
 };
-static_assert(sizeof(SearchPush) <= ComputeLayout::push_bytes);
 
 // Of the arguments of one stage: three numbers of workgroups, and the number of elements.
 constexpr VkDeviceSize argument_bytes = 4 * sizeof(std::uint32_t);
@@ -35,24 +34,20 @@ VkBool32 reads_texels(const gpu::Device& device) {
 }  // namespace
 
 PointSearch::PointSearch(const gpu::Device& device, const ComputeLayout& layout)
-    : device_(&device),
-      layout_(layout.pipeline_layout()),
-      items_(gpu::make_compute_pipeline(device, layout_, shaders::search_items_comp,
-                                        "nearfield search items", reads_texels(device))),
-      scan_(gpu::make_compute_pipeline(device, layout_, shaders::search_scan_comp,
-                                       "nearfield search scan")),
-      edges_(gpu::make_compute_pipeline(device, layout_, shaders::search_edges_comp,
-                                        "nearfield search edges", reads_texels(device))),
-      points_(gpu::make_compute_pipeline(device, layout_, shaders::search_points_comp,
-                                         "nearfield search points", reads_texels(device))),
-      pack_(gpu::make_compute_pipeline(device, layout_, shaders::search_pack_comp,
-                                       "nearfield pack points")),
+    : items_(device, layout, shaders::search_items_comp, "nearfield search items",
+             reads_texels(device)),
+      scan_(device, layout, shaders::search_scan_comp, "nearfield search scan"),
+      edges_(device, layout, shaders::search_edges_comp, "nearfield search edges",
+             reads_texels(device)),
+      points_(device, layout, shaders::search_points_comp, "nearfield search points",
+              reads_texels(device)),
+      pack_(device, layout, shaders::search_pack_comp, "nearfield pack points"),
       input_(graph_.import_buffer({"search input", true, false})),
       scratch_(graph_.import_buffer({"search scratch"})),
       arguments_(graph_.import_buffer({"search arguments", true, true})),
       records_(graph_.import_buffer({"found points", false, true})) {
     declare();
-    executor_ = graph::make_executor(device, graph_);
+    graph_.compile(device);
 }
 
 void PointSearch::declare() {
@@ -65,9 +60,11 @@ void PointSearch::declare() {
                 scratch = pass.write(scratch, Access::storage_write_in_compute);
                 arguments = pass.write(arguments, Access::storage_write_in_compute);
             },
-            [this, stage](VkCommandBuffer commands) { dispatch_scan(commands, stage); });
+            [this, stage](VkCommandBuffer commands, const Item& item) {
+                dispatch_scan(commands, item, stage);
+            });
     };
-    const auto search = [&](const char* name, const gpu::Owned<VkPipeline>& pipeline, Stage of) {
+    const auto search = [&](const char* name, const ComputeShader& shader, Stage of) {
         graph_.add_pass(
             name, graph::PassKind::compute,
             [&](graph::PassBuilder& pass) {
@@ -75,7 +72,9 @@ void PointSearch::declare() {
                 pass.read(arguments, Access::indirect_arguments);
                 scratch = pass.write(scratch, Access::storage_write_in_compute);
             },
-            [this, &pipeline, of](VkCommandBuffer commands) { dispatch(commands, pipeline, of); });
+            [this, &shader, of](VkCommandBuffer commands, const Item& item) {
+                dispatch(commands, item, shader, of);
+            });
     };
     graph_.add_pass(
         "search items", graph::PassKind::compute,
@@ -83,7 +82,7 @@ void PointSearch::declare() {
             pass.read(input_, Access::storage_read_in_compute);
             scratch = pass.write(scratch, Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { dispatch_items(commands); });
+        std::bind_front(&PointSearch::dispatch_items, this));
     scan("count edges", Stage::edges);
     search("search edges", edges_, Stage::edges);
     scan("count points", Stage::points);
@@ -96,65 +95,50 @@ void PointSearch::declare() {
             pass.read(scratch, Access::storage_read_in_compute);
             static_cast<void>(pass.write(records_, Access::storage_write_in_compute));
         },
-        [this](VkCommandBuffer commands) { dispatch(commands, pack_, Stage::points); });
+        [this](VkCommandBuffer commands, const Item& item) {
+            dispatch(commands, item, pack_, Stage::points);
+        });
 }
 
-void PointSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) {
-    item_ = item;
-    executor_->set_buffer(input_, item.input);
-    executor_->set_buffer(scratch_, item.scratch);
-    executor_->set_buffer(arguments_, item.arguments);
-    executor_->set_buffer(records_, item.records);
-    executor_->execute(graph_, commands, timestamps);
+void PointSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                         const Item& item) const {
+    graph::Executor& executor = graph_.executor();
+    executor.set_buffer(input_, item.input);
+    executor.set_buffer(scratch_, item.scratch);
+    executor.set_buffer(arguments_, item.arguments);
+    executor.set_buffer(records_, item.records);
+    graph_.execute(commands, timestamps, item);
 }
 
-void PointSearch::bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const {
-    const gpu::Functions& functions = device_->functions();
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1,
-                                      &item_.set, 0, nullptr);
+void PointSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                       std::uint32_t first, Stage stage) {
+    const SearchLayout& layout = item.layout;
+    shader.push(commands, SearchPush{first, item.items, item.first_direction, item.directions,
+                                     layout.item_blocks, layout.edge_blocks, layout.point_blocks,
+                                     layout.item_words, layout.edge_units, layout.point_units,
+                                     static_cast<std::uint32_t>(stage),
+                                     layout.capacities[static_cast<std::size_t>(stage)]});
 }
 
-void PointSearch::push(VkCommandBuffer commands, std::uint32_t first, Stage stage) const {
-    const SearchLayout& layout = item_.layout;
-    const SearchPush push{first,
-                          item_.items,
-                          item_.first_direction,
-                          item_.directions,
-                          layout.item_blocks,
-                          layout.edge_blocks,
-                          layout.point_blocks,
-                          layout.item_words,
-                          layout.edge_units,
-                          layout.point_units,
-                          static_cast<std::uint32_t>(stage),
-                          layout.capacities[static_cast<std::size_t>(stage)]};
-    device_->functions().vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                            sizeof(push), &push);
+void PointSearch::dispatch_items(VkCommandBuffer commands, const Item& item) const {
+    items_.bind(commands, item.set);
+    items_.dispatch_in_parts(commands, 0, item.items, [&](std::uint32_t first) {
+        push(commands, item, items_, first, Stage::edges);
+    });
 }
 
-void PointSearch::dispatch_items(VkCommandBuffer commands) const {
-    bind(commands, items_);
-    dispatch_points(device_->functions(), commands, 0, item_.items,
-                    [&](std::uint32_t first) { push(commands, first, Stage::edges); });
+void PointSearch::dispatch_scan(VkCommandBuffer commands, const Item& item, Stage stage) const {
+    scan_.bind(commands, item.set);
+    push(commands, item, scan_, 0, stage);
+    scan_.dispatch(commands, 1);
 }
 
-void PointSearch::dispatch_scan(VkCommandBuffer commands, Stage stage) const {
-    bind(commands, scan_);
-    push(commands, 0, stage);
-    device_->functions().vkCmdDispatch(commands, 1, 1, 1);
-}
-
-void PointSearch::dispatch(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
+void PointSearch::dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                            Stage arguments) const {
-    bind(commands, pipeline);
-    push(commands, 0, Stage::records);
-    device_->functions().vkCmdDispatchIndirect(
-        commands, item_.arguments, argument_bytes * static_cast<VkDeviceSize>(arguments));
-}
-
-std::string PointSearch::print(GraphFormat format) const {
-    return graph::print(graph_, executor_->baked(), format);
+    shader.bind(commands, item.set);
+    push(commands, item, shader, 0, Stage::records);
+    shader.dispatch_indirect(commands, item.arguments,
+                             argument_bytes * static_cast<VkDeviceSize>(arguments));
 }
 
 }  // namespace nearfield::passes

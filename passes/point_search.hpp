@@ -1,16 +1,13 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
+#include <engine/graph/recorded_graph.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <string>
 
 namespace nearfield::passes {
@@ -31,8 +28,6 @@ struct SearchLayout {
 class PointSearch {
 public:
     PointSearch(const gpu::Device& device, const ComputeLayout& layout);
-    PointSearch(const PointSearch&) = delete;
-    PointSearch& operator=(const PointSearch&) = delete;
 
     /// What one search is recorded from.
     struct Item {
@@ -46,37 +41,33 @@ public:
         std::uint32_t first_direction = 0;  ///< unit of the input
         std::uint32_t directions = 0;
     };
-    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item);
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
     static constexpr std::uint32_t pass_count = 7;
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
     enum class Stage : std::uint32_t { edges, points, records };
 
     void declare();
-    void push(VkCommandBuffer commands, std::uint32_t first, Stage stage) const;
-    void bind(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline) const;
-    void dispatch_items(VkCommandBuffer commands) const;
-    void dispatch_scan(VkCommandBuffer commands, Stage stage) const;
-    void dispatch(VkCommandBuffer commands, const gpu::Owned<VkPipeline>& pipeline,
+    static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                     std::uint32_t first, Stage stage);
+    void dispatch_items(VkCommandBuffer commands, const Item& item) const;
+    void dispatch_scan(VkCommandBuffer commands, const Item& item, Stage stage) const;
+    void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                   Stage arguments) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    gpu::Owned<VkPipeline> items_;
-    gpu::Owned<VkPipeline> scan_;
-    gpu::Owned<VkPipeline> edges_;
-    gpu::Owned<VkPipeline> points_;
-    gpu::Owned<VkPipeline> pack_;
-    graph::Graph graph_;
+    ComputeShader items_;
+    ComputeShader scan_;
+    ComputeShader edges_;
+    ComputeShader points_;
+    ComputeShader pack_;
+    graph::RecordedGraph<Item> graph_;
     graph::Handle input_;
     graph::Handle scratch_;
     graph::Handle arguments_;
     graph::Handle records_;
-    std::unique_ptr<graph::Executor> executor_;
-    Item item_;
 };
 
 }  // namespace nearfield::passes

@@ -17,8 +17,7 @@ gpu::Owned<VkRenderPass> make_prototype(const gpu::Device& device, VkFormat colo
                     graph.create_image({"prototype depth", depth_stencil, {1, 1}});
                 static_cast<void>(pass.write(depth, graph::Access::depth_stencil_attachment));
             }
-        },
-        [](VkCommandBuffer) {});
+        });
     const Expected<graph::BakedGraph> baked = graph::bake(graph);
     if (!baked) {
         throw StatusException(baked.error());

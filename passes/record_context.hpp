@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/graph/recorded_graph.hpp>
 #include <engine/plan/tile_batch.hpp>
 
 #include <vulkan/vulkan_core.h>
@@ -10,10 +11,9 @@
 
 namespace nearfield::passes {
 
-/// The input that all passes record from. One object lives as long as the passes; its contents
-/// change from tile batch to tile batch while commands are recorded.
+/// The input that the passes of a tile batch are recorded from.
 struct RecordContext {
-    const plan::TileBatch* round = nullptr;
+    const plan::TileBatch* batch = nullptr;
     VkBuffer mesh = VK_NULL_HANDLE;
     VkDeviceSize mesh_offset = 0;             ///< of the tile batch's vertices of meshes, in bytes
     VkDeviceSize tile_mesh_offset = 0;        ///< of its vertices with the rectangle of their tile
@@ -32,6 +32,13 @@ struct RecordContext {
     VkBuffer read_back = VK_NULL_HANDLE;
     VkDeviceSize summaries_offset = 0;  ///< offset of the summaries in the read-back, in bytes
     std::uint32_t sample_capacity = 0;  ///< space in the read-back, in samples
+
+    [[nodiscard]] VkDescriptorSet field_set(SignEncoding encoding) const {
+        return field[static_cast<std::size_t>(encoding)];
+    }
 };
+
+/// The graph of a tile batch.
+using TileGraph = graph::RecordedGraph<RecordContext>;
 
 }  // namespace nearfield::passes

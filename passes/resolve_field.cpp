@@ -1,4 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
 #include <passes/color_fill.hpp>
 #include <passes/feature_bit.hpp>
 #include <passes/fill.hpp>
@@ -7,6 +6,7 @@
 #include <shaders/resolve_field_comp.hpp>
 
 #include <algorithm>
+#include <functional>
 
 namespace nearfield::passes {
 
@@ -36,22 +36,10 @@ std::uint32_t sign_mask(SignEncoding encoding) {
     return filled_mask;
 }
 
-void bind_field_set(const gpu::Functions& functions, VkCommandBuffer commands,
-                    VkPipelineLayout layout, const RecordContext& context, SignEncoding encoding) {
-    functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
-                                      &context.field[static_cast<std::size_t>(encoding)], 0,
-                                      nullptr);
-}
+ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layout)
+    : shader_(device, layout, shaders::resolve_field_comp, "nearfield resolve field") {}
 
-ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layout,
-                           const RecordContext& context)
-    : device_(&device),
-      layout_(layout.pipeline_layout()),
-      context_(&context),
-      pipeline_(gpu::make_compute_pipeline(device, layout_, shaders::resolve_field_comp,
-                                           "nearfield resolve field")) {}
-
-graph::Handle ResolveField::declare(graph::Graph& graph, graph::Handle input,
+graph::Handle ResolveField::declare(TileGraph& graph, graph::Handle input,
                                     const FieldImages& images, graph::Handle field) const {
     graph.add_pass(
         "resolve field", graph::PassKind::compute,
@@ -60,27 +48,19 @@ graph::Handle ResolveField::declare(graph::Graph& graph, graph::Handle input,
             images.declare_reads(pass);
             field = pass.write(field, graph::Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands) { record(commands); });
+        std::bind_front(&ResolveField::record, this));
     return field;
 }
 
-void ResolveField::record(VkCommandBuffer commands) const {
-    const gpu::Functions& functions = device_->functions();
-    functions.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+void ResolveField::record(VkCommandBuffer commands, const RecordContext& context) const {
+    shader_.bind(commands);
     for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         const auto sign = static_cast<SignEncoding>(encoding);
-        if (context_->round->groups[plan::group_list(sign)].empty()) {
-            continue;
+        if (!context.batch->groups[plan::group_list(sign)].empty()) {
+            shader_.bind_set(commands, context.field_set(sign));
+            shader_.dispatch_groups(commands, *context.batch, plan::group_list(sign),
+                                    sign_mask(sign), context.batch->resident ? 1U : 0U);
         }
-        bind_field_set(functions, commands, layout_, *context_, sign);
-        dispatch_groups(functions, commands, *context_->round, plan::group_list(sign),
-                        [&](std::uint32_t first) {
-                            const std::uint32_t push[3] = {first, sign_mask(sign),
-                                                           context_->round->resident ? 1U : 0U};
-                            functions.vkCmdPushConstants(commands, layout_,
-                                                         VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                                         sizeof(push), push);
-                        });
     }
 }
 

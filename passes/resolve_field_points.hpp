@@ -1,9 +1,8 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 #include <passes/record_context.hpp>
 #include <passes/resolve_field.hpp>
 
@@ -14,20 +13,16 @@ namespace nearfield::passes {
 /// edge lists and points; writes a few words per point (plan::FieldParts).
 class ResolveFieldPoints {
 public:
-    ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout,
-                       const RecordContext& context);
+    ResolveFieldPoints(const gpu::Device& device, const ComputeLayout& layout);
 
     /// Adds the pass; returns the new version of `field`.
-    [[nodiscard]] graph::Handle declare(graph::Graph& graph, graph::Handle input,
+    [[nodiscard]] graph::Handle declare(TileGraph& graph, graph::Handle input,
                                         const FieldImages& images, graph::Handle field) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    const RecordContext* context_;
-    gpu::Owned<VkPipeline> pipeline_;
+    ComputeShader shader_;
 };
 
 }  // namespace nearfield::passes

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <engine/gpu/device.hpp>
-#include <engine/gpu/owned.hpp>
 #include <engine/graph/graph.hpp>
-#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
 #include <passes/record_context.hpp>
 
 namespace nearfield::passes {
@@ -19,22 +18,18 @@ public:
         images,  ///< the feature and sign images (the raster technique)
         lists,   ///< the edge lists alone (the compute technique)
     };
-    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout,
-                  const RecordContext& context, Source source);
+    ResolvePoints(const gpu::Device& device, const ComputeLayout& layout, Source source);
 
     /// Adds the pass. The caller provides the buffers and images in the descriptor set of the
     /// record context. Without images, leave out the last two parameters.
-    void declare(graph::Graph& graph, graph::Handle input, graph::Handle results,
+    void declare(TileGraph& graph, graph::Handle input, graph::Handle results,
                  graph::Handle features = {}, graph::Handle sign = {}) const;
 
 private:
-    void record(VkCommandBuffer commands) const;
+    void record(VkCommandBuffer commands, const RecordContext& context) const;
 
-    const gpu::Device* device_;
-    VkPipelineLayout layout_;
-    const RecordContext* context_;
     Source source_;
-    gpu::Owned<VkPipeline> pipeline_;
+    ComputeShader shader_;
 };
 
 }  // namespace nearfield::passes

@@ -10,11 +10,6 @@
 namespace nearfield::batch {
 namespace {
 
-std::span<const Vector2> points_of(const AnyQuery& query) {
-    const auto* const field = std::get_if<DistanceFieldQuery>(&query);
-    return field == nullptr ? std::span<const Vector2>() : field->points;
-}
-
 /// Index of a query's entry among those that stay on the device.
 template <class Output>
 std::size_t place_of(const std::vector<Output>& all, std::uint32_t query) {
@@ -30,27 +25,6 @@ BatchRunner::BatchRunner(Planning& planning, render::Renderer* renderer)
       renderer_(renderer),
       slot_(renderer == nullptr ? nullptr : renderer->make_resources()),
       decoder_(renderer == nullptr ? "" : renderer->gradient_format(), planning.answers) {}
-
-void BatchRunner::copy(std::span<const AnyQuery> queries) {
-    queries_.clear();
-    std::size_t count = 0;
-    for (const AnyQuery& query : queries) {
-        count += points_of(queries_.emplace_back(query)).size();
-    }
-    points_.resize(count);
-    if (count == 0) {
-        return;
-    }
-    std::size_t next = 0;
-    for (AnyQuery& query : queries_) {
-        if (auto* const field = std::get_if<DistanceFieldQuery>(&query)) {
-            const std::span copied = std::span(points_).subspan(next, field->points.size());
-            std::copy(field->points.begin(), field->points.end(), copied.begin());
-            field->points = copied;
-            next += copied.size();
-        }
-    }
-}
 
 void BatchRunner::begin_timings(std::size_t queries) {
     Timings& timings = results_.timings;
@@ -120,7 +94,7 @@ void BatchRunner::begin(std::span<const AnyQuery> queries, const plan::FindShape
     Timings& timings = results_.timings;
     const Stopwatch start;
     begin_timings(queries.size());
-    copy(queries);
+    queries_.assign(queries.begin(), queries.end());
     if (submissions == plan::Submissions::one) {
         keep_off_the_device();
     }
@@ -266,7 +240,7 @@ void BatchRunner::read_back() {
         wait();
         const Stopwatch start;
         for (const std::uint32_t number : slot_->running()) {
-            if (slot_->round(number).had_room()) {
+            if (slot_->tile_batch(number).had_room()) {
                 checkpoint();
                 decode(number);
             }
@@ -347,12 +321,12 @@ void BatchRunner::time_device() {
 }
 
 void BatchRunner::decode(std::uint32_t number) {
-    const plan::TileBatch& round = tile_batches_[number];
+    const plan::TileBatch& batch = tile_batches_[number];
     std::vector<AnyResult>& results = results_.results;
-    decoder_.add_points(round, slot_->points(number));
-    decoder_.add_field(plan_, round, slot_->field_words(number), results);
-    results::ResultDecoder::add_summaries(plan_, round, slot_->summaries(number), results);
-    decoder_.add_samples(plan_, round, slot_->samples(number));
+    decoder_.add_points(batch, slot_->points(number));
+    decoder_.add_field(plan_, batch, slot_->field_words(number), results);
+    results::ResultDecoder::add_summaries(plan_, batch, slot_->summaries(number), results);
+    decoder_.add_samples(plan_, batch, slot_->samples(number));
 }
 
 }  // namespace nearfield::batch

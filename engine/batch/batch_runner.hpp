@@ -105,7 +105,6 @@ private:
     void keep_off_the_device();
     [[nodiscard]] bool has_device_work() const;
     void answer_on_cpu();
-    void copy(std::span<const AnyQuery> queries);
     void begin_timings(std::size_t queries);
     void time_device();
     [[nodiscard]] std::optional<std::size_t> only_query_on_device() const;
@@ -121,8 +120,8 @@ private:
     Planning* planning_;
     render::Renderer* renderer_;
     std::unique_ptr<render::BatchResources> slot_;  // null without a renderer
+    // Points of fields are read while the batch is planned; later they may be gone.
     std::vector<AnyQuery> queries_;
-    std::vector<Vector2> points_;            // of the queries
     std::vector<plan::QueryShapes> shapes_;  // by query
     plan::Plan plan_;
     std::vector<plan::TileBatch> tile_batches_;  // the first Plan::tile_batches of them

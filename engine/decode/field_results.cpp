@@ -47,25 +47,25 @@ float FieldDecoder::in_world(std::uint32_t word, const Tile& tile) {
     return value;
 }
 
-void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& round,
+void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& batch,
                        std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
-    for (const plan::TileDraw& draw : round.distance_draws) {
+    for (const plan::TileDraw& draw : batch.distance_draws) {
         checkpoint();
         if (draw.field) {
-            const Tile& tile = plan.tiles[round.tile_index[draw.tile]];
+            const Tile& tile = plan.tiles[batch.tile_index[draw.tile]];
             const plan::QueryTimer timer(plan.times, tile.query, &QueryTime::answer);
             add_tile(plan.queries[tile.query], tile, draw, words,
                      std::get<DistanceFieldResult>(results[tile.query]));
         }
     }
-    for (const plan::FieldPointRun& run : round.field_point_runs) {
+    for (const plan::FieldPointRun& run : batch.field_point_runs) {
         const plan::PlannedQuery& planned = plan.queries[run.query];
         auto& result = std::get<DistanceFieldResult>(results[run.query]);
         const plan::QueryTimer timer(plan.times, run.query, &QueryTime::answer);
         SparseCheckpoint<256> checkpoint;
         for (std::uint32_t i = 0; i < run.count; ++i) {
             checkpoint.step();
-            const std::uint32_t index = round.field_point_index[run.first + i];
+            const std::uint32_t index = batch.field_point_index[run.first + i];
             const plan::PlannedFieldPoint& point = plan.field_points[index];
             const std::uint32_t count = run.parts.words_per_point;
             add_point(planned, plan.tiles[point.tile], point,

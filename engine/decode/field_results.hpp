@@ -21,7 +21,7 @@ public:
     void begin_batch(const plan::Plan& plan) { largest_.assign(plan.queries.size(), 0.0F); }
 
     /// Decodes the read-back of one tile batch.
-    void add(const plan::Plan& plan, const plan::TileBatch& round,
+    void add(const plan::Plan& plan, const plan::TileBatch& batch,
              std::span<const std::uint32_t> words, std::vector<AnyResult>& results);
 
     /// Sets the largest magnitude of a value of a query that the CPU answered, in world units.

@@ -342,8 +342,8 @@ void Executor::record_barriers(const Graph& graph, VkCommandBuffer commands,
         static_cast<std::uint32_t>(call.images.size()), call.images.data());
 }
 
-void Executor::execute(const Graph& graph, VkCommandBuffer commands,
-                       gpu::Timestamps& timestamps) const {
+void Executor::execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                       const std::function<void(std::size_t, VkCommandBuffer)>& record) const {
     for (std::size_t position = 0; position < baked_.passes.size(); ++position) {
         const BakedPass& baked = baked_.passes[position];
         const Pass& pass = graph.passes()[baked.pass];
@@ -357,10 +357,10 @@ void Executor::execute(const Graph& graph, VkCommandBuffer commands,
             info.framebuffer = graphics_[position].framebuffer.get();
             info.renderArea.extent = baked.extent;
             device_->functions().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-            pass.record(commands);
+            record(baked.pass, commands);
             device_->functions().vkCmdEndRenderPass(commands);
         } else {
-            pass.record(commands);
+            record(baked.pass, commands);
         }
         timestamps.end(commands);
         device_->end_label(commands);

@@ -7,7 +7,9 @@
 #include <engine/graph/bake.hpp>
 #include <engine/graph/graph.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -67,9 +69,12 @@ public:
     /// Bytes of device memory of the transient images.
     [[nodiscard]] std::uint64_t image_bytes() const { return image_bytes_; }
 
-    /// Records all passes, each labelled with its name and timed. Executions that share these
-    /// images may be in progress at the same time on one queue; their buffers must differ.
-    void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps) const;
+    /// Records all passes, each labelled with its name and timed: `record` is called for what is
+    /// between a pass's barriers and its end, with the pass's position in Graph::passes().
+    /// Executions that share these images may be in progress at the same time on one queue; their
+    /// buffers must differ.
+    void execute(const Graph& graph, VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                 const std::function<void(std::size_t, VkCommandBuffer)>& record) const;
 
     [[nodiscard]] const BakedGraph& baked() const { return baked_; }
 

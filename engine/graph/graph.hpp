@@ -3,8 +3,8 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
-#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,15 +80,16 @@ struct Use {
     bool write = false;
 };
 
-/// Records a pass's commands. The graph has already recorded the barriers, the start of the render
-/// pass (for a graphics pass), the label and the first timestamp.
-using Record = std::function<void(VkCommandBuffer)>;
-
 struct Pass {
     std::string name;
     PassKind kind{};
     std::vector<Use> uses;
-    Record record;
+};
+
+/// What a pass reads, and how.
+struct Read {
+    Handle handle;
+    Access access{};
 };
 
 /// Declares, inside add_pass, the reads and writes of a pass.
@@ -97,6 +98,8 @@ public:
     explicit PassBuilder(Pass& pass) : pass_(pass) {}
 
     void read(Handle handle, Access access);
+    /// Reads all whose handle is not null.
+    void read(std::span<const Read> reads);
     /// Returns the handle of the new version. The former content is kept if the version is above 0
     /// (or the host wrote it); a version 0 is undefined to the pass, which has to initialise the
     /// parts it uses.
@@ -126,13 +129,12 @@ public:
     Handle import_buffer(BufferDescription description, ExternalAccess outside = {});
     Handle import_image(ImportedImageDescription description, ExternalAccess outside);
 
-    /// Calls `setup` at once with a PassBuilder, and `record` whenever the graph is executed.
+    /// Calls `setup` at once with a PassBuilder.
     template <class Setup>
-    void add_pass(std::string name, PassKind kind, Setup&& setup, Record record) {
+    void add_pass(std::string name, PassKind kind, Setup&& setup) {
         Pass& pass = passes_.emplace_back();
         pass.name = std::move(name);
         pass.kind = kind;
-        pass.record = std::move(record);
         PassBuilder builder(pass);
         setup(builder);
     }

@@ -6,6 +6,11 @@
 
 namespace nearfield::plan {
 
+void AtlasPacker::clear() {
+    tile_batches_ = 0;
+    extent_ = {};
+}
+
 void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlace>& places) {
     places.resize(tiles.size());
     order_.resize(tiles.size());
@@ -26,8 +31,7 @@ void AtlasPacker::pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlac
         std::min(std::ceil(std::sqrt(cells) * 1.1), static_cast<double>(largest_side_));
     const std::uint32_t shelf_width = std::max(widest, static_cast<std::uint32_t>(side));
 
-    tile_batches_ = tiles.empty() ? 0 : 1;
-    extent_ = {};
+    tile_batches_ += tiles.empty() ? 0U : 1U;
     std::uint32_t x = 0;
     std::uint32_t y = 0;
     std::uint32_t shelf_height = 0;

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t atlas_gap = 4;
 
 /// A tile's position: its tile batch, and its low corner in the atlas image.
 struct AtlasPlace {
-    std::uint32_t round = 0;
+    std::uint32_t tile_batch = 0;
     std::uint32_t x = 0;
     std::uint32_t y = 0;
 };
@@ -33,7 +33,10 @@ public:
     /// whose sides are half of it as without gaps.
     explicit AtlasPacker(std::uint32_t largest_side) : largest_side_(largest_side + atlas_gap) {}
 
-    /// Places each tile. Precondition: no side of a tile exceeds the largest side.
+    /// Forgets what was packed.
+    void clear();
+    /// Places each tile, in tile batches after those of earlier calls. Precondition: no side of a
+    /// tile exceeds the largest side.
     void pack(const std::vector<TileSize>& tiles, std::vector<AtlasPlace>& places);
 
     [[nodiscard]] std::uint32_t tile_batches() const { return tile_batches_; }

@@ -72,17 +72,17 @@ void for_blocks(const Tile& tile, Visit&& visit) {
 }  // namespace
 
 EdgeListData ComputeBuilder::add_crossing(const TileBoundary& boundary, const Tile& tile,
-                                          double slack, TileBatch& round) {
+                                          double slack, TileBatch& batch) {
     crossing_.clear();
     crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
-    return round.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
+    return batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
 }
 
 void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
-                                     SimplifiedShapes& shapes, TileData& data, TileBatch& round) {
+                                     SimplifiedShapes& shapes, TileData& data, TileBatch& batch) {
     const TileBoundary boundary = boundary_of(query, tile, shapes);
     const double simplification = query.budget.simplification / tile.grid.cell;
-    round.lists.begin_tile(boundary);
+    batch.lists.begin_tile(boundary);
     finder_.find(boundary, tile.needed, simplification + margin_in_cells, nearest_);
     nearest_list_.clear();
     double largest_reach = 0.0;
@@ -90,9 +90,9 @@ void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
         nearest_list_.push_back(nearest.edge);
         largest_reach = std::max(largest_reach, nearest.reach());
     }
-    data.nearest = round.lists.write(nearest_list_,
+    data.nearest = batch.lists.write(nearest_list_,
                                      std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
-    data.crossing = add_crossing(boundary, tile, simplification, round);
+    data.crossing = add_crossing(boundary, tile, simplification, batch);
     data.margin = static_cast<float>(margin_in_cells);
     data.outside = query.outside ? 1 : 0;
 }
@@ -115,8 +115,8 @@ void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork&
 
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
                                     const TileDraw& draw, SimplifiedShapes& shapes,
-                                    TileBatch& round) {
-    ComputeWork& work = round.compute;
+                                    TileBatch& batch) {
+    ComputeWork& work = batch.compute;
     const TileBoundary boundary = boundary_of(query, tile, shapes);
     crossing_.clear();
     crossing_edges(boundary, tile.width, tile.height, query.budget.simplification / tile.grid.cell,
@@ -127,7 +127,7 @@ void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
         add_blocks(boundary, tile, work.masks[mask], draw.first_value, work);
     }
     if (query.field.features || query.field_point_count > 0) {
-        add_feature_blocks(query, boundary, tile, work.masks[mask], draw.first_feature, round);
+        add_feature_blocks(query, boundary, tile, work.masks[mask], draw.first_feature, batch);
     }
 }
 
@@ -153,16 +153,16 @@ void ComputeBuilder::add_blocks(const TileBoundary& boundary, const Tile& tile,
 
 void ComputeBuilder::add_feature_blocks(const PlannedQuery& query, const TileBoundary& boundary,
                                         const Tile& tile, const MaskData& mask,
-                                        std::uint32_t first_feature, TileBatch& round) {
-    ComputeWork& work = round.compute;
+                                        std::uint32_t first_feature, TileBatch& batch) {
+    ComputeWork& work = batch.compute;
     const double simplification = query.budget.simplification / tile.grid.cell;
     block_edges_.find(
         boundary, tile.width, tile.height,
         simplification + margin_in_cells + (query.field_point_count > 0 ? points_reach : 0.0));
     work.features = work.features || first_feature != not_asked;
-    round.lists.begin_tile(boundary);
+    batch.lists.begin_tile(boundary);
     TileData data;
-    data.crossing = round.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
+    data.crossing = batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
     data.tile_width = tile.width;
     data.mask = mask.first_word;
     data.first_feature = first_feature;
@@ -178,7 +178,7 @@ void ComputeBuilder::add_feature_blocks(const PlannedQuery& query, const TileBou
         data.height = place.height;
         nearest_list_.clear();
         block_edges_.append(index++, nearest_list_);
-        data.nearest = round.lists.write(nearest_list_, extent);
+        data.nearest = batch.lists.write(nearest_list_, extent);
         work.feature_blocks.push_back(data);
     });
 }
@@ -198,8 +198,8 @@ void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_block
 }
 
 void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
-                                  std::uint32_t overlap, bool of_a, TileBatch& round) const {
-    ComputeWork& work = round.compute;
+                                  std::uint32_t overlap, bool of_a, TileBatch& batch) const {
+    ComputeWork& work = batch.compute;
     // Offset polygons reach a little farther than the offset.
     const double reach = tile.centre().norm() + 2.0 * offset + 2.0;
     SparseCheckpoint<64> checkpoint;
@@ -217,8 +217,8 @@ void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile
         }
         data.overlap = overlap;
         if (of_a) {
-            data.run = static_cast<std::uint32_t>(round.runs.size());
-            round.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
+            data.run = static_cast<std::uint32_t>(batch.runs.size());
+            batch.runs.push_back({boundary.edge(i).first, boundary.edge(i).count});
         }
         (of_a ? work.polygons_a : work.polygons_b).push_back(data);
     });
@@ -226,8 +226,8 @@ void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile
 
 void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
                                       const TileDraw& draw, SimplifiedShapes& shapes,
-                                      TileBatch& round) {
-    ComputeWork& work = round.compute;
+                                      TileBatch& batch) {
+    ComputeWork& work = batch.compute;
     const double cell = tile.grid.cell;
     const double simplification = query.budget.simplification;
     const auto overlap = static_cast<std::uint32_t>(work.overlaps.size());
@@ -243,7 +243,7 @@ void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& til
         const std::uint32_t mask = add_mask(tile, work);
         const TileBoundary boundary = overlap_boundary(polygon, pose, query.budget, tile, shapes);
         if (part == Part::boundary) {
-            add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, round);
+            add_boundary(boundary, tile, query.budget.offset / cell, overlap, of_a, batch);
         } else {
             crossing_.clear();
             crossing_edges(boundary, tile.width, tile.height, simplification / cell, crossing_);

@@ -24,15 +24,15 @@ public:
 
     /// Adds the edge lists of a tile of boundary points.
     void add_points_tile(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes,
-                         TileData& data, TileBatch& round);
+                         TileData& data, TileBatch& batch);
     /// Adds the mask of a field tile, and its blocks with their edge lists. `draw` says where in
     /// the read-back the requested outputs go.
     void add_field_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
-                        SimplifiedShapes& shapes, TileBatch& round);
+                        SimplifiedShapes& shapes, TileBatch& batch);
     /// Adds an overlap tile. `draw` says whether each shape takes part by its volume or its
     /// boundary.
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
-                          SimplifiedShapes& shapes, TileBatch& round);
+                          SimplifiedShapes& shapes, TileBatch& batch);
     /// Adds a point of a field tile that has been added already. `first_block`: the tile's first
     /// block in ComputeWork::feature_blocks.
     static void add_field_point(const Tile& tile, std::uint32_t first_block,
@@ -40,16 +40,16 @@ public:
 
 private:
     [[nodiscard]] EdgeListData add_crossing(const TileBoundary& boundary, const Tile& tile,
-                                            double slack, TileBatch& round);
+                                            double slack, TileBatch& batch);
     void add_blocks(const TileBoundary& boundary, const Tile& tile, const MaskData& mask,
                     std::uint32_t first_value, ComputeWork& work);
     void add_feature_blocks(const PlannedQuery& query, const TileBoundary& boundary,
                             const Tile& tile, const MaskData& mask, std::uint32_t first_feature,
-                            TileBatch& round);
+                            TileBatch& batch);
     /// Fills a mask with the shape whose edges are in crossing_.
     void add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const;
     void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
-                      std::uint32_t overlap, bool of_a, TileBatch& round) const;
+                      std::uint32_t overlap, bool of_a, TileBatch& batch) const;
 
     geometry::SubpixelGrid grid_;
     NearestEdgeFinder finder_;  // for points, which are sparse in their tile

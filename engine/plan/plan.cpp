@@ -2,6 +2,13 @@
 
 namespace nearfield::plan {
 
+double max_points(const PlannedQuery& query) {
+    const auto* const penetration = std::get_if<PenetrationQuery>(query.query);
+    return penetration != nullptr && penetration->points == PenetrationPoints::vertices
+               ? static_cast<double>(query.a->size())
+               : max_samples(*query.a, query.budget.cell);
+}
+
 void Plan::clear() {
     // Everything but the queries: the planner overwrites each of them, and clearing thousands would
     // write them twice.

@@ -109,6 +109,10 @@ struct PlannedQuery {
     std::uint32_t field_point_count = 0;
 };
 
+/// Upper bound on the points of A's boundary that a penetration or contact query, or one direction
+/// of it, examines at any poses. A double, since it may be huge.
+[[nodiscard]] double max_points(const PlannedQuery& query);
+
 /// A query, or one direction of it, whose points the device searches.
 struct SearchedQuery {
     std::uint32_t query = 0;  ///< in Plan::queries
@@ -140,8 +144,9 @@ public:
     }
 
     /// The elements of a tile batch.
-    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t round) const {
-        return std::span(order_).subspan(starts_[round], starts_[round + 1] - starts_[round]);
+    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t tile_batch) const {
+        return std::span(order_).subspan(starts_[tile_batch],
+                                         starts_[tile_batch + 1] - starts_[tile_batch]);
     }
 
 private:

@@ -28,6 +28,15 @@ constexpr double bytes_per_pixel = 4.0 * 4.0 + 2.0 * 8.0 + 1.0 + 2.0 * 4.0 + 8.0
 // position, the nearest feature, the potential contact.
 constexpr double bytes_of_kept_sample = 256.0;
 
+/// A size in the largest unit that it fills, so that a small limit is not told as 0 MiB.
+std::string memory_text(double bytes, double (*round)(double)) {
+    constexpr double kibibyte = 1024.0;
+    constexpr double mebibyte = 1024.0 * kibibyte;
+    const double unit = bytes >= mebibyte ? mebibyte : bytes >= kibibyte ? kibibyte : 1.0;
+    const char* const name = unit == mebibyte ? " MiB" : unit == kibibyte ? " KiB" : " bytes";
+    return number(round(bytes / unit)) + name;
+}
+
 }  // namespace
 
 Planner::Planner(const PlanLimits& limits)
@@ -43,7 +52,8 @@ Planner::Planner(const PlanLimits& limits)
     limits_.largest_tile = std::min(limits_.largest_tile, limits_.largest_atlas);
     point_tiles_ = PointTiles(std::min(limits_.points_tile, limits_.largest_tile));
     packer_ = AtlasPacker(limits_.largest_atlas);
-    memory_for_results_ = std::max(0.0, static_cast<double>(limits_.memory) - images());
+    memory_of_images_ = images();
+    memory_for_results_ = std::max(0.0, static_cast<double>(limits_.memory) - memory_of_images_);
     max_to_keep_ = memory_for_results_ / 4.0 / bytes_of_kept_sample;
 }
 
@@ -171,17 +181,19 @@ void Planner::require_memory(double bytes, double tolerance, double growth) {
     }
     // Memory grows with (1/d)^growth, which yields the tolerance at which this query alone fits.
     const double smallest = tolerance * std::pow(query_bytes_ / limit, 1.0 / growth);
-    std::string hint = limit == 0.0 ? "; images take all of Settings::memory_limit"
+    std::string hint = limit == 0.0 ? "; images take all of it"
                        : query_bytes_ > limit
                            ? "; the smallest tolerance that fits is about " +
                                  number(static_cast<float>(smallest * 1.05))
                            : "; together with the queries before it the batch is too large";
+    const auto up = [](double value) { return std::ceil(value); };
+    const auto down = [](double value) { return std::floor(value); };
     throw StatusException(
         {StatusCode::too_large, "query " + std::to_string(query_) + " with tolerance " +
                                     number(tolerance) + " needs up to " +
-                                    number(std::ceil(plan_->result_bytes / 1048576.0)) +
-                                    " MiB, more than the limit of " +
-                                    number(std::floor(limit / 1048576.0)) + " MiB" + hint});
+                                    memory_text(memory_of_images_ + plan_->result_bytes, up) +
+                                    ", more than the limit of " +
+                                    memory_text(static_cast<double>(limits_.memory), down) + hint});
 }
 
 localize::OverlapOptions Planner::overlap_options(double grow) const {
@@ -296,20 +308,37 @@ void Planner::add_compute_tile_batches() {
     }
 }
 
+/// Distances, and intersections by each strategy, have tile batches of their own, so that the draws
+/// of a tile batch stay few whatever queries are mixed.
+void Planner::pack_drawn_tiles() {
+    for (DrawnTogether& group : drawn_together_) {
+        group.tiles.clear();
+        group.sizes.clear();
+    }
+    for (std::uint32_t i = 0; i < plan_->tiles.size(); ++i) {
+        const Tile& tile = plan_->tiles[i];
+        const PlannedQuery& planned = plan_->queries[tile.query];
+        if (!planned.by_compute) {
+            const auto* const overlap = std::get_if<IntersectionQuery>(planned.query);
+            DrawnTogether& group =
+                drawn_together_[overlap == nullptr
+                                    ? 0
+                                    : 1 + static_cast<std::size_t>(overlap->strategy)];
+            group.tiles.push_back(i);
+            group.sizes.push_back({tile.width, tile.height});
+        }
+    }
+    packer_.clear();
+    for (const DrawnTogether& group : drawn_together_) {
+        packer_.pack(group.sizes, places_);
+        for (std::size_t i = 0; i < group.tiles.size(); ++i) {
+            plan_->tiles[group.tiles[i]].place = places_[i];
+        }
+    }
+}
+
 void Planner::pack() {
-    sizes_.clear();
-    for (const Tile& tile : plan_->tiles) {
-        if (!plan_->queries[tile.query].by_compute) {
-            sizes_.push_back({tile.width, tile.height});
-        }
-    }
-    packer_.pack(sizes_, places_);
-    std::size_t next = 0;
-    for (Tile& tile : plan_->tiles) {
-        if (!plan_->queries[tile.query].by_compute) {
-            tile.place = places_[next++];
-        }
-    }
+    pack_drawn_tiles();
     plan_->extent = packer_.extent();
     plan_->tile_batches = packer_.tile_batches();
     plan_->raster_tile_batches = plan_->tile_batches;
@@ -318,17 +347,18 @@ void Planner::pack() {
     const std::vector<PlannedPoint>& points = plan_->points;
     const std::vector<PlannedFieldPoint>& field_points = plan_->field_points;
     plan_->tiles_by_batch.sort(tiles.size(), plan_->tile_batches,
-                               [&](std::size_t i) { return tiles[i].place.round; });
+                               [&](std::size_t i) { return tiles[i].place.tile_batch; });
     // Points that the CPU answers have no tile: they follow all tile batches.
-    const std::uint32_t no_round = plan_->tile_batches;
+    const std::uint32_t no_tile_batch = plan_->tile_batches;
     plan_->points_by_batch.sort(points.size(), plan_->tile_batches + 1, [&](std::size_t i) {
         const std::uint32_t tile = points[i].tile;
-        return tile == PlannedPoint::no_tile ? no_round : tiles[tile].place.round;
+        return tile == PlannedPoint::no_tile ? no_tile_batch : tiles[tile].place.tile_batch;
     });
     plan_->field_points_by_batch.sort(
         field_points.size(), plan_->tile_batches + 1, [&](std::size_t i) {
             const std::uint32_t tile = field_points[i].tile;
-            return tile == PlannedFieldPoint::no_tile ? no_round : tiles[tile].place.round;
+            return tile == PlannedFieldPoint::no_tile ? no_tile_batch
+                                                      : tiles[tile].place.tile_batch;
         });
 }
 

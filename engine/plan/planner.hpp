@@ -193,12 +193,14 @@ private:
     [[nodiscard]] Status add_field_points(const DistanceFieldQuery& query, const Grid& grid,
                                           std::uint32_t first_tile);
     void require_memory(double bytes, double tolerance, double growth);
+    void pack_drawn_tiles();
     void pack();
     void add_compute_tile_batches();
 
     PlanLimits limits_;
     AtlasPacker packer_;
     Targets targets_;                  // of the batch
+    double memory_of_images_ = 0.0;    // bytes
     double memory_for_results_ = 0.0;  // bytes
     double query_bytes_ = 0.0;         // needed by the current query
     Plan* plan_ = nullptr;             // of the call in progress
@@ -218,7 +220,12 @@ private:
     std::vector<BoundaryPoint> samples_;
     PointTiles point_tiles_{64};
     std::vector<std::uint32_t> kept_tiles_;
-    std::vector<TileSize> sizes_;
+    /// Tiles that the same draws serve.
+    struct DrawnTogether {
+        std::vector<std::uint32_t> tiles;
+        std::vector<TileSize> sizes;
+    };
+    std::array<DrawnTogether, 1 + intersection_strategies> drawn_together_;
     std::vector<AtlasPlace> places_;
 };
 

@@ -118,9 +118,7 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
     for (const SearchedQuery& searched : plan.searched) {
         checkpoint();
         const PlannedQuery& planned = plan.queries[searched.query];
-        const double points = asks_for_vertices(planned)
-                                  ? static_cast<double>(planned.a->size())
-                                  : max_samples(*planned.a, planned.budget.cell);
+        const double points = max_points(planned);
         if (count == 0 || searches[count - 1].max_points + points > max_searched_points) {
             searches.resize(std::max(searches.size(), ++count));
             searches[count - 1].clear();

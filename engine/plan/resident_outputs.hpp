@@ -33,7 +33,7 @@ struct RingTable {
 
 /// The cells of one tile: their position in the field words of a tile batch and in the images.
 struct FieldPartOutput {
-    std::uint32_t round = 0;
+    std::uint32_t tile_batch = 0;
     std::uint32_t value = 0;    ///< word of the first cell's value,
     std::uint32_t feature = 0;  ///< and of its feature
     std::uint32_t stride = 0;   ///< words from row to row
@@ -59,7 +59,7 @@ struct FieldOutputs {
 
 /// Points of one boundary that one tile batch resolves.
 struct PointRunOutput {
-    std::uint32_t round = 0;
+    std::uint32_t tile_batch = 0;
     std::uint32_t first = 0;  ///< in TileBatch::points
     std::uint32_t count = 0;
     std::uint32_t first_block = 0;  ///< of the query's
@@ -79,6 +79,7 @@ struct PointRunOutput {
 struct RecordsOutput {
     std::uint32_t query = 0;
     std::uint32_t capacity = 0;  ///< points
+    double max_capacity = 0.0;   ///< upper bound, at any poses
     geometry::Vector origin = geometry::Vector::Zero();
     double cell = 0.0;
     double error_bound = 0.0;
@@ -124,7 +125,7 @@ static_assert(sizeof(SampleBoxData) == 20);
 
 /// Tiles of one intersection in one tile batch.
 struct SampleRunOutput {
-    std::uint32_t round = 0;
+    std::uint32_t tile_batch = 0;
     std::uint32_t first_tile = 0;  ///< in ResidentOutputs::sample_tiles
     std::uint32_t tile_count = 0;
     std::uint32_t table = 0;  ///< where they lie in the tables

@@ -69,9 +69,9 @@ void TileBatch::clear() {
     keeps_hits = false;
 }
 
-void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& round) {
-    round.clear();
-    round.by_compute = number >= plan.raster_tile_batches;
+void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& batch) {
+    batch.clear();
+    batch.by_compute = number >= plan.raster_tile_batches;
     select_watched(plan, number);
     tile_of_plan_.resize(plan.tiles.size());
     first_block_.resize(plan.tiles.size());
@@ -79,57 +79,57 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
         checkpoint();
         const Tile& tile = plan.tiles[i];
         TileDraw draw;
-        draw.tile = static_cast<std::uint32_t>(round.tiles.size());
+        draw.tile = static_cast<std::uint32_t>(batch.tiles.size());
         draw.x = tile.place.x;
         draw.y = tile.place.y;
         draw.width = tile.width;
         draw.height = tile.height;
         tile_of_plan_[i] = draw.tile;
-        first_block_[i] = static_cast<std::uint32_t>(round.compute.feature_blocks.size());
-        round.tile_index.push_back(i);
-        round.resident =
-            round.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
-        TileData& data = round.tiles.emplace_back();
+        first_block_[i] = static_cast<std::uint32_t>(batch.compute.feature_blocks.size());
+        batch.tile_index.push_back(i);
+        batch.resident =
+            batch.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
+        TileData& data = batch.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;
         data.width = tile.width;
         data.height = tile.height;
-        round.extent.width = std::max(round.extent.width, tile.place.x + tile.width);
-        round.extent.height = std::max(round.extent.height, tile.place.y + tile.height);
-        if (round.by_compute) {
-            add_compute_tile(plan.queries[tile.query], tile, draw, round);
+        batch.extent.width = std::max(batch.extent.width, tile.place.x + tile.width);
+        batch.extent.height = std::max(batch.extent.height, tile.place.y + tile.height);
+        if (batch.by_compute) {
+            add_compute_tile(plan.queries[tile.query], tile, draw, batch);
         } else {
-            add_drawn_tile(plan.queries[tile.query], tile, draw, round);
+            add_drawn_tile(plan.queries[tile.query], tile, draw, batch);
         }
     }
-    add_points(plan, number, round);
-    add_field_points(plan, number, round);
+    add_points(plan, number, batch);
+    add_field_points(plan, number, batch);
 }
 
 void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                                      TileBatch& round) {
+                                      TileBatch& batch) {
     if (tile.kind == TileKind::overlap) {
-        add_overlap_tile(query, tile, draw, round);
+        add_overlap_tile(query, tile, draw, batch);
     } else {
-        add_distance_tile(query, tile, draw, round);
+        add_distance_tile(query, tile, draw, batch);
     }
 }
 
 void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                                        TileBatch& round) {
+                                        TileBatch& batch) {
     switch (tile.kind) {
         case TileKind::points:
-            compute_.add_points_tile(query, tile, shapes_, round.tiles[draw.tile], round);
+            compute_.add_points_tile(query, tile, shapes_, batch.tiles[draw.tile], batch);
             break;
         case TileKind::field:
             nearest_.clear();
-            add_field_output(query, tile, draw, round);
-            compute_.add_field_tile(query, tile, draw, shapes_, round);
-            round.distance_draws.push_back(draw);
+            add_field_output(query, tile, draw, batch);
+            compute_.add_field_tile(query, tile, draw, shapes_, batch);
+            batch.distance_draws.push_back(draw);
             break;
         case TileKind::overlap:
-            describe_overlap(std::get<IntersectionQuery>(*query.query), tile, draw, round);
-            compute_.add_overlap_tile(query, tile, draw, shapes_, round);
+            describe_overlap(std::get<IntersectionQuery>(*query.query), tile, draw, batch);
+            compute_.add_overlap_tile(query, tile, draw, shapes_, batch);
             break;
     }
 }
@@ -198,7 +198,7 @@ void TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Til
 }
 
 void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                                        TileBatch& round) const {
+                                        TileBatch& batch) const {
     draw.field = true;
     draw.sign = std::get<DistanceFieldQuery>(*query.query).sign;
     if (draw.sign == SignEncoding::feature_bit && nearest_.size() >= max_signed_features) {
@@ -211,28 +211,28 @@ void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& t
     }
     const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
     if (query.field.values) {
-        draw.first_value = add_field_words(cells, query.field.host_values, round);
+        draw.first_value = add_field_words(cells, query.field.host_values, batch);
     }
     if (query.field.blended) {
         for (const geometry::MeshVertex& vertex : rectangle_of(tile, draw.first_value)) {
-            add_vertex(tile, vertex, round.meshes[TileMeshId::gradients]);
+            add_vertex(tile, vertex, batch.meshes[TileMeshId::gradients]);
         }
     }
     if (query.field.features) {
-        draw.first_feature = add_field_words(cells, query.field.host_features, round);
+        draw.first_feature = add_field_words(cells, query.field.host_features, batch);
     }
     if (query.field.gradients) {
-        draw.first_gradient = add_field_words(2 * cells, true, round);
+        draw.first_gradient = add_field_words(2 * cells, true, batch);
     }
 }
 
 std::uint32_t TileBatchBuilder::add_field_words(std::uint64_t count, bool for_host,
-                                                TileBatch& round) {
-    const WordRange added{static_cast<std::uint32_t>(round.field_words),
+                                                TileBatch& batch) {
+    const WordRange added{static_cast<std::uint32_t>(batch.field_words),
                           static_cast<std::uint32_t>(count)};
-    round.field_words += count;
+    batch.field_words += count;
     if (for_host) {
-        std::vector<WordRange>& ranges = round.field_read_back;
+        std::vector<WordRange>& ranges = batch.field_read_back;
         if (!ranges.empty() && ranges.back().first + ranges.back().count == added.first) {
             ranges.back().count += added.count;
         } else {
@@ -243,7 +243,7 @@ std::uint32_t TileBatchBuilder::add_field_words(std::uint64_t count, bool for_ho
 }
 
 void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                                         TileBatch& round) {
+                                         TileBatch& batch) {
     const double cell = tile.grid.cell;
     const ErrorBudget& budget = query.budget;
     const TileBoundary boundary(
@@ -267,35 +267,35 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
         largest_reach = std::max(largest_reach, nearest.reach());
     }
     if (tile.kind == TileKind::field) {
-        add_field_output(query, tile, draw, round);
+        add_field_output(query, tile, draw, batch);
         if (draw.first_value != not_asked || draw.first_feature != not_asked) {
             add_groups(draw, field_group_side, field_group_side,
                        {draw.tile, 0, draw.first_value, draw.first_feature},
-                       round.groups[group_list(draw.sign)]);
+                       batch.groups[group_list(draw.sign)]);
         }
     }
-    add_rectangle(tile, round.meshes[rectangles_of(draw.sign)]);
-    add_fill(crossing_, tile, round.meshes[fills_of(draw.sign)]);
+    add_rectangle(tile, batch.meshes[rectangles_of(draw.sign)]);
+    add_fill(crossing_, tile, batch.meshes[fills_of(draw.sign)]);
     add_distance_mesh(
         boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
-        round.meshes[draw.sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
+        batch.meshes[draw.sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
                                                             : TileMeshId::distances]);
 
-    TileData& data = round.tiles[draw.tile];
-    round.lists.begin_tile(boundary);
+    TileData& data = batch.tiles[draw.tile];
+    batch.lists.begin_tile(boundary);
     const double side = std::max(tile.width, tile.height);
-    data.nearest = round.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
-    data.crossing = round.lists.write(crossing_, side + 4.0);
+    data.nearest = batch.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
+    data.crossing = batch.lists.write(crossing_, side + 4.0);
     // The cell's centre is up to half a diagonal away; simplification, the mesh and snapping change
     // its distance and the fill; the rest is for rounding.
     data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
     data.outside = query.outside ? 1 : 0;
-    round.distance_draws.push_back(draw);
+    batch.distance_draws.push_back(draw);
 }
 
-void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& round) {
+void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& batch) {
     const PlannedQuery* query = nullptr;
     std::optional<TransformedPolygon> a;
     for (const std::uint32_t i : plan.points_by_batch.of(number)) {
@@ -306,37 +306,37 @@ void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBa
             a.emplace(*query->a, query->pose_a);
         }
         const Vector local = (position(*a, point.point) - tile.origin()) / tile.grid.cell;
-        round.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+        batch.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
                                 tile_of_plan_[point.tile], 0});
-        round.point_index.push_back(i);
+        batch.point_index.push_back(i);
     }
 }
 
-void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, TileBatch& round) {
+void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, TileBatch& batch) {
     for (const std::uint32_t i : plan.field_points_by_batch.of(number)) {
         const PlannedFieldPoint& point = plan.field_points[i];
         const Tile& tile = plan.tiles[point.tile];
-        if (round.field_point_runs.empty() || round.field_point_runs.back().query != tile.query) {
+        if (batch.field_point_runs.empty() || batch.field_point_runs.back().query != tile.query) {
             const PlannedQuery& query = plan.queries[tile.query];
-            FieldPointRun& run = round.field_point_runs.emplace_back();
-            run.first = static_cast<std::uint32_t>(round.field_point_index.size());
+            FieldPointRun& run = batch.field_point_runs.emplace_back();
+            run.first = static_cast<std::uint32_t>(batch.field_point_index.size());
             run.query = tile.query;
-            run.first_word = static_cast<std::uint32_t>(round.field_words);
+            run.first_word = static_cast<std::uint32_t>(batch.field_words);
             run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
             run.parts = query.field;
         }
-        if (round.by_compute) {
-            ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, round.compute);
+        if (batch.by_compute) {
+            ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, batch.compute);
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;
-            round.field_points.push_back({static_cast<float>(local.x()),
+            batch.field_points.push_back({static_cast<float>(local.x()),
                                           static_cast<float>(local.y()), tile_of_plan_[point.tile],
                                           point.column | point.row << 16U});
         }
-        round.field_point_index.push_back(i);
-        FieldPointRun& run = round.field_point_runs.back();
+        batch.field_point_index.push_back(i);
+        FieldPointRun& run = batch.field_point_runs.back();
         ++run.count;
-        static_cast<void>(add_field_words(run.parts.words_per_point, true, round));
+        static_cast<void>(add_field_words(run.parts.words_per_point, true, batch));
     }
 }
 

@@ -130,35 +130,35 @@ public:
 
     /// Drops simplified shapes; call first in each batch, since shapes may have changed.
     void begin_batch() { shapes_.clear(); }
-    void build(const Plan& plan, std::uint32_t number, TileBatch& round);
+    void build(const Plan& plan, std::uint32_t number, TileBatch& batch);
 
 private:
     /// Selects the largest tiles that are worth an occlusion query.
     void select_watched(const Plan& plan, std::uint32_t number);
     void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                        TileBatch& round);
+                        TileBatch& batch);
     void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                          TileBatch& round);
+                          TileBatch& batch);
     void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                           TileBatch& round);
+                           TileBatch& batch);
     /// Reserves space in the read-back for the requested outputs at cells.
     void add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                          TileBatch& round) const;
+                          TileBatch& batch) const;
     /// Appends words to those of the fields; returns the first one.
-    static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& round);
+    static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& batch);
     /// Sets which part of each shape takes part, and whether samples are listed.
     static void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
-                                 TileBatch& round);
+                                 TileBatch& batch);
     void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                          TileBatch& round);
+                          TileBatch& batch);
     void add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
                     geometry::Mesh& parity, geometry::Mesh& rectangles);
     void add_overlap_b(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
-                       TileBatch& round);
+                       TileBatch& batch);
     void add_overlap_a(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
-                       TileBatch& round);
-    void add_points(const Plan& plan, std::uint32_t number, TileBatch& round);
-    void add_field_points(const Plan& plan, std::uint32_t number, TileBatch& round);
+                       TileBatch& batch);
+    void add_points(const Plan& plan, std::uint32_t number, TileBatch& batch);
+    void add_field_points(const Plan& plan, std::uint32_t number, TileBatch& batch);
     void add_fill(const std::vector<TileEdge>& edges, const Tile& tile, geometry::Mesh& mesh) const;
     /// `runs`: of the offset polygons' ids; null: ids are 0.
     void add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,

@@ -53,17 +53,17 @@ void TileBatchBuilder::select_watched(const Plan& plan, std::uint32_t number) {
 }
 
 void TileBatchBuilder::describe_overlap(const IntersectionQuery& query, const Tile& tile,
-                                        TileDraw& draw, TileBatch& round) {
+                                        TileDraw& draw, TileBatch& batch) {
     const bool volumes = query.kind == IntersectionKind::volume_volume;
     draw.part_a = volumes ? Part::volume : Part::boundary;
     draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
     draw.list = query.records;
-    round.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
+    batch.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
     if (query.resident && query.resident_samples) {
-        round.keeps_hits = true;
-        draw.first_hit = round.hit_words;
+        batch.keeps_hits = true;
+        draw.first_hit = batch.hit_words;
         // The compute technique keeps hits in its masks.
-        round.hit_words += round.by_compute ? 0 : tile.width * tile.height;
+        batch.hit_words += batch.by_compute ? 0 : tile.width * tile.height;
     }
 }
 
@@ -91,16 +91,16 @@ void TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& ti
 }
 
 void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                                        TileBatch& round) {
+                                        TileBatch& batch) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
-    describe_overlap(asked, tile, draw, round);
+    describe_overlap(asked, tile, draw, batch);
     add_groups(draw, overlap_group_width, overlap_group_height,
                {draw.tile, 0, draw.list ? 1U : 0U, draw.first_hit},
-               round.groups[group_list(asked.strategy)]);
-    add_rectangle(tile, round.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
-    add_overlap_b(query, tile, draw, round);
-    add_overlap_a(query, tile, draw, round);
-    round.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
+               batch.groups[group_list(asked.strategy)]);
+    add_rectangle(tile, batch.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
+    add_overlap_b(query, tile, draw, batch);
+    add_overlap_a(query, tile, draw, batch);
+    batch.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
 }
 
 void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
@@ -112,10 +112,10 @@ void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile
 }
 
 void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& round) {
+                                     const TileDraw& draw, TileBatch& batch) {
     const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
     const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return round.meshes[overlaps_of(strategy, step)];
+        return batch.meshes[overlaps_of(strategy, step)];
     };
     const double cell = tile.grid.cell;
     const TileBoundary boundary =
@@ -130,13 +130,13 @@ void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile
 }
 
 void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& round) {
+                                     const TileDraw& draw, TileBatch& batch) {
     const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
     const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return round.meshes[overlaps_of(strategy, step)];
+        return batch.meshes[overlaps_of(strategy, step)];
     };
     const bool is_watched =
-        std::find(watched_.begin(), watched_.end(), round.tile_index[draw.tile]) != watched_.end();
+        std::find(watched_.begin(), watched_.end(), batch.tile_index[draw.tile]) != watched_.end();
     Mesh& drawn = is_watched                      ? mesh(OverlapStep::watched_a)
                   : draw.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
                                                   : mesh(OverlapStep::volume_a);
@@ -145,14 +145,14 @@ void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile
     const TileBoundary boundary =
         overlap_boundary(*query.a, query.pose_a, query.budget, tile, shapes_);
     if (draw.part_a == Part::boundary) {
-        add_boundary(boundary, tile, query.budget.offset / cell, &round.runs, drawn);
+        add_boundary(boundary, tile, query.budget.offset / cell, &batch.runs, drawn);
     } else {
         add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_a),
                    drawn);
     }
     if (is_watched) {
         const auto count = static_cast<std::uint32_t>(drawn.size()) - first;
-        round.watched.push_back({draw.tile, strategy, draw.part_a, {first, count}});
+        batch.watched.push_back({draw.tile, strategy, draw.part_a, {first, count}});
     }
 }
 

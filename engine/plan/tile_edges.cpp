@@ -60,7 +60,7 @@ public:
     void add(std::uint32_t first, std::uint32_t end) {
         const SimplifiedBoundary& simplified = boundary_->simplified();
         const auto ring_of = simplified.ring_of;
-        if (first != end_ || ring_of[first] != ring_of[first_]) {
+        if (first != end_) {
             close();
             first_ = first;
         }

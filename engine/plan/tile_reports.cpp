@@ -19,7 +19,7 @@ void report_tiles(const Plan& plan, std::vector<TileReport>& reports) {
         report.max = geometry::to_public(high);
         report.width = tile.width;
         report.height = tile.height;
-        report.tile_batch = tile.place.round;
+        report.tile_batch = tile.place.tile_batch;
         report.x = tile.place.x;
         report.y = tile.place.y;
     }

@@ -34,8 +34,8 @@ std::uint64_t bytes_of_all(std::span<const std::vector<Element>> meshes) {
     return bytes;
 }
 
-std::span<const std::vector<plan::CellGroup>> groups_of(const plan::TileBatch& round) {
-    return round.groups;
+std::span<const std::vector<plan::CellGroup>> groups_of(const plan::TileBatch& batch) {
+    return batch.groups;
 }
 
 /// One after the other.
@@ -107,7 +107,7 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     std::uint64_t input_end = 0;
     for (std::size_t i = 0; i < tile_batches.size(); ++i) {
         passes::RecordContext& context = tile_batches_[i].context;
-        context.round = &tile_batches[i];
+        context.batch = &tile_batches[i];
         context.subpixel_bits = device_->limits().subPixelPrecisionBits;
         sets_[i].bind_to(context);
         if (tile_batches[i].by_compute) {
@@ -122,9 +122,9 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     }
     input_.reserve(input_end);
     mesh_.reserve(mesh_end);
-    for (const TileBatchOnDevice& round : tile_batches_) {
-        if (!round.context.round->by_compute) {
-            copy_input(round);
+    for (const TileBatchOnDevice& on_device : tile_batches_) {
+        if (!on_device.context.batch->by_compute) {
+            copy_input(on_device);
         }
     }
     input_.flush();
@@ -147,34 +147,34 @@ void BatchResources::upload_searches(const plan::SearchShapes& shapes,
 
 void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
                                    std::uint64_t& mesh_end) const {
-    const plan::TileBatch& round = *on_device.context.round;
-    const auto& geometry = round.lists.geometry();
+    const plan::TileBatch& batch = *on_device.context.batch;
+    const auto& geometry = batch.lists.geometry();
     require_range(*device_, bytes_of(geometry), "the edges");
-    require_range(*device_, std::max(bytes_of(round.points), bytes_of(round.field_points)),
+    require_range(*device_, std::max(bytes_of(batch.points), bytes_of(batch.field_points)),
                   "the points");
     InputParts& parts = on_device.input;
     parts.tiles = align(input_end);
-    parts.groups_end = parts.tiles + bytes_of(round.tiles) + bytes_of_all(groups_of(round));
+    parts.groups_end = parts.tiles + bytes_of(batch.tiles) + bytes_of_all(groups_of(batch));
     parts.geometry = align(parts.groups_end);
     parts.points = align(parts.geometry + bytes_of(geometry));
-    parts.field_points = align(parts.points + bytes_of(round.points));
-    parts.end = parts.field_points + bytes_of(round.field_points);
+    parts.field_points = align(parts.points + bytes_of(batch.points));
+    parts.end = parts.field_points + bytes_of(batch.field_points);
     input_end = parts.end + smallest_part;
     on_device.context.tile_mesh_offset = mesh_end;
-    on_device.context.mesh_offset = mesh_end + bytes_of_all(round.meshes.tile_meshes());
-    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(round.meshes.meshes()));
+    on_device.context.mesh_offset = mesh_end + bytes_of_all(batch.meshes.tile_meshes());
+    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(batch.meshes.meshes()));
 }
 
 void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
-    const plan::TileBatch& round = *on_device.context.round;
+    const plan::TileBatch& batch = *on_device.context.batch;
     const InputParts& parts = on_device.input;
-    copy_to(input_.data() + parts.tiles, round.tiles);
-    copy_all_to(input_.data() + parts.tiles + bytes_of(round.tiles), groups_of(round));
-    copy_to(input_.data() + parts.geometry, round.lists.geometry());
-    copy_to(input_.data() + parts.points, round.points);
-    copy_to(input_.data() + parts.field_points, round.field_points);
-    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset, round.meshes.tile_meshes());
-    copy_all_to(mesh_.data() + on_device.context.mesh_offset, round.meshes.meshes());
+    copy_to(input_.data() + parts.tiles, batch.tiles);
+    copy_all_to(input_.data() + parts.tiles + bytes_of(batch.tiles), groups_of(batch));
+    copy_to(input_.data() + parts.geometry, batch.lists.geometry());
+    copy_to(input_.data() + parts.points, batch.points);
+    copy_to(input_.data() + parts.field_points, batch.field_points);
+    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset, batch.meshes.tile_meshes());
+    copy_all_to(mesh_.data() + on_device.context.mesh_offset, batch.meshes.meshes());
 }
 
 void BatchResources::run(std::uint32_t count) {
@@ -250,40 +250,40 @@ void BatchResources::wait() {
         searches_[number]->read_back();
     }
     for (const std::uint32_t number : running_) {
-        TileBatchOnDevice& round = tile_batches_[number];
-        std::memcpy(&round.sample_count, read_back_.data() + round.output.samples,
-                    sizeof(round.sample_count));
+        TileBatchOnDevice& on_device = tile_batches_[number];
+        std::memcpy(&on_device.sample_count, read_back_.data() + on_device.output.samples,
+                    sizeof(on_device.sample_count));
     }
 }
 
 void BatchResources::release() {
-    for (TileBatchOnDevice& round : tile_batches_) {
-        round.graph = nullptr;
+    for (TileBatchOnDevice& on_device : tile_batches_) {
+        on_device.graph = nullptr;
     }
 }
 
 std::span<const std::uint32_t> BatchResources::points(std::uint32_t number) const {
-    const TileBatchOnDevice& round = tile_batches_[number];
-    return elements_at<std::uint32_t>(read_back_, round.output.points,
-                                      round.context.round->points.size());
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    return elements_at<std::uint32_t>(read_back_, on_device.output.points,
+                                      on_device.context.batch->points.size());
 }
 
 std::span<const std::uint32_t> BatchResources::field_words(std::uint32_t number) const {
-    const TileBatchOnDevice& round = tile_batches_[number];
-    return elements_at<std::uint32_t>(read_back_, round.output.field,
-                                      round.context.round->field_words);
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    return elements_at<std::uint32_t>(read_back_, on_device.output.field,
+                                      on_device.context.batch->field_words);
 }
 
 std::span<const plan::TileSummary> BatchResources::summaries(std::uint32_t number) const {
-    const TileBatchOnDevice& round = tile_batches_[number];
-    return elements_at<plan::TileSummary>(read_back_, round.output.summaries,
-                                          round.context.round->tiles.size());
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    return elements_at<plan::TileSummary>(read_back_, on_device.output.summaries,
+                                          on_device.context.batch->tiles.size());
 }
 
 std::span<const plan::SampleData> BatchResources::samples(std::uint32_t number) const {
-    const TileBatchOnDevice& round = tile_batches_[number];
-    return elements_at<plan::SampleData>(read_back_, round.output.samples + sizeof(std::uint32_t),
-                                         round.sample_count);
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    return elements_at<plan::SampleData>(
+        read_back_, on_device.output.samples + sizeof(std::uint32_t), on_device.sample_count);
 }
 
 }  // namespace nearfield::render

@@ -12,6 +12,7 @@
 #include <engine/render/search_buffers.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
+#include <passes/copy_back.hpp>
 #include <passes/record_context.hpp>
 
 #include <cstdint>
@@ -86,8 +87,10 @@ public:
         return *searches_[number];
     }
 
-    [[nodiscard]] TileBatchOnDevice& round(std::uint32_t number) { return tile_batches_[number]; }
-    [[nodiscard]] const TileBatchOnDevice& round(std::uint32_t number) const {
+    [[nodiscard]] TileBatchOnDevice& tile_batch(std::uint32_t number) {
+        return tile_batches_[number];
+    }
+    [[nodiscard]] const TileBatchOnDevice& tile_batch(std::uint32_t number) const {
         return tile_batches_[number];
     }
     /// Points a compiled graph to the buffers of a tile batch, for what is recorded next.
@@ -97,12 +100,7 @@ public:
     [[nodiscard]] const ResidentBuffers& resident() const { return resident_; }
     [[nodiscard]] bool has_resident_outputs() const { return has_resident_outputs_; }
     /// The ranges of the device's words that the host reads as well.
-    struct CopyBack {
-        VkBuffer words = VK_NULL_HANDLE;
-        VkBuffer read_back = VK_NULL_HANDLE;
-        std::span<const VkBufferCopy> ranges;
-    };
-    [[nodiscard]] CopyBack copy_back() const {
+    [[nodiscard]] passes::CopyBack::Item copy_back() const {
         return {words_.handle(), read_back_.handle(), copies_};
     }
 

@@ -1,4 +1,3 @@
-#include <engine/graph/print.hpp>
 #include <engine/render/compiled_graph.hpp>
 #include <passes/prototype.hpp>
 #include <passes/tile_renderer.hpp>
@@ -15,8 +14,7 @@ constexpr graph::ExternalAccess read_once_more{{}, graph::Access::storage_read_i
 
 }  // namespace
 
-RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                 const passes::RecordContext& context)
+RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
                                                   device.stencil_format(), "stencil")),
       distance_render_pass_(passes::make_prototype(device, passes::number_format,
@@ -31,24 +29,23 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
       stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
                "stencil"),
       strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
-      fill(device, draw_layout_.get(), stencil_, context),
-      color_fill(device, draw_layout_.get(), white_render_pass_.get(), context),
-      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get(), context),
-      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get(), context),
-      gradient(device, layout, gradient_render_pass_.get(), context),
-      early_out(device, context),
-      intersect(device, draw_layout_.get(), strategies_, early_out, context),
-      resolve_points(device, layout, context, passes::ResolvePoints::Source::images),
-      resolve_field(device, layout, context),
-      resolve_field_points(device, layout, context),
-      collect_gradients(device, layout, context),
-      collect(device, layout, context) {}
+      fill(device, draw_layout_.get(), stencil_),
+      color_fill(device, draw_layout_.get(), white_render_pass_.get()),
+      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get()),
+      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get()),
+      gradient(device, layout, gradient_render_pass_.get()),
+      early_out(device),
+      intersect(device, draw_layout_.get(), strategies_, early_out),
+      resolve_points(device, layout, passes::ResolvePoints::Source::images),
+      resolve_field(device, layout),
+      resolve_field_points(device, layout),
+      collect_gradients(device, layout),
+      collect(device, layout) {}
 
-ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                   const passes::RecordContext& context)
-    : resolve_points(device, layout, context, passes::ResolvePoints::Source::lists),
-      masks(device, layout, context),
-      blocks(device, layout, context) {}
+ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
+    : resolve_points(device, layout, passes::ResolvePoints::Source::lists),
+      masks(device, layout),
+      blocks(device, layout) {}
 
 CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
                              VkExtent2D extent)
@@ -59,7 +56,7 @@ CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passe
     } else {
         declare_drawn(*passes.raster);
     }
-    executor_ = graph::make_executor(device, graph_);
+    graph_.compile(device);
 }
 
 void CompiledGraph::declare_compute(const ComputePipelines& passes) {
@@ -178,7 +175,7 @@ void CompiledGraph::declare_field(const RasterPipelines& passes) {
 void CompiledGraph::set_buffers(const Buffers& buffers) {
     const auto set = [&](Handle handle, VkBuffer buffer) {
         if (handle != Handle{}) {
-            executor_->set_buffer(handle, buffer);
+            graph_.executor().set_buffer(handle, buffer);
         }
     };
     set(mesh_, buffers.mesh);
@@ -194,8 +191,8 @@ void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
                                 const passes::RecordContext& context) const {
     using Layout = passes::ComputeLayout;
     const auto bind_pair = [&](VkDescriptorSet set, const passes::FieldImages::Pair& images) {
-        layout.write_image(set, Layout::image, executor_->sampled_view(images.features));
-        layout.write_image(set, Layout::sign_image, executor_->sampled_view(images.sign));
+        layout.write_image(set, Layout::image, graph_.executor().sampled_view(images.features));
+        layout.write_image(set, Layout::sign_image, graph_.executor().sampled_view(images.sign));
     };
     if (needs_.points) {
         bind_pair(context.points, images_.by_encoding.front());
@@ -206,18 +203,15 @@ void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
         }
     }
     if (needs_.blended) {
-        layout.write_image(context.gradients, Layout::image, executor_->sampled_view(gradients_));
+        layout.write_image(context.gradients, Layout::image,
+                           graph_.executor().sampled_view(gradients_));
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs_.overlap[i]) {
             layout.write_image(context.samples[i], Layout::image,
-                               executor_->sampled_view(hits_[i]));
+                               graph_.executor().sampled_view(hits_[i]));
         }
     }
-}
-
-std::string CompiledGraph::print(GraphFormat format) const {
-    return graph::print(graph_, executor_->baked(), format);
 }
 
 }  // namespace nearfield::render

@@ -2,8 +2,6 @@
 
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
-#include <engine/graph/execute.hpp>
-#include <engine/graph/graph.hpp>
 #include <nearfield/diagnostics.hpp>
 #include <passes/blocks.hpp>
 #include <passes/collect.hpp>
@@ -26,7 +24,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -68,8 +65,7 @@ struct GraphKey {
 /// The passes of the raster technique with their pipelines.
 class RasterPipelines {
 public:
-    RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                    const passes::RecordContext& context);
+    RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
 
 private:
     // Render passes that pipelines are made for; compatible with those that graphs make.
@@ -99,8 +95,7 @@ public:
 
 /// The passes of the compute technique with their pipelines.
 struct ComputePipelines {
-    ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout,
-                     const passes::RecordContext& context);
+    ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
 
     passes::ResolvePoints resolve_points;
     passes::Masks masks;
@@ -136,11 +131,12 @@ public:
     void bind_images(const passes::ComputeLayout& layout,
                      const passes::RecordContext& context) const;
 
-    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps) const {
-        executor_->execute(graph_, commands, timestamps);
+    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                 const passes::RecordContext& context) const {
+        graph_.execute(commands, timestamps, context);
     }
 
-    [[nodiscard]] std::string print(GraphFormat format) const;
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
     void declare_drawn(const RasterPipelines& passes);
@@ -150,7 +146,7 @@ private:
 
     GraphKey needs_;
     VkExtent2D extent_;
-    graph::Graph graph_;
+    passes::TileGraph graph_;
     graph::Handle mesh_;
     graph::Handle input_;
     graph::Handle scratch_;
@@ -161,7 +157,6 @@ private:
     passes::FieldImages images_;
     graph::Handle gradients_;
     std::array<graph::Handle, intersection_strategies> hits_;
-    std::unique_ptr<graph::Executor> executor_;
 };
 
 }  // namespace nearfield::render

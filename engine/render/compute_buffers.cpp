@@ -31,25 +31,25 @@ BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
     return part;
 }
 
-void ComputeBuffers::upload(const plan::TileBatch& round) {
-    const plan::ComputeWork& work = round.compute;
+void ComputeBuffers::upload(const plan::TileBatch& batch) {
+    const plan::ComputeWork& work = batch.compute;
     constexpr std::uint64_t parts = 7;
     const std::uint64_t between =
         parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
-    input_.reserve(between + bytes_of(round.tiles) + bytes_of(round.points) +
+    input_.reserve(between + bytes_of(batch.tiles) + bytes_of(batch.points) +
                    bytes_of(work.blocks) + bytes_of(work.segments) + bytes_of(work.feature_blocks) +
-                   bytes_of(round.lists.geometry()) + bytes_of(work.points) +
+                   bytes_of(batch.lists.geometry()) + bytes_of(work.points) +
                    work.ranges().words * sizeof(std::uint32_t));
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
     end_ = 0;
-    tiles_ = append("the tiles", round.tiles);
-    points_ = append("the points", round.points);
+    tiles_ = append("the tiles", batch.tiles);
+    points_ = append("the points", batch.points);
     blocks_ = append("the blocks of fields", work.blocks);
     segments_ = append("the edges near blocks of fields", work.segments);
     feature_blocks_ = append("the blocks of fields with features", work.feature_blocks);
-    geometry_ = append("the edges", round.lists.geometry(), work.points);
+    geometry_ = append("the edges", batch.lists.geometry(), work.points);
     work_ = append("the edges of masks", work.masks, work.edges, work.rows, work.polygons_a,
                    work.polygons_b, work.overlaps, work.overlap_rows);
     input_.flush();

@@ -25,7 +25,7 @@ public:
 
     /// Uploads a tile batch. Throws StatusException (too_large) if a part exceeds what a storage
     /// buffer of the device may hold.
-    void upload(const plan::TileBatch& round);
+    void upload(const plan::TileBatch& batch);
 
     [[nodiscard]] VkBuffer input() const { return input_.handle(); }
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }

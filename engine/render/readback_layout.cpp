@@ -11,12 +11,12 @@ void BatchResources::lay_out_output() {
     std::uint64_t end = 0;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& round = *on_device.context.round;
+        const plan::TileBatch& batch = *on_device.context.batch;
         const std::uint64_t point_bytes =
-            round.points.size() *
-            (sizeof(std::uint32_t) + (round.resident ? sizeof(plan::PointDetails) : 0));
-        const std::uint64_t field_bytes = round.field_words * sizeof(std::uint32_t);
-        const std::uint64_t summary_bytes = round.tiles.size() * sizeof(plan::TileSummary);
+            batch.points.size() *
+            (sizeof(std::uint32_t) + (batch.resident ? sizeof(plan::PointDetails) : 0));
+        const std::uint64_t field_bytes = batch.field_words * sizeof(std::uint32_t);
+        const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =
             sizeof(std::uint32_t) + on_device.context.sample_capacity * sizeof(plan::SampleData);
         require_range(*device_, std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
@@ -42,7 +42,7 @@ void BatchResources::lay_out_output() {
         on_device.context.read_back = read_back_.handle();
         on_device.context.summaries_offset = on_device.output.summaries;
         empty_output(on_device);
-        if (on_device.context.round->by_compute) {
+        if (on_device.context.batch->by_compute) {
             bind_compute(number);
         } else {
             bind(on_device);
@@ -60,10 +60,10 @@ void BatchResources::lay_out_words(std::uint64_t end) {
     bool any_resident = has_resident_outputs_;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& round = *on_device.context.round;
-        const std::uint64_t hit_bytes = std::uint64_t{round.hit_words} * sizeof(std::uint32_t);
+        const plan::TileBatch& batch = *on_device.context.batch;
+        const std::uint64_t hit_bytes = std::uint64_t{batch.hit_words} * sizeof(std::uint32_t);
         require_range(*device_, hit_bytes, "the cells of intersections that stay");
-        any_resident = any_resident || round.resident || hit_bytes > 0;
+        any_resident = any_resident || batch.resident || hit_bytes > 0;
         on_device.output.hits = align(end);
         end = on_device.output.hits + std::max(hit_bytes, smallest_part);
     }
@@ -74,30 +74,30 @@ void BatchResources::lay_out_words(std::uint64_t end) {
 
 BufferPart BatchResources::hits_of(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
-    const plan::TileBatch& round = *on_device.context.round;
-    if (round.by_compute) {
+    const plan::TileBatch& batch = *on_device.context.batch;
+    if (batch.by_compute) {
         return compute_[number]->scratch_part();
     }
     return {words_.handle(), on_device.output.hits,
-            std::max(std::uint64_t{round.hit_words} * sizeof(std::uint32_t), smallest_part)};
+            std::max(std::uint64_t{batch.hit_words} * sizeof(std::uint32_t), smallest_part)};
 }
 
 VkBuffer BatchResources::words_of(const TileBatchOnDevice& on_device) const {
-    return on_device.context.round->resident ? words_.handle() : read_back_.handle();
+    return on_device.context.batch->resident ? words_.handle() : read_back_.handle();
 }
 
 void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
-    const plan::TileBatch& round = *on_device.context.round;
-    if (!round.resident) {
+    const plan::TileBatch& batch = *on_device.context.batch;
+    if (!batch.resident) {
         return;
     }
     const auto copy = [this](std::uint64_t first_byte, std::uint64_t words) {
         copies_.push_back({first_byte, first_byte, words * sizeof(std::uint32_t)});
     };
-    if (!round.points.empty()) {
-        copy(on_device.output.points, round.points.size());
+    if (!batch.points.empty()) {
+        copy(on_device.output.points, batch.points.size());
     }
-    for (const plan::WordRange& range : round.field_read_back) {
+    for (const plan::WordRange& range : batch.field_read_back) {
         copy(on_device.output.field + range.first * sizeof(std::uint32_t), range.count);
     }
 }
@@ -105,15 +105,15 @@ void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
 void BatchResources::bind_export() {
     export_words_.clear();
     for (std::uint32_t number = 0; number < tile_batches_.size(); ++number) {
-        const TileBatchOnDevice& round = tile_batches_[number];
-        const OutputParts& parts = round.output;
-        const VkBuffer buffer = words_of(round);
+        const TileBatchOnDevice& on_device = tile_batches_[number];
+        const OutputParts& parts = on_device.output;
+        const VkBuffer buffer = words_of(on_device);
         export_words_.push_back(
             {{buffer, parts.points, parts.field - parts.points},
              {buffer, parts.field, parts.summaries - parts.field},
              {read_back_.handle(), parts.summaries, parts.samples - parts.summaries},
              hits_of(number),
-             static_cast<std::uint32_t>(round.context.round->points.size())});
+             static_cast<std::uint32_t>(on_device.context.batch->points.size())});
     }
     resident_.bind(export_words_, {words_.handle(), 0, smallest_part}, read_back_.handle());
 }
@@ -122,14 +122,14 @@ void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
     const plan::TileSummary empty;
     const OutputParts& parts = on_device.output;
     std::memset(read_back_.data() + parts.samples, 0, sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < on_device.context.round->tiles.size(); ++i) {
+    for (std::size_t i = 0; i < on_device.context.batch->tiles.size(); ++i) {
         std::memcpy(read_back_.data() + parts.summaries + i * sizeof(empty), &empty, sizeof(empty));
     }
 }
 
 void BatchResources::bind(const TileBatchOnDevice& on_device) const {
     using Layout = passes::ComputeLayout;
-    const plan::TileBatch& round = *on_device.context.round;
+    const plan::TileBatch& batch = *on_device.context.batch;
     const passes::RecordContext& context = on_device.context;
     const InputParts& input = on_device.input;
     const OutputParts& output = on_device.output;
@@ -142,7 +142,7 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
     const auto write_tiles = [&](VkDescriptorSet set) {
         write(set, Layout::tiles, input_.handle(), input.tiles, input.groups_end);
         write(set, Layout::geometry, input_.handle(), input.geometry,
-              input.geometry + bytes_of(round.lists.geometry()));
+              input.geometry + bytes_of(batch.lists.geometry()));
     };
     if (needs.points) {
         write_tiles(context.points);
@@ -169,9 +169,9 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
                   output.samples);
             write(context.samples[i], Layout::output, read_back_.handle(), output.samples,
                   output.end);
-            if (round.hit_words > 0) {
+            if (batch.hit_words > 0) {
                 write(context.samples[i], Layout::kept_hits, words_.handle(), output.hits,
-                      output.hits + round.hit_words * sizeof(std::uint32_t));
+                      output.hits + batch.hit_words * sizeof(std::uint32_t));
             }
         }
     }
@@ -192,7 +192,7 @@ void BatchResources::bind_compute(std::uint32_t number) const {
 
 void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) const {
     const VkBuffer words = words_of(tile_batches_[number]);
-    if (tile_batches_[number].context.round->by_compute) {
+    if (tile_batches_[number].context.batch->by_compute) {
         const ComputeBuffers& compute = *compute_[number];
         graph.set_buffers({VK_NULL_HANDLE, compute.input(), compute.scratch(), words,
                            VK_NULL_HANDLE, read_back_.handle()});

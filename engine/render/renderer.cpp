@@ -14,10 +14,10 @@ constexpr std::size_t max_graphs = 8;
 // Elements that a search makes room for, if none has found more.
 constexpr std::uint32_t min_expected = 4096;
 
-ComputeKey compute_key_of(const plan::TileBatch& round) {
-    const plan::ComputeWork& work = round.compute;
+ComputeKey compute_key_of(const plan::TileBatch& batch) {
+    const plan::ComputeWork& work = batch.compute;
     ComputeKey needs;
-    needs.points = !round.points.empty();
+    needs.points = !batch.points.empty();
     needs.field_values = !work.blocks.empty();
     needs.field_features = work.features;
     needs.field_points = !work.points.empty();
@@ -28,25 +28,25 @@ ComputeKey compute_key_of(const plan::TileBatch& round) {
     return needs;
 }
 
-GraphKey key_of(const plan::TileBatch& round) {
+GraphKey key_of(const plan::TileBatch& batch) {
     GraphKey needs;
-    needs.keeps_hits = round.keeps_hits;
-    if (round.by_compute) {
-        needs.compute = compute_key_of(round);
+    needs.keeps_hits = batch.keeps_hits;
+    if (batch.by_compute) {
+        needs.compute = compute_key_of(batch);
         return needs;
     }
-    needs.points = !round.points.empty();
-    needs.field_points = !round.field_point_runs.empty();
+    needs.points = !batch.points.empty();
+    needs.field_points = !batch.field_point_runs.empty();
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
-        needs.overlap[i] = !round.overlap_draws[i].empty();
+        needs.overlap[i] = !batch.overlap_draws[i].empty();
     }
-    for (const plan::TileDraw& draw : round.distance_draws) {
+    for (const plan::TileDraw& draw : batch.distance_draws) {
         const auto encoding = static_cast<std::size_t>(draw.sign);
         needs.field[encoding] = needs.field[encoding] || draw.field;
         needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
                             draw.first_feature != plan::not_asked;
     }
-    needs.blended = round.meshes.range(plan::TileMeshId::gradients).count > 0;
+    needs.blended = batch.meshes.range(plan::TileMeshId::gradients).count > 0;
     return needs;
 }
 
@@ -63,10 +63,10 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
       export_samples_(device, layout_),
       export_headers_(device, layout_) {
     if (techniques.raster) {
-        passes_.raster.emplace(device, layout_, context_);
+        passes_.raster.emplace(device, layout_);
     }
     if (techniques.compute) {
-        passes_.compute.emplace(device, layout_, context_);
+        passes_.compute.emplace(device, layout_);
         point_search_.emplace(device, layout_);
     }
 }
@@ -114,13 +114,13 @@ std::shared_ptr<CompiledGraph> Renderer::graph_for(GraphKey needs, plan::TileSiz
     return graphs_.back();
 }
 
-std::uint32_t Renderer::sample_capacity(const plan::TileBatch& round, SampleRoom room) const {
+std::uint32_t Renderer::sample_capacity(const plan::TileBatch& batch, SampleRoom room) const {
     if (room == SampleRoom::all) {
-        return static_cast<std::uint32_t>(round.listed_cells);
+        return static_cast<std::uint32_t>(batch.listed_cells);
     }
     const std::uint64_t expected =
-        std::max<std::uint64_t>(max_samples_, 4096 + round.listed_cells / 8);
-    return static_cast<std::uint32_t>(std::min(round.listed_cells, expected));
+        std::max<std::uint64_t>(max_samples_, 4096 + batch.listed_cells / 8);
+    return static_cast<std::uint32_t>(std::min(batch.listed_cells, expected));
 }
 
 void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
@@ -133,10 +133,10 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     last_had_samples_ = !resident.samples.empty();
     slot.run(static_cast<std::uint32_t>(tile_batches.size()));
     for (const std::uint32_t number : slot.running()) {
-        TileBatchOnDevice& round = slot.round(number);
-        round.graph = graph_for(key_of(tile_batches[number]), extent);
-        round.context.sample_capacity = sample_capacity(tile_batches[number], room);
-        last_graph_ = round.graph;
+        TileBatchOnDevice& on_device = slot.tile_batch(number);
+        on_device.graph = graph_for(key_of(tile_batches[number]), extent);
+        on_device.context.sample_capacity = sample_capacity(tile_batches[number], room);
+        last_graph_ = on_device.graph;
     }
     slot.lay_out_output();
     timings.plan += start.milliseconds();
@@ -188,13 +188,12 @@ bool Renderer::submit_those_without_room(BatchResources& slot, Timings& timings)
 void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer commands) {
     slot.timestamps().reset(commands);
     for (const std::uint32_t number : slot.running()) {
-        const TileBatchOnDevice& round = slot.round(number);
-        context_ = round.context;
-        if (!context_.round->by_compute) {
-            passes_.raster->early_out.reset(commands);
+        const TileBatchOnDevice& on_device = slot.tile_batch(number);
+        if (!on_device.context.batch->by_compute) {
+            passes_.raster->early_out.reset(commands, on_device.context);
         }
-        slot.bind_buffers(*round.graph, number);
-        round.graph->execute(commands, slot.timestamps());
+        slot.bind_buffers(*on_device.graph, number);
+        on_device.graph->execute(commands, slot.timestamps(), on_device.context);
     }
     for (const std::uint32_t number : slot.running_searches()) {
         point_search_->record(commands, slot.timestamps(), slot.search(number).item());
@@ -203,10 +202,9 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
 }
 
 void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
-    const BatchResources::CopyBack copies = slot.copy_back();
+    const passes::CopyBack::Item copies = slot.copy_back();
     if (!copies.ranges.empty()) {
-        copy_back_.record(commands, slot.timestamps(), copies.words, copies.read_back,
-                          copies.ranges);
+        copy_back_.record(commands, slot.timestamps(), copies);
     }
     if (slot.has_resident_outputs()) {
         const ResidentBuffers& resident = slot.resident();
@@ -241,7 +239,7 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
         }
     }
     for (const std::uint32_t number : slot.running()) {
-        max_samples_ = std::max(max_samples_, slot.round(number).sample_count);
+        max_samples_ = std::max(max_samples_, slot.tile_batch(number).sample_count);
     }
 }
 

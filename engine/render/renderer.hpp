@@ -78,14 +78,13 @@ public:
 
 private:
     [[nodiscard]] std::shared_ptr<CompiledGraph> graph_for(GraphKey needs, plan::TileSize extent);
-    [[nodiscard]] std::uint32_t sample_capacity(const plan::TileBatch& round,
+    [[nodiscard]] std::uint32_t sample_capacity(const plan::TileBatch& batch,
                                                 SampleRoom room) const;
     void record_tile_batches(BatchResources& slot, VkCommandBuffer commands);
     void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
     bool timestamps_;
-    passes::RecordContext context_;  // of the tile batch that is being recorded
     passes::ComputeLayout layout_;
     TargetViews target_views_;
     PipelineSet passes_;

@@ -260,7 +260,7 @@ void ResidentBuffers::bind_fields(std::span<const Words> words,
         const plan::FieldOutputs& field = resident_->fields[i];
         std::uint32_t part = field.first_part;
         for (const VkDescriptorSet set : take(sets, field.part_count)) {
-            bind_words(set, words[resident_->field_parts[part++].round].field);
+            bind_words(set, words[resident_->field_parts[part++].tile_batch].field);
             layout_->write_storage_image(set, Layout::signed_distance_image,
                                          views_[i].signed_distance);
             layout_->write_storage_image(set, Layout::feature_id_image, views_[i].feature);
@@ -276,11 +276,11 @@ void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart
         std::uint32_t number = records.first_run;
         for (const VkDescriptorSet set : take(sets, records.run_count)) {
             const plan::PointRunOutput& run = resident_->point_runs[number++];
-            bind_words(set, words[run.round].points);
+            bind_words(set, words[run.tile_batch].points);
             bind_records(set, places_[i], range_of(i, records));
             constexpr std::uint32_t words_of_details =
                 sizeof(plan::PointDetails) / sizeof(std::uint32_t);
-            details_.push_back(words[run.round].point_count + words_of_details * run.first);
+            details_.push_back(words[run.tile_batch].point_count + words_of_details * run.first);
         }
         const VkDescriptorSet last = take(sets, 1).front();
         bind_words(last, none);
@@ -298,9 +298,10 @@ void ResidentBuffers::bind_samples(std::span<const Words> words, const BufferPar
             bind_records(set, sample_places_[i], range_of(i, samples));
         };
         for (std::uint32_t number = 0; number < samples.run_count; ++number) {
-            const Words& round = words[resident_->sample_runs[samples.first_run + number].round];
-            bind(round.summaries);
-            bind(samples.block_count > 0 ? round.hits : none);
+            const Words& batch =
+                words[resident_->sample_runs[samples.first_run + number].tile_batch];
+            bind(batch.summaries);
+            bind(samples.block_count > 0 ? batch.hits : none);
         }
         bind(none);
     }

@@ -50,15 +50,13 @@ ResidentField ResidentBuffers::field(std::size_t i) const {
 ResidentRecords ResidentBuffers::records(std::size_t i) const {
     const plan::RecordsOutput& records = resident_->records[i];
     const BufferPart range = range_of(i, records);
-    return {range.buffer,
-            range.offset,
-            range.bytes,
-            records.capacity,
-            geometry::to_public(records.origin),
-            records.error_bound,
-            state(records.target),
-            header_at(places_[i]),
-            slot()};
+    const std::uint64_t max_size =
+        sizeof(SummaryData) + static_cast<std::uint64_t>(records.max_capacity) * sizeof(RecordData);
+    return {range.buffer,          range.offset,
+            range.bytes,           max_size,
+            records.capacity,      geometry::to_public(records.origin),
+            records.error_bound,   state(records.target),
+            header_at(places_[i]), slot()};
 }
 
 ResidentSamples ResidentBuffers::samples(std::size_t i) const {

@@ -71,18 +71,18 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
                                               std::span<const plan::TileBatch> tile_batches) {
     parts_.clear();
     for (std::uint32_t number = 0; number < tile_batches.size(); ++number) {
-        const plan::TileBatch& round = tile_batches[number];
-        if (!round.resident) {
+        const plan::TileBatch& batch = tile_batches[number];
+        if (!batch.resident) {
             continue;
         }
-        for (const plan::TileDraw& draw : round.distance_draws) {
-            const plan::Tile& tile = plan.tiles[round.tile_index[draw.tile]];
+        for (const plan::TileDraw& draw : batch.distance_draws) {
+            const plan::Tile& tile = plan.tiles[batch.tile_index[draw.tile]];
             if (!draw.field || !plan.queries[tile.query].resident) {
                 continue;
             }
             const std::uint32_t corner = tile.halo * tile.width + tile.halo;
             plan::FieldPartOutput part;
-            part.round = number;
+            part.tile_batch = number;
             part.value = draw.first_value + corner;
             part.feature = draw.first_feature + corner;
             part.stride = tile.width;
@@ -137,6 +137,10 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
     RecordsOutput& records = resident.records.emplace_back();
     records.query = query;
     records.cell = planned.budget.cell;
+    // Whole, so that rounding of the sum costs no point; and within 64 bits, in bytes.
+    records.max_capacity = std::min(
+        std::ceil(plan::max_points(planned) + (reverse == nullptr ? 0.0 : max_points(*reverse))),
+        std::ldexp(1.0, 53));
     records.error_bound = error_of_records(planned, box);
     records.first_run = static_cast<std::uint32_t>(resident.point_runs.size());
     if (!box.isEmpty()) {
@@ -169,8 +173,8 @@ void ResidentOutputsBuilder::add_runs(const plan::Plan& plan,
     plan::PointRunOutput run;
     run.rings = add_rings(*planned.b, resident);
     run.flags = flags;
-    for (run.round = 0; run.round < tile_batches.size(); ++run.round) {
-        const std::vector<std::uint32_t>& index = tile_batches[run.round].point_index;
+    for (run.tile_batch = 0; run.tile_batch < tile_batches.size(); ++run.tile_batch) {
+        const std::vector<std::uint32_t>& index = tile_batches[run.tile_batch].point_index;
         const auto begin = std::lower_bound(index.begin(), index.end(), planned.first_point);
         const auto end =
             std::lower_bound(begin, index.end(), planned.first_point + planned.point_count);

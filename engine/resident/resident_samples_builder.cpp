@@ -90,12 +90,12 @@ void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
     tiles_.clear();
     run_tables_.assign(tile_batches.size(), plan::no_word);
     FoundTile found;
-    for (found.round = 0; found.round < tile_batches.size(); ++found.round) {
-        const plan::TileBatch& round = tile_batches[found.round];
-        if (round.by_compute) {
-            find_masks(plan, round, found);
+    for (found.tile_batch = 0; found.tile_batch < tile_batches.size(); ++found.tile_batch) {
+        const plan::TileBatch& batch = tile_batches[found.tile_batch];
+        if (batch.by_compute) {
+            find_masks(plan, batch, found);
         } else {
-            find_drawn(plan, round, found);
+            find_drawn(plan, batch, found);
         }
     }
     // By query, then region, row and column: the order in which tiles were cut.
@@ -103,11 +103,11 @@ void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
               [](const FoundTile& i, const FoundTile& j) { return i.index < j.index; });
 }
 
-void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::TileBatch& round,
+void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::TileBatch& batch,
                                         FoundTile found) {
-    for (const std::vector<plan::TileDraw>& draws : round.overlap_draws) {
+    for (const std::vector<plan::TileDraw>& draws : batch.overlap_draws) {
         for (const plan::TileDraw& draw : draws) {
-            found.index = round.tile_index[draw.tile];
+            found.index = batch.tile_index[draw.tile];
             if (plan.queries[plan.tiles[found.index].query].resident) {
                 found.data.summary = draw.tile;
                 found.data.hits = draw.first_hit;
@@ -117,11 +117,11 @@ void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::Tile
     }
 }
 
-void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::TileBatch& round,
+void ResidentSamplesBuilder::find_masks(const plan::Plan& plan, const plan::TileBatch& batch,
                                         FoundTile found) {
-    const plan::ComputeWork& work = round.compute;
+    const plan::ComputeWork& work = batch.compute;
     for (const plan::OverlapData& overlap : work.overlaps) {
-        found.index = round.tile_index[overlap.tile];
+        found.index = batch.tile_index[overlap.tile];
         if (plan.queries[plan.tiles[found.index].query].resident) {
             const plan::MaskData& mask_b = work.masks[overlap.mask_b];
             found.data.summary = overlap.tile;
@@ -152,18 +152,18 @@ void ResidentSamplesBuilder::add_tiles(const plan::Plan& plan,
     }
     samples.tile_count = static_cast<std::uint32_t>(last - first);
     std::sort(first, last, [](const FoundTile& i, const FoundTile& j) {
-        return i.round != j.round ? i.round < j.round : i.index < j.index;
+        return i.tile_batch != j.tile_batch ? i.tile_batch < j.tile_batch : i.index < j.index;
     });
     for (auto tile = first; tile != last; ++tile) {
-        if (tile == first || tile->round != std::prev(tile)->round) {
+        if (tile == first || tile->tile_batch != std::prev(tile)->tile_batch) {
             plan::SampleRunOutput& run = resident.sample_runs.emplace_back();
-            run.round = tile->round;
+            run.tile_batch = tile->tile_batch;
             run.first_tile = static_cast<std::uint32_t>(resident.sample_tiles.size());
             ++samples.run_count;
         }
         place(plan.tiles[tile->index], samples.origin, tile->data);
         if (samples.rings.count > 0) {
-            tile->data.run_table = run_table(tile_batches, tile->round, resident);
+            tile->data.run_table = run_table(tile_batches, tile->tile_batch, resident);
         }
         resident.sample_tiles.push_back(tile->data);
         ++resident.sample_runs.back().tile_count;

@@ -26,13 +26,13 @@ public:
 private:
     struct FoundTile {
         std::uint32_t index = 0;  ///< in Plan::tiles
-        std::uint32_t round = 0;
+        std::uint32_t tile_batch = 0;
         plan::SampleTileData data;
     };
 
     void find_tiles(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches);
-    void find_drawn(const plan::Plan& plan, const plan::TileBatch& round, FoundTile found);
-    void find_masks(const plan::Plan& plan, const plan::TileBatch& round, FoundTile found);
+    void find_drawn(const plan::Plan& plan, const plan::TileBatch& batch, FoundTile found);
+    void find_masks(const plan::Plan& plan, const plan::TileBatch& batch, FoundTile found);
     void add_tiles(const plan::Plan& plan, std::span<const plan::TileBatch> tile_batches,
                    const IntersectionQuery& asked, plan::ResidentOutputs& resident);
     void place_blocks(const plan::Plan& plan, std::span<FoundTile> tiles,

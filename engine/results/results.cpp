@@ -17,9 +17,9 @@ void ResultDecoder::begin_batch(const plan::Plan& plan) {
     fields_.begin_batch(plan);
 }
 
-void ResultDecoder::add_points(const plan::TileBatch& round, std::span<const std::uint32_t> words) {
+void ResultDecoder::add_points(const plan::TileBatch& batch, std::span<const std::uint32_t> words) {
     for (std::size_t i = 0; i < words.size(); ++i) {
-        words_[round.point_index[i]] = words[i];
+        words_[batch.point_index[i]] = words[i];
     }
 }
 
@@ -38,11 +38,11 @@ void ResultDecoder::add_found(const plan::PointSearch& search,
     }
 }
 
-void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::TileBatch& round,
+void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::TileBatch& batch,
                                   std::span<const plan::TileSummary> summaries,
                                   std::vector<AnyResult>& results) {
     for (std::size_t i = 0; i < summaries.size(); ++i) {
-        const Tile& tile = plan.tiles[round.tile_index[i]];
+        const Tile& tile = plan.tiles[batch.tile_index[i]];
         if (tile.kind == plan::TileKind::overlap) {
             records::add_summary(tile, summaries[i],
                                  std::get<IntersectionResult>(results[tile.query]));
@@ -50,17 +50,17 @@ void ResultDecoder::add_summaries(const plan::Plan& plan, const plan::TileBatch&
     }
 }
 
-void ResultDecoder::add_samples(const plan::Plan& plan, const plan::TileBatch& round,
+void ResultDecoder::add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                                 std::span<const plan::SampleData> samples) {
     for (const plan::SampleData& sample : samples) {
-        const std::uint32_t index = round.tile_index[sample.tile];
+        const std::uint32_t index = batch.tile_index[sample.tile];
         const Tile& tile = plan.tiles[index];
         samples_.push_back(
             {tile.query, tile.region, tile.row + (sample.cell >> 16U),
              tile.column + (sample.cell & 0xffffU),
              records::make_sample(plan.queries[tile.query], tile, sample.cell & 0xffffU,
                                   sample.cell >> 16U,
-                                  round.runs.empty() ? plan::EdgeRun{} : round.runs[sample.run])});
+                                  batch.runs.empty() ? plan::EdgeRun{} : batch.runs[sample.run])});
     }
 }
 

@@ -25,18 +25,18 @@ public:
     void begin_batch(const plan::Plan& plan);
 
     /// Decodes the read-back of one tile batch.
-    void add_points(const plan::TileBatch& round, std::span<const std::uint32_t> words);
+    void add_points(const plan::TileBatch& batch, std::span<const std::uint32_t> words);
     /// Adds the points that a search has found to those of the plan.
     void add_found(const plan::PointSearch& search, std::span<const plan::FoundPointData> found,
                    plan::Plan& plan);
-    static void add_summaries(const plan::Plan& plan, const plan::TileBatch& round,
+    static void add_summaries(const plan::Plan& plan, const plan::TileBatch& batch,
                               std::span<const plan::TileSummary> summaries,
                               std::vector<AnyResult>& results);
-    void add_field(const plan::Plan& plan, const plan::TileBatch& round,
+    void add_field(const plan::Plan& plan, const plan::TileBatch& batch,
                    std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
-        fields_.add(plan, round, words, results);
+        fields_.add(plan, batch, words, results);
     }
-    void add_samples(const plan::Plan& plan, const plan::TileBatch& round,
+    void add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                      std::span<const plan::SampleData> samples);
 
     /// The device's results, by point of the plan.

@@ -64,6 +64,7 @@ Scene pairs(PenetrationPoints points) {
         query.b = any(1.2);
         query.tolerance = 0.02;
         query.points = points;
+        query.technique = Technique::raster;
         scene.queries.emplace_back(query);
     }
     return scene;
@@ -76,6 +77,7 @@ Scene outlines(const std::filesystem::path& data) {
     query.b = {scene.add(test::read_outline(data / "ireland_10m.geojson").rings),
                {{120.0, 20.0}, std::numbers::pi / 6.0}};
     query.tolerance = 0.005;
+    query.technique = Technique::raster;
     scene.queries.emplace_back(query);
     return scene;
 }
@@ -88,6 +90,7 @@ Scene field() {
     query.rectangle = Rectangle{{-1.5, -1.5}, {1.5, 1.5}};
     query.tolerance = 0.0006;
     query.features = true;
+    query.technique = Technique::raster;
     scene.queries.emplace_back(query);
     return scene;
 }
@@ -104,6 +107,7 @@ Scene instances() {
         query.a = {star, {big[0][10 * i], random.between(0.0, 2.0 * std::numbers::pi)}};
         query.b = {coast, {}};
         query.tolerance = 0.0005;
+        query.technique = Technique::raster;
         scene.queries.emplace_back(query);
     }
     return scene;
@@ -115,7 +119,7 @@ void measure(const Scene& scene, int frames) {
     plan::Planner planner(limits);
     plan::TileBatchBuilder builder(limits.subpixel);
     plan::Plan plan;
-    plan::TileBatch round;
+    plan::TileBatch batch;
     std::vector<plan::QueryShapes> shapes;
     std::vector<AnyResult> results;
     double planned = HUGE_VAL;
@@ -134,11 +138,11 @@ void measure(const Scene& scene, int frames) {
         builder.begin_batch();
         vertices = 0;
         for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
-            builder.build(plan, number, round);
-            for (const geometry::Mesh& mesh : round.meshes.meshes()) {
+            builder.build(plan, number, batch);
+            for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
                 vertices += mesh.size();
             }
-            for (const std::vector<plan::TileVertex>& mesh : round.meshes.tile_meshes()) {
+            for (const std::vector<plan::TileVertex>& mesh : batch.meshes.tile_meshes()) {
                 vertices += mesh.size();
             }
         }
@@ -155,7 +159,7 @@ void measure(const Scene& scene, int frames) {
 int main() {
     try {
         std::puts(
-            "| scene | tiles | rounds | mesh vertices | localise and plan, ms | build, ms |\n"
+            "| scene | tiles | tile batches | mesh vertices | localise and plan, ms | build, ms |\n"
             "|---|---|---|---|---|---|");
         measure(pairs(PenetrationPoints::vertices), 5);
         measure(pairs(PenetrationPoints::boundary), 5);

@@ -34,6 +34,12 @@ void VKAPI_CALL count_render_pass(VkCommandBuffer commands, const VkRenderPassBe
     below<PFN_vkCmdBeginRenderPass>("vkCmdBeginRenderPass")(commands, info, contents);
 }
 
+void VKAPI_CALL count_draw(VkCommandBuffer commands, std::uint32_t vertices,
+                           std::uint32_t instances, std::uint32_t first, std::uint32_t instance) {
+    ++calls.draws;
+    below<PFN_vkCmdDraw>("vkCmdDraw")(commands, vertices, instances, first, instance);
+}
+
 void VKAPI_CALL count_reset(VkCommandBuffer commands, VkQueryPool pool, std::uint32_t first,
                             std::uint32_t count) {
     ++calls.recordings;
@@ -53,6 +59,7 @@ test_support::Lies counting() {
     instead("vkQueueSubmit", &count_submission);
     instead("vkWaitForFences", &count_wait);
     instead("vkCmdBeginRenderPass", &count_render_pass);
+    instead("vkCmdDraw", &count_draw);
     instead("vkCmdResetQueryPool", &count_reset);
     instead("vkCmdBeginDebugUtilsLabelEXT", &count_label);
     return lies;

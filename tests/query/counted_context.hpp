@@ -14,6 +14,7 @@ struct Calls {
     int submissions = 0;
     int waits = 0;
     int render_passes = 0;
+    int draws = 0;
     int recordings = 0;        ///< counts a command that starts every kind of recording
     bool lose_device = false;  ///< waiting reports a lost device after it has waited
 };

@@ -88,4 +88,21 @@ Batch every_query(ShapeHandle a, ShapeHandle b, int number, bool recordable) {
     return batch;
 }
 
+Batch resident_queries(const Batch& every) {
+    Batch batch;
+    for (const AnyQuery& query : every.queries()) {
+        std::visit(
+            [&](auto kept) {
+                if constexpr (requires { kept.resident; }) {
+                    if (kept.technique != Technique::cpu) {
+                        kept.resident = true;
+                        batch.add(kept);
+                    }
+                }
+            },
+            query);
+    }
+    return batch;
+}
+
 }  // namespace nearfield::test

@@ -9,4 +9,7 @@ namespace nearfield::test {
 /// without the queries that need a second submission.
 [[nodiscard]] Batch every_query(ShapeHandle a, ShapeHandle b, int number, bool recordable);
 
+/// The queries of a batch whose results can stay on the device, with results that do.
+[[nodiscard]] Batch resident_queries(const Batch& every);
+
 }  // namespace nearfield::test

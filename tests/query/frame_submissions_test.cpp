@@ -94,7 +94,7 @@ TEST_F(Frames, OfSeveralRoundsTakeOneSubmission) {
     calls = {};
     const Ticket ticket = submit(batch);
     EXPECT_EQ(calls.submissions, 1);
-    EXPECT_GE(calls.render_passes, 8) << "not several rounds";
+    EXPECT_GE(calls.render_passes, 8) << "not several tile batches";
     Results results;
     const Status status = counted().collect(ticket, results);
     ASSERT_TRUE(status.ok()) << status.text();
@@ -119,7 +119,7 @@ TEST_F(Frames, WithMoreSamplesThanRoomRunAgainOnce) {
     const Ticket first = submit(batch);
     const Ticket second = submit(batch);
     EXPECT_EQ(calls.submissions, 2);
-    EXPECT_GE(calls.render_passes, 6) << "not several rounds";
+    EXPECT_GE(calls.render_passes, 6) << "not several tile batches";
     Results results;
     ASSERT_TRUE(counted().collect(second, results).ok());
     EXPECT_GT(std::get<IntersectionResult>(results.results[0]).count, 50000U);

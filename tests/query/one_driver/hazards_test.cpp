@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace nearfield::test {
@@ -16,24 +15,6 @@ namespace {
 using test_support::BufferAccesses;
 using test_support::Dependency;
 using test_support::find_hazards;
-
-/// The queries whose results can stay on the device, with results that do.
-Batch resident(const Batch& every) {
-    Batch batch;
-    for (const AnyQuery& query : every.queries()) {
-        std::visit(
-            [&](auto kept) {
-                if constexpr (requires { kept.resident; }) {
-                    if (kept.technique != Technique::cpu) {
-                        kept.resident = true;
-                        batch.add(kept);
-                    }
-                }
-            },
-            query);
-    }
-    return batch;
-}
 
 /// Every barrier between accesses to buffers, those of the render graph and those beside it.
 class Hazards : public testing::Test {
@@ -55,7 +36,18 @@ protected:
         EXPECT_EQ(host_.close(), std::vector<std::string>{});
     }
 
-    [[nodiscard]] Batch every(bool recordable) const { return every_query(a_, b_, 0, recordable); }
+    /// With an intersection whose tile is large enough for an occlusion query.
+    [[nodiscard]] Batch every(bool recordable) const {
+        Batch batch = every_query(a_, b_, 0, recordable);
+        batch.add(IntersectionQuery{{a_, {}},
+                                    {b_, {{0.7, 0.0}, 0.3}},
+                                    0.005,
+                                    IntersectionKind::volume_volume,
+                                    true,
+                                    IntersectionStrategy::stencil,
+                                    Technique::raster});
+        return batch;
+    }
 
     void run(const Batch& batch) {
         Results results;
@@ -119,7 +111,7 @@ TEST_F(Hazards, AreInNoBatch) {
 }
 
 TEST_F(Hazards, AreInNoBatchWhoseResultsStay) {
-    run(resident(every(true)));
+    run(resident_queries(every(true)));
     check();
 }
 

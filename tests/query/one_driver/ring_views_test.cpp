@@ -110,6 +110,8 @@ TEST_F(RingViews, AreRefusedByName) {
     expect(RingView(triangle, 0), "stride is 0");
     expect(RingView(std::span(triangle).first(5)), "lacks its y");
     expect(RingView(std::span<const double>()), "three different vertices");
+    expect(RingView(triangle, 2 * sizeof(double)),
+           "6 numbers at a stride of 16 numbers are fewer than three different vertices");
     const std::vector<float> odd{0, 0, 1, 0, 0, std::numeric_limits<float>::infinity()};
     expect(RingView(odd), "vertex 2");
 }

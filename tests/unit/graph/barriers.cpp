@@ -207,7 +207,7 @@ TEST(GraphBarriers, ThatWereBakedAreThoseRecorded) {
         calls.clear();
         VkCommandBuffer commands = submission.begin();
         timestamps.reset(commands);
-        executor.execute(graph, commands, timestamps);
+        executor.execute(graph, commands, timestamps, no_commands);
         BakedGraph baked = executor.baked();
         std::size_t next = 0;
         for (const std::vector<Barrier>* const list : lists_of(baked)) {

@@ -5,6 +5,7 @@
 #include <engine/graph/bake.hpp>
 #include <engine/graph/execute.hpp>
 #include <engine/graph/print.hpp>
+#include <engine/graph/recorded_graph.hpp>
 
 #include <gtest/gtest.h>
 #include <tests/support/allocations.hpp>
@@ -79,8 +80,8 @@ TEST_F(GraphExecute, RandomGraphsRunTwiceWithNothingToComplainOf) {
         gpu::Timestamps timestamps(device, 2 * static_cast<std::uint32_t>(graph.passes().size()));
         VkCommandBuffer commands = submission.begin();
         timestamps.reset(commands);
-        executor.execute(graph, commands, timestamps);
-        executor.execute(graph, commands, timestamps);
+        executor.execute(graph, commands, timestamps, no_commands);
+        executor.execute(graph, commands, timestamps, no_commands);
         submission.submit();
         submission.wait();
         ASSERT_EQ(host_.messages(), std::vector<std::string>{})
@@ -88,30 +89,34 @@ TEST_F(GraphExecute, RandomGraphsRunTwiceWithNothingToComplainOf) {
     }
 }
 
-TEST_F(GraphExecute, PassesAreRecordedInOrderAndTimedByName) {
+TEST_F(GraphExecute, PassesAreRecordedInOrderFromTheirInputAndTimedByName) {
+    using Names = std::vector<std::string>;
     const gpu::Device device(host_.device());
-    std::vector<std::string> recorded;
-    Graph graph;
+    RecordedGraph<Names*> graph;
     const Handle sign = color(graph, "sign");
     graph.add_pass(
         "look", PassKind::compute,
         [&](PassBuilder& pass) { pass.read(next(sign), Access::sampled_in_compute); },
-        [&](VkCommandBuffer) { recorded.emplace_back("look"); });
+        [](VkCommandBuffer, Names* const& recorded) { recorded->emplace_back("look"); });
     graph.add_pass(
         "fill", PassKind::graphics,
         [&](PassBuilder& pass) {
             EXPECT_EQ(pass.write(sign, Access::color_attachment), next(sign));
         },
-        [&](VkCommandBuffer) { recorded.emplace_back("fill"); });
-    const Executor executor(device, graph, *bake(graph));
-    EXPECT_NE(executor.sampled_view(sign), VkImageView{VK_NULL_HANDLE});
+        [](VkCommandBuffer, Names* const& recorded) { recorded->emplace_back("fill"); });
+    graph.compile(device);
+    EXPECT_NE(graph.executor().sampled_view(sign), VkImageView{VK_NULL_HANDLE});
     gpu::Submission submission(device);
-    gpu::Timestamps timestamps(device, 2);
+    gpu::Timestamps timestamps(device, 4);
     VkCommandBuffer commands = submission.begin();
     timestamps.reset(commands);
-    executor.execute(graph, commands, timestamps);
+    Names recorded;
+    Names again;
+    graph.execute(commands, timestamps, &recorded);
+    graph.execute(commands, timestamps, &again);
     submission.submit();
     submission.wait();
+    EXPECT_EQ(recorded, again);
     EXPECT_EQ(recorded, (std::vector<std::string>{"fill", "look"}));
     std::vector<PassTime> times;
     timestamps.collect(times);
@@ -119,6 +124,25 @@ TEST_F(GraphExecute, PassesAreRecordedInOrderAndTimedByName) {
     for (std::size_t i = 0; i < times.size(); ++i) {
         EXPECT_EQ(times[i].name, recorded[i]);
     }
+}
+
+TEST_F(GraphExecute, AComputePassReadsWhatThereIsAndWritesOneBuffer) {
+    RecordedGraph<int> graph;
+    const Handle sign = color(graph, "sign");
+    const Handle output = graph.import_buffer({.name = "output"});
+    const auto nothing = [](VkCommandBuffer, int) {};
+    EXPECT_EQ(graph.add_compute_pass("look",
+                                     {{next(sign), Access::sampled_in_compute},
+                                      {Handle{}, Access::storage_read_in_compute}},
+                                     output, nothing),
+              next(output));
+    const std::vector<Use>& uses = graph.passes().front().uses;
+    ASSERT_EQ(uses.size(), 2U);
+    EXPECT_EQ(uses[0].handle, next(sign));
+    EXPECT_FALSE(uses[0].write);
+    EXPECT_EQ(uses[1].handle, output);
+    EXPECT_EQ(uses[1].access, Access::storage_write_in_compute);
+    EXPECT_TRUE(uses[1].write);
 }
 
 TEST_F(GraphExecute, ImagesThatShareASlotShareItsBytes) {
@@ -142,7 +166,7 @@ TEST_F(GraphExecute, BufferThatWasNotSetIsNamed) {
     VkCommandBuffer commands = submission.begin();
     timestamps.reset(commands);
     try {
-        executor.execute(two.graph, commands, timestamps);
+        executor.execute(two.graph, commands, timestamps, no_commands);
         FAIL() << "no Failure";
     } catch (const StatusException& failure) {
         EXPECT_NE(failure.status().message().find("'records'"), std::string::npos);
@@ -265,7 +289,7 @@ TEST_F(GraphExecute, OneBarrierCallAPassAndNoAllocation) {
     barriers_recorded = 0;
     memory_barriers_recorded = 0;
     const std::uint64_t before = test_support::allocation_count();
-    executor.execute(two.graph, VK_NULL_HANDLE, timestamps);
+    executor.execute(two.graph, VK_NULL_HANDLE, timestamps, no_commands);
     EXPECT_EQ(test_support::allocation_count(), before);
     EXPECT_EQ(barrier_calls, 5U);  // four passes and the host
     EXPECT_EQ(barriers_recorded, expected);
@@ -360,7 +384,7 @@ TEST_F(GraphExecute, ExternalUsesTakeThePlaceOfTheDeclaredOnesForOneExecution) {
     gpu::Timestamps timestamps(device, 4);
     const auto execute = [&] {
         recorded_count = 0;
-        executor.execute(graph, VK_NULL_HANDLE, timestamps);
+        executor.execute(graph, VK_NULL_HANDLE, timestamps, no_commands);
         EXPECT_EQ(recorded_count, 2U);
     };
 

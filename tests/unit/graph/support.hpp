@@ -3,6 +3,7 @@
 #include <engine/graph/graph.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <random>
@@ -21,19 +22,19 @@ inline Handle color(Graph& graph, std::string name, VkFormat format = VK_FORMAT_
 }
 
 inline void add_pass(Graph& graph, std::string name, PassKind kind, const std::vector<Use>& uses) {
-    graph.add_pass(
-        std::move(name), kind,
-        [&](PassBuilder& pass) {
-            for (const Use& use : uses) {
-                if (use.write) {
-                    static_cast<void>(pass.write(use.handle, use.access));
-                } else {
-                    pass.read(use.handle, use.access);
-                }
+    graph.add_pass(std::move(name), kind, [&](PassBuilder& pass) {
+        for (const Use& use : uses) {
+            if (use.write) {
+                static_cast<void>(pass.write(use.handle, use.access));
+            } else {
+                pass.read(use.handle, use.access);
             }
-        },
-        [](VkCommandBuffer) {});
+        }
+    });
 }
+
+/// For passes that record nothing between their barriers.
+inline constexpr auto no_commands = [](std::size_t, VkCommandBuffer) {};
 
 inline Use reads(Handle handle, Access access) {
     return {.handle = handle, .access = access, .write = false};

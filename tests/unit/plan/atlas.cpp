@@ -8,7 +8,7 @@
 namespace nearfield::plan {
 namespace {
 
-TEST(AtlasPacker, TilesOfARoundNeverOverlapAndStayInTheImage) {
+TEST(AtlasPacker, TilesOfATileBatchNeverOverlapAndStayInTheImage) {
     for (std::uint32_t seed = 0; seed < 50; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         std::mt19937 random(seed);
@@ -31,15 +31,15 @@ TEST(AtlasPacker, TilesOfARoundNeverOverlapAndStayInTheImage) {
         std::vector<std::vector<bool>> taken(
             packer.tile_batches(), std::vector<bool>(std::size_t{with_gap} * with_gap, false));
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            ASSERT_LT(places[i].round, packer.tile_batches());
+            ASSERT_LT(places[i].tile_batch, packer.tile_batches());
             ASSERT_LE(places[i].x + tiles[i].width, packer.extent().width);
             ASSERT_LE(places[i].y + tiles[i].height, packer.extent().height);
             for (std::uint32_t y = 0; y < tiles[i].height + atlas_gap; ++y) {
                 for (std::uint32_t x = 0; x < tiles[i].width + atlas_gap; ++x) {
                     const std::size_t pixel =
                         std::size_t{places[i].y + y} * with_gap + places[i].x + x;
-                    ASSERT_FALSE(taken[places[i].round][pixel]) << "tile " << i;
-                    taken[places[i].round][pixel] = true;
+                    ASSERT_FALSE(taken[places[i].tile_batch][pixel]) << "tile " << i;
+                    taken[places[i].tile_batch][pixel] = true;
                 }
             }
         }
@@ -64,12 +64,32 @@ TEST(AtlasPacker, FourTilesOfHalfTheLargestSideFitOneImage) {
     EXPECT_EQ(packer.tile_batches(), 1U);
 }
 
-TEST(AtlasPacker, NoTilesNeedNoRound) {
+TEST(AtlasPacker, NoTilesNeedNoTileBatch) {
     AtlasPacker packer(64);
     std::vector<AtlasPlace> places{{1, 2, 3}};
     packer.pack({}, places);
     EXPECT_EQ(packer.tile_batches(), 0U);
     EXPECT_TRUE(places.empty());
+}
+
+TEST(AtlasPacker, WhatIsPackedLaterLiesInLaterTileBatches) {
+    AtlasPacker packer(64);
+    std::vector<AtlasPlace> first;
+    std::vector<AtlasPlace> second;
+    packer.pack({{40, 50}, {40, 50}}, first);
+    packer.pack({}, second);
+    packer.pack({{60, 20}, {8, 8}}, second);
+    EXPECT_EQ(first[0].tile_batch, 0U);
+    EXPECT_EQ(first[1].tile_batch, 1U);
+    EXPECT_EQ(second[0].tile_batch, 2U);
+    EXPECT_EQ(second[1].tile_batch, 2U);
+    EXPECT_EQ(packer.tile_batches(), 3U);
+    EXPECT_GE(packer.extent().width, 60U);
+    EXPECT_GE(packer.extent().height, 50U);
+    packer.clear();
+    packer.pack({{8, 8}}, first);
+    EXPECT_EQ(packer.tile_batches(), 1U);
+    EXPECT_EQ(packer.extent().height, 8U);
 }
 
 }  // namespace

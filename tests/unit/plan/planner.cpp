@@ -223,6 +223,36 @@ TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
     EXPECT_FALSE(brute_force());
 }
 
+TEST_F(PlannerTest, LimitsAreToldInUnitsInWhichTheyAreNotZero) {
+    IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 1e-5};
+    query.technique = Technique::raster;
+    const auto refusal = [&](std::uint64_t memory) -> std::string {
+        limits_.memory = memory;
+        try {
+            run({query});
+        } catch (const StatusException& failure) {
+            return failure.status().message();
+        }
+        return "planned";
+    };
+    const auto says = [](const std::string& message, const std::string& part) {
+        return message.find(part) != std::string::npos;
+    };
+    for (const auto& [memory, told] :
+         {std::pair{(64ULL << 20U) + 1, "64 MiB; the smallest"},
+          std::pair{1ULL << 20U, "1 MiB; images take all of it"},
+          std::pair{(1ULL << 20U) - 1, "1023 KiB; images"}, std::pair{1ULL << 10U, "1 KiB; images"},
+          std::pair{1023ULL, "1023 bytes; images"}}) {
+        const std::string message = refusal(memory);
+        EXPECT_TRUE(says(message, std::string(", more than the limit of ") + told)) << message;
+    }
+    // What is needed is rounded up, and never told as less than the limit.
+    query.tolerance = 0.5;
+    const std::string message = refusal(1U << 20U);
+    EXPECT_TRUE(says(message, "needs up to 4 MiB, more than the limit of 1 MiB; images"))
+        << message;
+}
+
 TEST_F(PlannerTest, ResidentSamplesAreGivenAllTheRoomOfTheBufferButTheSummarys) {
     IntersectionQuery query{.a = penetration_.a, .b = penetration_.b, .tolerance = 0.1};
     query.technique = Technique::raster;

@@ -102,11 +102,11 @@ TEST_F(PlanTileMeshes, ReachNoOtherTile) {
     for (const double steps : {16.0, 256.0}) {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             SCOPED_TRACE(seed);
-            for (const TileBatch& round : tile_batches(seed, steps)) {
-                for (const geometry::Mesh& mesh : round.meshes.meshes()) {
+            for (const TileBatch& batch : tile_batches(seed, steps)) {
+                for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
                     for (std::size_t i = 0; i < mesh.size(); i += 3) {
                         float least = 1e9F;
-                        for (const TileData& tile : round.tiles) {
+                        for (const TileData& tile : batch.tiles) {
                             least = std::min(least, overreach({&mesh[i], 3}, tile));
                         }
                         // Sample positions are half a cell within the next tile.
@@ -122,8 +122,8 @@ TEST_F(PlanTileMeshes, CarryTheRectangleOfTheirTile) {
     std::size_t seen = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE(seed);
-        for (const TileBatch& round : tile_batches(seed, 256.0)) {
-            for (const std::vector<TileVertex>& mesh : round.meshes.tile_meshes()) {
+        for (const TileBatch& batch : tile_batches(seed, 256.0)) {
+            for (const std::vector<TileVertex>& mesh : batch.meshes.tile_meshes()) {
                 for (std::size_t i = 0; i < mesh.size(); i += 3) {
                     const auto is_its = [&](const TileData& tile) {
                         return std::all_of(&mesh[i], &mesh[i] + 3, [&](const TileVertex& vertex) {
@@ -131,7 +131,7 @@ TEST_F(PlanTileMeshes, CarryTheRectangleOfTheirTile) {
                                    vertex.width == tile.width && vertex.height == tile.height;
                         });
                     };
-                    ASSERT_EQ(std::count_if(round.tiles.begin(), round.tiles.end(), is_its), 1);
+                    ASSERT_EQ(std::count_if(batch.tiles.begin(), batch.tiles.end(), is_its), 1);
                     for (std::size_t j = i; j < i + 3; ++j) {
                         const float depth = mesh[j].vertex.distance;
                         ASSERT_TRUE(depth >= 0.0F && depth <= 1.0F) << depth;
@@ -145,22 +145,22 @@ TEST_F(PlanTileMeshes, CarryTheRectangleOfTheirTile) {
 }
 
 TEST_F(PlanTileMeshes, FollowEachOtherInTheOrderOfTheirRanges) {
-    for (const TileBatch& round : tile_batches(1, 256.0)) {
+    for (const TileBatch& batch : tile_batches(1, 256.0)) {
         std::uint32_t end = 0;
         for (std::size_t i = 0; i < tile_batch_meshes; ++i) {
-            const DrawRange range = round.meshes.range(MeshId{i});
+            const DrawRange range = batch.meshes.range(MeshId{i});
             EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, round.meshes.meshes()[i].size());
+            EXPECT_EQ(range.count, batch.meshes.meshes()[i].size());
             end += range.count;
         }
-        const DrawRange all = round.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
+        const DrawRange all = batch.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
         EXPECT_EQ(all.first, 0U);
         EXPECT_EQ(all.count, end);
         end = 0;
         for (std::size_t i = 0; i < tile_batch_tile_meshes; ++i) {
-            const DrawRange range = round.meshes.range(static_cast<TileMeshId>(i));
+            const DrawRange range = batch.meshes.range(static_cast<TileMeshId>(i));
             EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, round.meshes.tile_meshes()[i].size());
+            EXPECT_EQ(range.count, batch.meshes.tile_meshes()[i].size());
             end += range.count;
         }
     }

@@ -10,7 +10,8 @@ namespace nearfield::plan {
 namespace {
 
 // Two squares of 10 x 10 whose intersection is 5 x 10.
-TileBatch tile_batch_of(const std::vector<std::pair<IntersectionStrategy, double>>& asked) {
+std::vector<TileBatch> tile_batches_of(
+    const std::vector<std::pair<IntersectionStrategy, double>>& asked) {
     geometry::Polygon square;
     EXPECT_TRUE(square.assign(std::vector<Ring>{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}).ok());
     std::vector<AnyQuery> queries;
@@ -32,38 +33,45 @@ TileBatch tile_batch_of(const std::vector<std::pair<IntersectionStrategy, double
     const std::vector<QueryShapes> shapes(queries.size(), {&square, &square});
     planner.plan(queries, shapes, plan, results);
     TileBatchBuilder builder(limits.subpixel);
-    TileBatch round;
-    builder.build(plan, 0, round);
-    return round;
+    std::vector<TileBatch> batches(plan.tile_batches);
+    for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
+        builder.build(plan, number, batches[number]);
+    }
+    return batches;
 }
 
 TEST(PlanWatch, LargeTilesOfStencilAndDepthOnly) {
     using S = IntersectionStrategy;
     constexpr double fine = 0.02;
     constexpr double coarse = 0.2;
-    const TileBatch round = tile_batch_of({{S::stencil, fine},
-                                           {S::blend, fine},
-                                           {S::logic_op, fine},
-                                           {S::depth, fine},
-                                           {S::stencil, coarse},
-                                           {S::depth, coarse}});
-    std::set<std::uint32_t> tiles;
-    for (const WatchedTile& watched : round.watched) {
-        EXPECT_TRUE(watched.strategy == S::stencil || watched.strategy == S::depth);
-        const TileData& tile = round.tiles[watched.tile];
-        EXPECT_GE(tile.width * tile.height, 128U * 128U);
-        EXPECT_EQ(watched.part_a, Part::volume);
-        EXPECT_EQ(watched.a.count, 6U);
-        EXPECT_TRUE(tiles.insert(watched.tile).second);
-    }
-    EXPECT_EQ(tiles.size(), 2U);
-    // The other four tiles are drawn together, and no tile twice.
+    const std::vector<TileBatch> batches = tile_batches_of({{S::stencil, fine},
+                                                            {S::blend, fine},
+                                                            {S::logic_op, fine},
+                                                            {S::depth, fine},
+                                                            {S::stencil, coarse},
+                                                            {S::depth, coarse}});
+    ASSERT_EQ(batches.size(), 4U) << "each strategy has a tile batch";
+    std::size_t watched_tiles = 0;
     std::uint32_t vertices = 0;
-    for (std::size_t strategy = 0; strategy < intersection_strategies; ++strategy) {
-        for (const OverlapStep step : {OverlapStep::volume_a, OverlapStep::watched_a}) {
-            vertices += round.meshes.range(overlaps_of(static_cast<S>(strategy), step)).count;
+    for (const TileBatch& batch : batches) {
+        std::set<std::uint32_t> tiles;
+        for (const WatchedTile& watched : batch.watched) {
+            EXPECT_TRUE(watched.strategy == S::stencil || watched.strategy == S::depth);
+            const TileData& tile = batch.tiles[watched.tile];
+            EXPECT_GE(tile.width * tile.height, 128U * 128U);
+            EXPECT_EQ(watched.part_a, Part::volume);
+            EXPECT_EQ(watched.a.count, 6U);
+            EXPECT_TRUE(tiles.insert(watched.tile).second);
+        }
+        watched_tiles += tiles.size();
+        for (std::size_t strategy = 0; strategy < intersection_strategies; ++strategy) {
+            for (const OverlapStep step : {OverlapStep::volume_a, OverlapStep::watched_a}) {
+                vertices += batch.meshes.range(overlaps_of(static_cast<S>(strategy), step)).count;
+            }
         }
     }
+    EXPECT_EQ(watched_tiles, 2U);
+    // The other four tiles are drawn with the rest, and no tile twice.
     EXPECT_EQ(vertices, 6U * 6U);
 }
 
@@ -73,13 +81,13 @@ TEST(PlanWatch, TheLargestIfThereAreTooMany) {
     for (const unsigned i : {7U, 20U, 31U, 59U}) {
         many[i].second = 0.02;
     }
-    const TileBatch round = tile_batch_of(many);
-    ASSERT_EQ(round.watched.size(), max_watched);
+    const TileBatch batch = tile_batches_of(many).front();
+    ASSERT_EQ(batch.watched.size(), max_watched);
     std::uint32_t large = 0;
-    for (const WatchedTile& watched : round.watched) {
-        large = std::max(large, round.tiles[watched.tile].width);
-        EXPECT_GE(round.tiles[watched.tile].width * 3, large * 2);
-        EXPECT_GT(round.tiles[watched.tile].height, 300U);
+    for (const WatchedTile& watched : batch.watched) {
+        large = std::max(large, batch.tiles[watched.tile].width);
+        EXPECT_GE(batch.tiles[watched.tile].width * 3, large * 2);
+        EXPECT_GT(batch.tiles[watched.tile].height, 300U);
     }
 }
 

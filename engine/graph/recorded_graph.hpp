@@ -1,0 +1,74 @@
+#pragma once
+
+#include <engine/graph/execute.hpp>
+#include <engine/graph/graph.hpp>
+#include <engine/graph/print.hpp>
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nearfield::graph {
+
+/// A graph with the functions that record its passes and the Vulkan objects that execute it. All
+/// passes are recorded from one const `Input`, an argument of each execution, so that nothing stays
+/// in a pass from one execution to the next.
+template <class Input>
+class RecordedGraph : public Graph {
+public:
+    /// Records a pass's commands. The graph has already recorded the barriers, the start of the
+    /// render pass (for a graphics pass), the label and the first timestamp.
+    using Record = std::function<void(VkCommandBuffer, const Input&)>;
+
+    RecordedGraph() = default;
+    RecordedGraph(const RecordedGraph&) = delete;
+    RecordedGraph& operator=(const RecordedGraph&) = delete;
+
+    /// Declares a pass (Graph::add_pass); `record` is called whenever the graph is executed.
+    template <class Setup>
+    void add_pass(std::string name, PassKind kind, Setup&& setup, Record record) {
+        Graph::add_pass(std::move(name), kind, std::forward<Setup>(setup));
+        records_.push_back(std::move(record));
+    }
+
+    /// Adds a pass that reads resources (null handles are left out) and writes a buffer from
+    /// compute shaders; returns the buffer's new version.
+    [[nodiscard]] Handle add_compute_pass(std::string name, std::initializer_list<Read> reads,
+                                          Handle output, Record record) {
+        add_pass(
+            std::move(name), PassKind::compute,
+            [&](PassBuilder& pass) {
+                pass.read(reads);
+                output = pass.write(output, Access::storage_write_in_compute);
+            },
+            std::move(record));
+        return output;
+    }
+
+    /// Makes the Vulkan objects, once all passes are declared.
+    void compile(const gpu::Device& device) { executor_ = make_executor(device, *this); }
+
+    /// The precondition of all that follows: compile().
+    [[nodiscard]] Executor& executor() const { return *executor_; }
+
+    /// Records all passes; see Executor::execute.
+    void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Input& input) const {
+        executor_->execute(*this, commands, timestamps,
+                           [this, &input](std::size_t pass, VkCommandBuffer into) {
+                               records_[pass](into, input);
+                           });
+    }
+
+    [[nodiscard]] std::string print(GraphFormat format) const {
+        return graph::print(*this, executor_->baked(), format);
+    }
+
+private:
+    std::vector<Record> records_;  // by position of the pass
+    std::unique_ptr<Executor> executor_;
+};
+
+}  // namespace nearfield::graph
