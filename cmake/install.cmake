@@ -53,6 +53,12 @@ install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE third_party_notes.m
         DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+# What the documents link to, so that no link is dead (tools/scripts/check_links.py).
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+foreach(file IN ITEMS tests/data/layouts/sheet.svg tests/data/scenes/strip.json)
+    cmake_path(GET file PARENT_PATH folder)
+    install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT development)
+endforeach()
 install(DIRECTORY tools/debug/ DESTINATION ${CMAKE_INSTALL_DATADIR}/nearfield/gdb
         COMPONENT development FILES_MATCHING PATTERN "*.py")
 

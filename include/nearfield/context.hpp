@@ -274,11 +274,12 @@ public:
     /// not_ready and the ticket stays valid; if it is complete and the device did not execute the
     /// commands, with not_executed, which uses up the ticket like every other error.
     ///
-    /// Two kinds of submitted work go to the device a second time here and wait, unless
+    /// Three kinds of submitted work go to the device a second time here and wait, unless
     /// Technique::cpu answers them: intersections with more samples than the buffer had space for
     /// (more than an eighth of the cells and more than ever before in this context; the next batch
-    /// has the space), and contacts with gradient normals (ContactNormals::gradient), whose field
-    /// can only be requested once the contacts are known.
+    /// has the space), searches of Technique::compute that found more points than batches before
+    /// let expect (the same), and contacts with gradient normals (ContactNormals::gradient), whose
+    /// field can only be requested once the contacts are known.
     ///
     /// `limits` hold for this call alone. The wait for the device is not cut; if they end the call,
     /// the queries that are not done say so, and the ticket is used up.
@@ -310,7 +311,7 @@ public:
     /// Settings::batches_in_flight, at the position ResidentSlot::index. Makes room in all of them,
     /// so that a host can write its descriptor sets before the first frame; they stay valid as long
     /// as ResidentSlot::revision stays the same. Plans the batch once for each entry, and records
-    /// nothing.
+    /// nothing. Sizes are those at the poses of the batch; ResidentRecords::max_size holds for all.
     ///
     /// Fails with not_ready if a batch is in flight, and as submit() and resident() do.
     [[nodiscard]] Expected<std::vector<ResidentField>> resident_layout(

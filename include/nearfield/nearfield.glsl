@@ -94,18 +94,36 @@ vec2 nearfield_texel(vec2 place, vec2 origin, float cell) {
     return (place - origin) / cell;
 }
 
+// The columns and rows of the four cells around a position in texels (first.x, first.y, last.x,
+// last.y), clamped at the rim.
+ivec4 nearfield_cells_around(ivec2 size, vec2 texel) {
+    ivec2 low = ivec2(floor(texel - 0.5));
+    return ivec4(clamp(low, ivec2(0), size - 1), clamp(low + 1, ivec2(0), size - 1));
+}
+
+// Bilinear between their values: lower left, lower right, upper left, upper right.
+float nearfield_between(vec4 values, vec2 texel) {
+    vec2 way = fract(texel - 0.5);
+    return mix(mix(values.x, values.y, way.x), mix(values.z, values.w, way.x), way.y);
+}
+
 // The signed distance at a position in texels: bilinear between the four cells around it; clamped
 // at the rim. Uses fetches, since a device need not support filtering of this format.
 float nearfield_signed_distance(sampler2D field, ivec2 size, vec2 texel) {
-    vec2 low = floor(texel - 0.5);
-    vec2 way = texel - 0.5 - low;
-    ivec2 first = clamp(ivec2(low), ivec2(0), size - 1);
-    ivec2 last = clamp(ivec2(low) + 1, ivec2(0), size - 1);
-    float below = mix(texelFetch(field, first, 0).x,
-                      texelFetch(field, ivec2(last.x, first.y), 0).x, way.x);
-    float above = mix(texelFetch(field, ivec2(first.x, last.y), 0).x,
-                      texelFetch(field, last, 0).x, way.x);
-    return mix(below, above, way.y);
+    ivec4 at = nearfield_cells_around(size, texel);
+    return nearfield_between(
+        vec4(texelFetch(field, at.xy, 0).x, texelFetch(field, at.zy, 0).x,
+             texelFetch(field, at.xw, 0).x, texelFetch(field, at.zw, 0).x), texel);
+}
+
+// The same for engines that bind textures and samplers apart. `with` may be any sampler: fetches do
+// not filter.
+float nearfield_signed_distance(texture2D field, sampler with, ivec2 size, vec2 texel) {
+    ivec4 at = nearfield_cells_around(size, texel);
+    return nearfield_between(vec4(texelFetch(sampler2D(field, with), at.xy, 0).x,
+                                  texelFetch(sampler2D(field, with), at.zy, 0).x,
+                                  texelFetch(sampler2D(field, with), at.xw, 0).x,
+                                  texelFetch(sampler2D(field, with), at.zw, 0).x), texel);
 }
 
 #endif

@@ -83,4 +83,22 @@ float nearfield_depth(NearfieldRecord record) {
     return nearfield_is_inside(record.feature) ? record.distance : -record.distance;
 }
 
+// Position in a field's images, in texels: texel centres are at halves. `place` and `origin` in the
+// same frame.
+float2 nearfield_texel(float2 place, float2 origin, float cell) {
+    return (place - origin) / cell;
+}
+
+// The signed distance at a position in texels: bilinear between the four cells around it; clamped
+// at the rim. Loads, since a device need not support filtering of this format.
+float nearfield_signed_distance(Texture2D<float> field, int2 size, float2 texel) {
+    int2 low = int2(floor(texel - 0.5));
+    int2 first = clamp(low, 0, size - 1);
+    int2 last = clamp(low + 1, 0, size - 1);
+    float2 way = frac(texel - 0.5);
+    float below = lerp(field.Load(int3(first, 0)), field.Load(int3(last.x, first.y, 0)), way.x);
+    float above = lerp(field.Load(int3(first.x, last.y, 0)), field.Load(int3(last, 0)), way.x);
+    return lerp(below, above, way.y);
+}
+
 #endif

@@ -182,8 +182,12 @@ struct ResidentField {
 struct ResidentRecords {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment
-    VkDeviceSize size = 0;             ///< of the range, in bytes
-    std::uint32_t capacity = 0;        ///< maximum number of records
+    VkDeviceSize size = 0;             ///< of the range, in bytes, at the poses of the query
+    /// Upper bound of `size` for the same query at any poses, in bytes: for points all along the
+    /// boundaries that it examines (of penetration A's, of contacts A's and B's). A buffer of the
+    /// host's that large is never too small, until the rings of a shape are replaced.
+    VkDeviceSize max_size = 0;
+    std::uint32_t capacity = 0;  ///< maximum number of records, at the poses of the query
     /// Origin of all positions, world coordinates: the middle of the points examined.
     Vector2 origin;
     /// Error bound of every coordinate, distance and depth of the records and the summary, world
@@ -205,6 +209,10 @@ struct ResidentRecords {
 /// is space for every cell of every region, so no sample is ever dropped and no second submission
 /// is needed. If IntersectionQuery::resident_samples is false there is space for none, and the
 /// summary still counts them all.
+///
+/// With D the greatest distance between two vertices of a shape, the smaller of both:
+/// IntersectionKind::volume_volume examines at most D / cell + 1 rows of as many cells, at any
+/// poses.
 struct ResidentSamples {
     VkBuffer buffer = VK_NULL_HANDLE;  ///< also holds other data; borrowed. Or the host's
     VkDeviceSize offset = 0;           ///< a multiple of minStorageBufferOffsetAlignment

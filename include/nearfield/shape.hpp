@@ -39,7 +39,7 @@ using Ring = std::vector<Vector2>;
 /// A stride below 2, or numbers that end within a pair, are invalid_shape where the ring is used.
 class RingView {
 public:
-    /// In double precision. `stride`: in numbers, from one vertex to the next.
+    /// In double precision. `stride`: from one vertex to the next, in numbers, not in bytes.
     explicit RingView(std::span<const double> numbers, std::size_t stride = 2) noexcept
         : doubles_(numbers.data()), count_(numbers.size()), stride_(stride) {}
     /// The same in single precision.

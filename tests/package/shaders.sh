@@ -21,6 +21,20 @@ void main() {
               samples[i].point.x + float(headers[0].count);
 }
 END
+cat >"$work/apart.frag" <<'END'
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "nearfield/nearfield.glsl"
+layout(binding = 0) uniform sampler2D combined;
+layout(binding = 1) uniform texture2D field;
+layout(binding = 2) uniform sampler any_sampler;
+layout(location = 0) out vec2 distances;
+void main() {
+    vec2 texel = nearfield_texel(gl_FragCoord.xy, vec2(0.0), 0.5);
+    distances = vec2(nearfield_signed_distance(combined, ivec2(64), texel),
+                     nearfield_signed_distance(field, any_sampler, ivec2(64), texel));
+}
+END
 cat >"$work/reads.hlsl" <<'END'
 #include "nearfield/nearfield.hlsl"
 StructuredBuffer<NearfieldHeader> headers : register(t0);
@@ -29,12 +43,19 @@ StructuredBuffer<NearfieldRecord> records : register(t2);
 StructuredBuffer<NearfieldIntersectionSummary> overlaps : register(t3);
 StructuredBuffer<NearfieldIntersectionSample> samples : register(t4);
 RWStructuredBuffer<float> sums : register(u5);
+Texture2D<float> field : register(t6);
 [numthreads(64, 1, 1)]
 void main(uint3 id : SV_DispatchThreadID) {
     sums[id.x] = nearfield_depth(records[id.x]) + summaries[0].depth + overlaps[0].area +
-                 samples[id.x].position.x + float(headers[0].count);
+                 samples[id.x].position.x + float(headers[0].count) +
+                 nearfield_signed_distance(field, int2(64, 64),
+                                           nearfield_texel(records[id.x].position, 0.0, 0.5));
 }
 END
+
+# Combined image samplers, and textures and samplers that are bound apart.
+"$GLSLANG" -V "-I$prefix/include" -o "$work/apart.spv" "$work/apart.frag" >"$work/apart.txt" ||
+    fail "apart.frag does not compile: $(<"$work/apart.txt")"
 
 # layout_of FILE OPTION...: the offset of each member of nearfield's structures.
 layout_of() {

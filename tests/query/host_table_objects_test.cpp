@@ -1,3 +1,4 @@
+#include <tests/query/every_query.hpp>
 #include <tests/query/host_table.hpp>
 
 #include <algorithm>
@@ -93,6 +94,30 @@ std::vector<std::string> about_allocations(const std::vector<std::string>& messa
     return found;
 }
 
+/// A host under the layer's best practices that allocates as little as `size` in one piece.
+std::vector<std::string> messages_about(VkDeviceSize size) {
+    test_support::Enabled enabled;
+    enabled.best_practices = true;
+    test_support::VulkanHost strict(enabled);
+    VkMemoryAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+    info.allocationSize = size;
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    EXPECT_EQ(
+        test_support::host_function<PFN_vkAllocateMemory>(strict.device(), "vkAllocateMemory")(
+            strict.device().device, &info, nullptr, &memory),
+        VK_SUCCESS);
+    test_support::host_function<PFN_vkFreeMemory>(strict.device(), "vkFreeMemory")(
+        strict.device().device, memory, nullptr);
+    return about_allocations(strict.close());
+}
+
+TEST_F(HostTable, SmallAllocationsAreNoticed) {
+    make_host();
+    EXPECT_EQ(messages_about(1U << 21U), std::vector<std::string>{});
+    EXPECT_EQ(messages_about(1U << 16U).size(), 1U);
+}
+
 TEST_F(HostTable, MemoryIsTakenFromFewBlocks) {
     make_host();
     std::set<std::uint64_t> blocks;
@@ -113,7 +138,10 @@ TEST_F(HostTable, MemoryIsTakenFromFewBlocks) {
         HostFrames frames(strict.device(), 1);
         (void)scene.run(scene.every());
         (void)scene.record(scene.every(true), frames, 0);
+        (void)scene.run(resident_queries(scene.every(true)));
         (void)scene.run(scene.small(0.004));
+        context.trim();
+        (void)scene.record(resident_queries(scene.every(true)), frames, 1);
     }
     EXPECT_EQ(about_allocations(strict.messages()), std::vector<std::string>{});
     EXPECT_FALSE(strict.messages().empty()) << "best practices are not checked";

@@ -52,14 +52,14 @@ TEST_F(HostTable, Threads) {
                                      VkFence fence) {
         return static_cast<SharedQueue*>(user)->submit(count, infos, fence);
     };
-    constexpr int tile_batches = 5;
+    constexpr int batches = 5;
     std::vector<std::vector<double>> answers(4);
     std::vector<std::thread> threads;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         threads.emplace_back([&, i] {
             Context context = make(i % 2 == 0 ? locking : by_host);
             const Scene scene(context);
-            for (int round = 0; round < tile_batches; ++round) {
+            for (int batch = 0; batch < batches; ++batch) {
                 answers[i] = scene.run(scene.small());
             }
             const Expected<Ticket> in_flight = context.submit(scene.small());
@@ -75,8 +75,8 @@ TEST_F(HostTable, Threads) {
     }
     EXPECT_EQ(queue.collisions, 0);
     EXPECT_EQ(queue.inside, 0);
-    EXPECT_EQ(queue.locked, 4 * (tile_batches + 1));
-    EXPECT_EQ(queue.submitted, 2 * (tile_batches + 1));
+    EXPECT_EQ(queue.locked, 4 * (batches + 1));
+    EXPECT_EQ(queue.submitted, 2 * (batches + 1));
     // Half of a lock is an error.
     HostDevice half = locking;
     half.queue_access.unlock = nullptr;

@@ -1,3 +1,4 @@
+#include <tests/query/every_query.hpp>
 #include <tests/query/host_table.hpp>
 
 #include <array>
@@ -22,6 +23,28 @@ TEST_F(HostTable, Work) {
     EXPECT_EQ(submissions, 1);
     EXPECT_EQ(scene.record(batch, frames, 0), submitted);
     EXPECT_EQ(submissions, 1);
+}
+
+/// However many queries, kinds and results: all descriptors of a batch are written by one call, and
+/// those of its search for points by another.
+TEST_F(HostTable, DescriptorsAreWrittenTogether) {
+    make_host();
+    int updates = 0;
+    Context context = make(watch([&](const WatchedCall& call) {
+        updates += call.name == "vkUpdateDescriptorSets" ? 1 : 0;
+    }));
+    const Scene scene(context);
+    HostFrames frames(host(), 1);
+    Batch all = scene.every(true);
+    const Batch staying = resident_queries(all);
+    for (const AnyQuery& query : staying.queries()) {
+        std::visit([&](const auto& same) { all.add(same); }, query);
+    }
+    for (std::uint64_t frame = 0; frame < 4; ++frame) {
+        updates = 0;
+        (void)scene.record(frame % 2 == 0 ? all : scene.small(), frames, frame);
+        EXPECT_EQ(updates, frame % 2 == 0 ? 2 : 1) << frame;
+    }
 }
 
 /// A semaphore of the host, destroyed with this object.

@@ -47,6 +47,43 @@ TEST_F(Lifetime, AnUpdatedShapeIsAsGoodAsNew) {
     EXPECT_TRUE(context().remove_shape(*still).ok());
 }
 
+TEST_F(Lifetime, ThePointsOfAFieldMayChangeOnceItIsSubmitted) {
+    Random random(seed);
+    const Expected<ShapeHandle> shape = context().add_shape(star(random, 20, 0.4));
+    ASSERT_TRUE(shape.has_value());
+    std::vector<Vector2> points{{0.1, 0.2}, {2.0, -1.0}, {-0.5, 0.6}};
+    for (const Technique technique : {Technique::cpu, Technique::raster, Technique::compute}) {
+        SCOPED_TRACE(to_string(technique));
+        DistanceFieldQuery query;
+        query.b.shape = *shape;
+        query.rectangle = Rectangle{{-3.0, -3.0}, {3.0, 3.0}};
+        query.tolerance = 0.02;
+        query.technique = technique;
+        query.points = points;
+        const DistanceFieldResult asked = run_alone(context(), query);
+        Batch batch;
+        const auto field = batch.add(query);
+        const Expected<Ticket> ticket = context().submit(batch);
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+        const std::vector<Vector2> before = points;
+        for (Vector2& point : points) {
+            point = {1.5 * point.y, point.x - 0.3};
+        }
+        Results results;
+        const Status status = context().collect(*ticket, results);
+        ASSERT_TRUE(status.ok()) << status.text();
+        points = before;
+        const DistanceFieldResult& result = results[field];
+        ASSERT_TRUE(result.status.ok()) << result.status.text();
+        ASSERT_EQ(result.points.size(), points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ(result.points[i].point, asked.points[i].point) << i;
+            EXPECT_EQ(result.points[i].distance, asked.points[i].distance) << i;
+        }
+    }
+    EXPECT_TRUE(context().remove_shape(*shape).ok());
+}
+
 TEST_F(Lifetime, ARemovedShapeStaysUnknown) {
     const Rings square = rectangle({0, 0}, {1, 1});
     Expected<ShapeHandle> removed = context().add_shape(square);

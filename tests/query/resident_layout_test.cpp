@@ -1,6 +1,9 @@
 #include <tests/query/all_numbers.hpp>
 #include <tests/query/resident_test.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -199,6 +202,85 @@ TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
     ASSERT_TRUE(grown.has_value());
     EXPECT_NE(grown->slot.revision, (*fields)[grown->slot.index].slot.revision);
     EXPECT_TRUE(made().collect(*ticket, results).ok());
+}
+
+/// The greatest distance between two vertices.
+double diameter(const Rings& rings) {
+    double greatest = 0.0;
+    for (const Ring& of_a : rings) {
+        for (const Ring& of_b : rings) {
+            for (const Vector2& a : of_a) {
+                for (const Vector2& b : of_b) {
+                    greatest = std::max(greatest, std::hypot(a.x - b.x, a.y - b.y));
+                }
+            }
+        }
+    }
+    return greatest;
+}
+
+/// Queries about a shape at any pose in a fixed one, whose results stay on the device.
+struct PosedQueries {
+    PosedQueries(ShapeHandle moving, const Pose& pose, const Instance& fixed) {
+        PenetrationQuery penetration{{moving, pose}, fixed, 0.02};
+        penetration.resident = true;
+        depths = batch.add(penetration);
+        penetration.points = PenetrationPoints::vertices;
+        vertices = batch.add(penetration);
+        ContactQuery near{{moving, pose}, fixed, 0.02, 3.0};
+        IntersectionQuery common{{moving, pose}, fixed, 0.02};
+        near.resident = common.resident = true;
+        contacts = batch.add(near);
+        overlap = batch.add(common);
+    }
+
+    Batch batch;
+    QueryHandle<PenetrationQuery> depths;
+    QueryHandle<PenetrationQuery> vertices;
+    QueryHandle<ContactQuery> contacts;
+    QueryHandle<IntersectionQuery> overlap;
+};
+
+TEST_F(ResidentLayout, SizesStayWithinTheBoundOfAllPoses) {
+    Random random(seed + 1);
+    const Rings rings = coast(random, 200, 0.3);
+    const ShapeHandle moving = *made().add_shape(rings);
+    const Instance fixed{*made().add_shape(rectangle({-2, -2}, {2, 2})), {}};
+    // Known where the shapes are far apart and nothing is examined.
+    const PosedQueries apart(moving, {{10.0, 0.0}, 0.0}, fixed);
+    const auto of_apart = [&](auto query) {
+        return made().resident_layout(apart.batch, query)->front();
+    };
+    const std::array<ResidentRecords, 3> bounds{of_apart(apart.depths), of_apart(apart.vertices),
+                                                of_apart(apart.contacts)};
+    std::array<VkDeviceSize, 3> greatest{};
+    for (int i = 0; i < 30; ++i) {
+        // First wholly inside.
+        const Pose pose = i == 0 ? Pose{}
+                                 : Pose{{random.between(-3.0, 3.0), random.between(-3.0, 3.0)},
+                                        random.between(0.0, 6.0)};
+        const PosedQueries asked(moving, pose, fixed);
+        const Expected<Ticket> ticket = made().submit(asked.batch);
+        ASSERT_TRUE(ticket.has_value()) << ticket.error().text();
+        const std::array<ResidentRecords, 3> records{*made().resident(*ticket, asked.depths),
+                                                     *made().resident(*ticket, asked.vertices),
+                                                     *made().resident(*ticket, asked.contacts)};
+        for (std::size_t kind = 0; kind < records.size(); ++kind) {
+            EXPECT_EQ(records[kind].max_size, bounds[kind].max_size) << kind;
+            EXPECT_LE(records[kind].size, bounds[kind].max_size) << kind;
+            greatest[kind] = std::max(greatest[kind], records[kind].size);
+        }
+        const ResidentSamples samples = *made().resident(*ticket, asked.overlap);
+        const double side = diameter(rings) / samples.cell + 1.0;
+        EXPECT_LE(samples.capacity, side * side);
+        Results results;
+        ASSERT_TRUE(made().collect(*ticket, results).ok());
+    }
+    // No looser than they have to be: samples are counted by the boundary's length along the axes.
+    EXPECT_EQ(bounds[2].size, sizeof(SummaryData));
+    EXPECT_GT(greatest[0], bounds[0].max_size * 6 / 10);
+    EXPECT_EQ(greatest[1], bounds[1].max_size);
+    EXPECT_GT(greatest[2], bounds[2].max_size * 6 / 10);
 }
 
 TEST_F(ResidentLayout, IsRefusedByName) {

@@ -31,6 +31,12 @@ struct Push {
 constexpr VkShaderStageFlags both_stages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
+/// By binding. The distances are bound twice, the second time apart from the sampler.
+constexpr std::array<VkDescriptorType, 6> descriptors{
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,          VK_DESCRIPTOR_TYPE_SAMPLER};
+
 }  // namespace
 
 void Picture::write(const std::string& path) const {
@@ -51,7 +57,7 @@ ResidentView::ResidentView(const HostDevice& host, VkExtent2D pixels)
     make_set();
     field_pipeline_ = make_pipeline(shaders::resident_field_vert, shaders::resident_field_frag);
     samples_pipeline_ =
-        make_pipeline(shaders::resident_samples_vert, shaders::resident_samples_frag);
+        make_pipeline(shaders::resident_samples_vert, shaders::resident_samples_frag, true);
     arrows_pipeline_ = make_pipeline(shaders::resident_arrows_vert, shaders::resident_arrows_frag);
 }
 
@@ -106,11 +112,10 @@ void ResidentView::make_target() {
 }
 
 void ResidentView::make_layout() {
-    std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, descriptors.size()> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i].binding = i;
-        bindings[i].descriptorType =
-            i < 2 ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorType = descriptors[i];
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = both_stages;
     }
@@ -138,8 +143,10 @@ void ResidentView::make_set() {
     sampler.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     require(gpu_.vkCreateSampler(gpu_.device(), &sampler, nullptr, &sampler_), "vkCreateSampler");
     gpu_.at_end([this] { gpu_.vkDestroySampler(gpu_.device(), sampler_, nullptr); });
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}}};
+    const std::array<VkDescriptorPoolSize, 4> sizes{{{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2},
+                                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2},
+                                                     {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1},
+                                                     {VK_DESCRIPTOR_TYPE_SAMPLER, 1}}};
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = 1;
@@ -158,8 +165,9 @@ void ResidentView::make_set() {
             "vkAllocateDescriptorSets");
 }
 
+/// `per_sample`: reads the places of intersection samples as a vertex attribute, one an instance.
 VkPipeline ResidentView::make_pipeline(std::span<const std::uint32_t> vertex,
-                                       std::span<const std::uint32_t> fragment) {
+                                       std::span<const std::uint32_t> fragment, bool per_sample) {
     const auto make_module = [&](std::span<const std::uint32_t> words) {
         VkShaderModuleCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
@@ -182,6 +190,15 @@ VkPipeline ResidentView::make_pipeline(std::span<const std::uint32_t> vertex,
 
     VkPipelineVertexInputStateCreateInfo input{};
     input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+    const VkVertexInputBindingDescription samples_input{0, sizeof(IntersectionSampleData),
+                                                        VK_VERTEX_INPUT_RATE_INSTANCE};
+    const VkVertexInputAttributeDescription place{0, 0, VK_FORMAT_R32G32_SFLOAT,
+                                                  offsetof(IntersectionSampleData, point)};
+    if (per_sample) {
+        input.vertexBindingDescriptionCount = input.vertexAttributeDescriptionCount = 1;
+        input.pVertexBindingDescriptions = &samples_input;
+        input.pVertexAttributeDescriptions = &place;
+    }
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
@@ -239,8 +256,9 @@ void ResidentView::bind(const Subject& subject) const {
     const std::array<VkDescriptorBufferInfo, 2> buffers{
         {{contacts.buffer, contacts.offset, contacts.size},
          {overlap.buffer, overlap.offset, overlap.size}}};
-    std::array<VkWriteDescriptorSet, 2> writes{};
+    std::array<VkWriteDescriptorSet, 4> writes{};
     for (VkWriteDescriptorSet& write : writes) {
+        write.descriptorCount = 1;
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set_;
     }
@@ -251,6 +269,11 @@ void ResidentView::bind(const Subject& subject) const {
     writes[1].descriptorCount = static_cast<std::uint32_t>(buffers.size());
     writes[1].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     writes[1].pBufferInfo = buffers.data();
+    for (const std::uint32_t i : {2U, 3U}) {
+        writes[i].dstBinding = 2 + i;
+        writes[i].descriptorType = descriptors[2 + i];
+        writes[i].pImageInfo = images.data();
+    }
     gpu_.vkUpdateDescriptorSets(gpu_.device(), static_cast<std::uint32_t>(writes.size()),
                                 writes.data(), 0, nullptr);
 }
@@ -284,6 +307,8 @@ void ResidentView::record(VkCommandBuffer commands, const Subject& subject,
     };
     draw(field_pipeline_, 3, 1);
     gpu_.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, samples_pipeline_);
+    const VkDeviceSize first_sample = overlap.offset + sizeof(IntersectionSummaryData);
+    gpu_.vkCmdBindVertexBuffers(commands, 0, 1, &overlap.buffer, &first_sample);
     gpu_.vkCmdDrawIndirect(commands, overlap.header.buffer,
                            overlap.header.offset + offsetof(ResidentHeaderData, quads), 1,
                            sizeof(VkDrawIndirectCommand));

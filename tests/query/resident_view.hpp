@@ -51,7 +51,8 @@ private:
     void make_layout();
     void make_set();
     [[nodiscard]] VkPipeline make_pipeline(std::span<const std::uint32_t> vertex,
-                                           std::span<const std::uint32_t> fragment);
+                                           std::span<const std::uint32_t> fragment,
+                                           bool per_sample = false);
     void bind(const Subject& subject) const;
     void record(VkCommandBuffer commands, const Subject& subject, const Shot& shot) const;
     void record_copy(VkCommandBuffer commands) const;

@@ -44,11 +44,11 @@ geometry::Mesh in_tile(const plan::TileDraw& draw, const geometry::Mesh& all) {
 }
 
 /// The triangles that decide where a shape is in a tile.
-geometry::Mesh mesh_of(const plan::TileBatch& round, const plan::TileDraw& draw,
+geometry::Mesh mesh_of(const plan::TileBatch& batch, const plan::TileDraw& draw,
                        IntersectionStrategy strategy, bool is_a) {
     using plan::OverlapStep;
     const auto mesh = [&](OverlapStep step) -> const geometry::Mesh& {
-        return round.meshes[plan::overlaps_of(strategy, step)];
+        return batch.meshes[plan::overlaps_of(strategy, step)];
     };
     if ((is_a ? draw.part_a : draw.part_b) == plan::Part::volume) {
         return in_tile(draw, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
@@ -81,13 +81,13 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
     return image;
 }
 
-void scan_tile(const plan::Plan& plan, const plan::TileBatch& round, const plan::TileDraw& draw,
+void scan_tile(const plan::Plan& plan, const plan::TileBatch& batch, const plan::TileDraw& draw,
                IntersectionStrategy strategy, geometry::SubpixelGrid grid,
                std::vector<Placed>& found) {
-    const plan::Tile& planned = plan.tiles[round.tile_index[draw.tile]];
+    const plan::Tile& planned = plan.tiles[batch.tile_index[draw.tile]];
     const support::Tile tile{draw.width, draw.height, grid};
-    const auto a = scan(tile, mesh_of(round, draw, strategy, true), draw.part_a);
-    const auto b = scan(tile, mesh_of(round, draw, strategy, false), draw.part_b);
+    const auto a = scan(tile, mesh_of(batch, draw, strategy, true), draw.part_a);
+    const auto b = scan(tile, mesh_of(batch, draw, strategy, false), draw.part_b);
     for (std::uint32_t row = 0; row < tile.height; ++row) {
         for (std::uint32_t column = 0; column < tile.width; ++column) {
             const std::size_t index = tile.index(column, row);
@@ -99,7 +99,7 @@ void scan_tile(const plan::Plan& plan, const plan::TileBatch& round, const plan:
             const geometry::Vector point = planned.grid.origin + planned.grid.cell * centre;
             plan::EdgeRun run{0, 0};
             if (draw.part_a == plan::Part::boundary) {
-                run = round.runs[a[index] >> plan::run_shift];
+                run = batch.runs[a[index] >> plan::run_shift];
             }
             found.push_back({{planned.region, planned.row + row, planned.column + column},
                              {geometry::to_public(point), run.first, run.count}});
@@ -131,13 +131,13 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     const std::vector<plan::QueryShapes> shapes{{&a, &b}};
     planner.plan(queries, shapes, plan, results);
     plan::TileBatchBuilder builder(limits.subpixel);
-    plan::TileBatch round;
+    plan::TileBatch batch;
     std::vector<Placed> found;
     for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
-        builder.build(plan, number, round);
+        builder.build(plan, number, batch);
         for (const plan::TileDraw& draw :
-             round.overlap_draws[static_cast<std::size_t>(query.strategy)]) {
-            scan_tile(plan, round, draw, query.strategy, limits.subpixel, found);
+             batch.overlap_draws[static_cast<std::size_t>(query.strategy)]) {
+            scan_tile(plan, batch, draw, query.strategy, limits.subpixel, found);
         }
     }
     std::sort(found.begin(), found.end(),

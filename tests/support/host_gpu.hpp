@@ -17,6 +17,7 @@
     X(vkCmdBeginRenderPass)          \
     X(vkCmdBindDescriptorSets)       \
     X(vkCmdBindPipeline)             \
+    X(vkCmdBindVertexBuffers)        \
     X(vkCmdClearColorImage)          \
     X(vkCmdCopyBuffer)               \
     X(vkCmdCopyImageToBuffer)        \

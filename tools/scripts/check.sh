@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up and runs the checks that the tests do not cover: the reference, the libraries' symbols,
+# Sets up and runs the checks that the tests do not cover: the reference, the libraries' symbols, links,
 # format, clang-tidy, the sanitizers, and that answers have the same bits by another compiler and on
 # another processor. Stops at the first check that fails.
 #   check.sh [--mutants] [--no-setup]
@@ -117,6 +117,15 @@ check_reference() {
     expect_none 'These enumerators are not documented' "$undocumented"
 }
 
+# Links in Markdown files lead somewhere, in the repository and in what is installed.
+check_links() {
+    "$root/tools/scripts/check_links.py"
+    rm -rf "$root/build/documents"
+    DESTDIR='' cmake --install "$root/build/release" --component development \
+        --prefix "$root/build/documents" >/dev/null
+    "$root/tools/scripts/check_links.py" "$root/build/documents"
+}
+
 mutants=false
 if [[ ${1-} == --mutants ]]; then
     mutants=true
@@ -130,6 +139,7 @@ step "Configure" configure release
 step "Build" build release --target nearfield_static nearfield_shared
 step "Reference" check_reference
 step "Symbols of the libraries" check_symbols
+step "Links" check_links
 step "Includes" "$root/tools/scripts/check_includes.py"
 step "Mutants apply" "$root/tools/mutation/mutation.py" check
 step "Format" check_format

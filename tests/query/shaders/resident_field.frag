@@ -9,6 +9,8 @@
 
 layout(set = 0, binding = 0) uniform sampler2D signed_distance;
 layout(set = 0, binding = 1) uniform usampler2D feature_id;
+layout(set = 0, binding = 4) uniform texture2D same_distance;  // as engines bind that keep them apart
+layout(set = 0, binding = 5) uniform sampler any_sampler;
 
 layout(location = 0) out vec4 color;
 
@@ -20,7 +22,10 @@ float tint_of(uint feature) {
 void main() {
     vec2 pixel = vec2(gl_FragCoord.x, view.pixels.y - gl_FragCoord.y);
     vec2 texel = nearfield_texel(view.field_low + view.step * pixel, vec2(0.0), view.cell);
-    float distance = nearfield_signed_distance(signed_distance, view.cells, texel);
+    float distance =
+        int(gl_FragCoord.x) % 2 == 0
+            ? nearfield_signed_distance(signed_distance, view.cells, texel)
+            : nearfield_signed_distance(same_distance, any_sampler, view.cells, texel);
     ivec2 cell = clamp(ivec2(floor(texel)), ivec2(0), view.cells - 1);
     uint feature = texelFetch(feature_id, cell, 0).x;
 

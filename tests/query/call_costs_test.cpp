@@ -1,0 +1,285 @@
+#include <tests/query/every_query.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/allocations.hpp>
+#include <tests/support/host_frames.hpp>
+#include <tests/support/host_gpu.hpp>
+#include <tests/support/watched_loader.hpp>
+
+#include <array>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+/// The table "What each call costs" of docs/host_integration.md: each row is measured.
+
+struct Cost {
+    std::uint64_t allocations = 0;  ///< the library's own, on the heap
+    int made = 0;                   ///< Vulkan objects
+    int destroyed = 0;
+    int pipelines = 0;
+    int waits = 0;
+    int submissions = 0;
+    int jobs = 0;  ///< calls of JobSystem::run
+
+    Cost& operator+=(const Cost& other) {
+        allocations += other.allocations;
+        made += other.made;
+        destroyed += other.destroyed;
+        pipelines += other.pipelines;
+        waits += other.waits;
+        submissions += other.submissions;
+        jobs += other.jobs;
+        return *this;
+    }
+};
+
+Cost counted;  // entry points have no user data
+std::uint64_t allocations_below = 0;
+
+void count_call(const test_support::WatchedCall& call) {
+    const bool is_pipeline =
+        call.name == "vkCreateComputePipelines" || call.name == "vkCreateGraphicsPipelines";
+    allocations_below += call.allocations;
+    counted.made += call.makes() ? 1 : 0;
+    counted.destroyed += call.destroys() ? 1 : 0;
+    counted.pipelines += is_pipeline ? 1 : 0;
+    counted.waits += call.name.starts_with("vkWait") || call.name.ends_with("WaitIdle") ? 1 : 0;
+    counted.submissions += call.name == "vkQueueSubmit" ? 1 : 0;
+}
+
+void run_jobs(void*, std::uint32_t jobs, void (*job)(void* data, std::uint32_t number),
+              void* data) {
+    ++counted.jobs;
+    for (std::uint32_t number = 0; number < jobs; ++number) {
+        job(data, number);
+    }
+}
+
+/// Of the first call, for which nothing was reserved, and of many like it after a warm-up.
+struct Costs {
+    Cost first;
+    std::optional<Cost> steady;
+};
+
+std::string in_words(const Costs& costs) {
+    const Cost& first = costs.first;
+    const Cost& usual = costs.steady.value_or(first);
+    const std::string memory = usual.allocations > 0   ? "allocates"
+                               : first.allocations > 0 ? "grows"
+                                                       : "no";
+    std::string objects = usual.made > 0        ? "makes"
+                          : first.made > 0      ? "grows"
+                          : usual.destroyed > 0 ? "destroys"
+                                                : "no";
+    if (first.pipelines > 0) {
+        objects += ", all pipelines";
+    } else if (usual.made > 0 && usual.destroyed > 0) {
+        objects += ", destroys";
+    }
+    const auto word = [](int count, const char* yes) { return count > 0 ? yes : "no"; };
+    return memory + " | " + objects + " | " + word(usual.waits, "own fence") + " | " +
+           word(usual.submissions, "once") + " | " + word(usual.jobs, "yes");
+}
+
+/// The rows of the documents' table, by call.
+std::map<std::string, std::string> documented() {
+    std::ifstream page(NEARFIELD_DOCUMENTS "/host_integration.md");
+    std::map<std::string, std::string> rows;
+    bool inside = false;
+    for (std::string line; std::getline(page, line);) {
+        if (line.starts_with("#")) {
+            inside = line == "## What each call costs";
+        }
+        if (!inside || !line.starts_with("| `")) {
+            continue;
+        }
+        const std::size_t end = line.find(" | ");
+        rows[line.substr(2, end - 2)] = line.substr(end + 3, line.size() - end - 5);
+    }
+    return rows;
+}
+
+class CallCosts : public QueryTest {
+protected:
+    void SetUp() override {
+        loader_.emplace(host_device(), test_support::watched(host_device(), count_call));
+        Random random(4400);
+        rings_ = coast(random, 100, 0.5);
+        other_rings_ = with_holes(random, 3);
+    }
+    void TearDown() override {
+        context_.reset();
+        loader_.reset();
+        QueryTest::TearDown();
+    }
+
+    /// Another context with the same shapes.
+    void make_context() {
+        Settings settings;
+        settings.jobs = {nullptr, 4, run_jobs};
+        std::optional<Expected<Context>> made;
+        measure("`Context::create`",
+                [&] { made.emplace(Context::create(loader_->host(), drawing(settings))); });
+        ASSERT_TRUE(made->has_value()) << made->error().text();
+        context_.emplace(std::move(**made));
+        a_ = *context_->add_shape(rings_);
+        b_ = *context_->add_shape(other_rings_);
+    }
+
+    /// Adds to the costs of this name what the call costs.
+    template <class Call>
+    void measure(const std::string& name, const Call& call) {
+        counted = {};
+        allocations_below = 0;
+        const std::uint64_t before = test_support::allocation_count_of_this_thread();
+        call();
+        counted.allocations =
+            test_support::allocation_count_of_this_thread() - before - allocations_below;
+        const Cost cost = counted;
+        EXPECT_LE(cost.submissions, 1) << name;
+        const auto [found, is_first] = costs_.try_emplace(name);
+        Costs& costs = found->second;
+        if (is_first) {
+            costs.first = cost;
+        } else if (is_steady_) {
+            costs.steady = costs.steady.value_or(Cost{}) += cost;
+        }
+    }
+
+    /// Every query that can be recorded, and a field in an image of the host's. Only its address
+    /// is kept of `target`.
+    void ask(const ResidentFieldTarget& target) {
+        batch_ = every_query(a_, b_, 0, true);
+        DistanceFieldQuery field;
+        field.b = {b_, {}};
+        field.tolerance = 0.1;
+        field.rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}};
+        field.resident = true;
+        field.target = &target;
+        field_ = batch_.add(field);
+    }
+
+    void measure_layout() {
+        measure("`resident_layout`",
+                [&] { EXPECT_TRUE(context_->resident_layout(batch_, field_).has_value()); });
+    }
+
+    void measure_shapes(const Rings& update) {
+        const std::array<Instance, 2> instances{{{a_, {}}, {b_, {}}}};
+        ShapeHandle added;
+        measure("`add_shape`", [&] { added = *context_->add_shape(rings_); });
+        measure("`update_shape`", [&] { EXPECT_TRUE(context_->update_shape(added, update).ok()); });
+        measure("`remove_shape`", [&] { EXPECT_TRUE(context_->remove_shape(added).ok()); });
+        measure("`find_pairs`",
+                [&] { EXPECT_EQ(context_->find_pairs(instances, 1.0)->size(), 1U); });
+    }
+
+    void measure_recorded(test_support::HostFrames& host) {
+        const std::uint64_t frame = frame_++;
+        const VkCommandBuffer commands = host.begin(frame);
+        Ticket ticket;
+        measure("`record`", [&] {
+            ticket = *context_->record(batch_, {.commands = commands, .frame = frame});
+        });
+        host.submit(frame);
+        host.wait(frame);
+        measure("`frame_completed`, `is_ready`", [&] {
+            context_->frame_completed(frame);
+            EXPECT_TRUE(context_->is_ready(ticket));
+        });
+        measure("`collect` of a recorded batch",
+                [&] { EXPECT_TRUE(context_->collect(ticket, results_).ok()); });
+    }
+
+    void measure_submitted() {
+        Ticket ticket;
+        measure("`submit`", [&] { ticket = *context_->submit(batch_); });
+        measure("`resident`, `memory_use`, `costs`, `device_name`", [&] {
+            EXPECT_TRUE(context_->resident(ticket, field_).has_value());
+            EXPECT_GT(context_->memory_use().in_use, 0U);
+            EXPECT_FALSE(context_->device_name().empty());
+            static_cast<void>(context_->costs());
+        });
+        measure("`collect` of a submitted batch",
+                [&] { EXPECT_TRUE(context_->collect(ticket, results_).ok()); });
+    }
+
+    void measure_run() {
+        measure("`run`", [&] { EXPECT_TRUE(context_->run(batch_, results_).ok()); });
+    }
+
+    void measure_ends(VkImage image) {
+        measure("`release_target`", [&] { EXPECT_TRUE(context_->release_target(image).ok()); });
+        measure("`trim`", [&] { context_->trim(); });
+        ASSERT_TRUE(context_->submit(batch_).has_value());
+        measure("`~Context`", [&] { context_.reset(); });
+    }
+
+    void expect_documented() const {
+        const std::map<std::string, std::string> table = documented();
+        EXPECT_GT(table.size(), 10U);
+        for (const auto& [call, costs] : costs_) {
+            ASSERT_TRUE(table.contains(call)) << call << ": " << in_words(costs);
+            EXPECT_EQ(table.at(call), in_words(costs)) << call;
+        }
+        for (const auto& [call, words] : table) {
+            EXPECT_TRUE(costs_.contains(call)) << call << " is not measured";
+        }
+    }
+
+    bool is_steady_ = false;
+    Rings rings_;
+
+private:
+    std::optional<test_support::FakeLoader> loader_;
+    std::optional<Context> context_;
+    Rings other_rings_;
+    ShapeHandle a_;
+    ShapeHandle b_;
+    Batch batch_;
+    QueryHandle<DistanceFieldQuery> field_;
+    Results results_;
+    std::uint64_t frame_ = 0;
+    std::map<std::string, Costs> costs_;
+};
+
+TEST_F(CallCosts, AreThoseOfTheDocuments) {
+    test_support::HostGpu gpu(host_device());
+    test_support::HostFrames host(host_device(), 1);
+    ResidentFieldTarget target;
+    ResidentImageTarget& image = target.signed_distance;
+    image.format = VK_FORMAT_R32_SFLOAT;
+    image.extent = {64, 64};
+    image.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    image.image = gpu.make_image(image.format, image.extent, image.usage).image;
+    const auto measure_first = [&](const auto& call) {
+        make_context();
+        ask(target);
+        call();
+    };
+    measure_first([&] { measure_layout(); });
+    measure_first([&] { measure_recorded(host); });
+    measure_first([&] { measure_submitted(); });
+    measure_first([&] { measure_run(); });
+    Random random(4500);
+    measure_shapes(coast(random, 400, 0.5));  // grows
+    for (int frame = 0; frame < 40; ++frame) {
+        is_steady_ = frame >= 20;
+        measure_shapes(rings_);
+        measure_layout();
+        measure_recorded(host);
+        measure_submitted();
+        measure_run();
+    }
+    measure_ends(image.image);
+    expect_documented();
+}
+
+}  // namespace
+}  // namespace nearfield::test
