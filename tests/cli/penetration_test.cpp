@@ -168,7 +168,7 @@ TEST_F(Penetration, TellsItsTilesOnRequest) {
     for (const Json& tile : json.at("tiles")) {
         EXPECT_EQ(tile.at("technique"), "raster");
         EXPECT_EQ(tile.at("side"), "a");
-        EXPECT_EQ(tile.at("round"), 0);
+        EXPECT_EQ(tile.at("tile_batch"), 0);
         for (const std::size_t axis : {0U, 1U}) {
             EXPECT_GE(tile.at("min").at(axis).get<double>(),
                       region.at("min").at(axis).get<double>() - 1e-9);

@@ -215,6 +215,26 @@ TEST_F(SceneCommand, BadShapesAreListedAndTheOthersAnswered) {
     }
 }
 
+TEST_F(SceneCommand, InstancesOfNoShapeAreListedWhereThereAreNoShapes) {
+    for (const char* const queries :
+         {"", R"({"query": "intersection-test", "a": "A", "b": "B"})",
+          R"({"query": "separation", "pairs": "all", "tolerance": 1, "reach": 1})",
+          R"({"query": "overlap", "points": [[0, 0]]})",
+          R"({"query": "nearest", "points": [[0, 0]]})"}) {
+        SCOPED_TRACE(queries);
+        const std::string file = folder_.write(
+            "scene.json", std::string(R"({"shapes": {}, "instances": {"A": {"shape": "none"},
+                "B": {"shape": "none"}}, "queries": [)") +
+                              queries + "]}");
+        const Outcome outcome = run_program({"scene", file, "--json", "-"});
+        EXPECT_EQ(outcome.status, 2);
+        for (const char* const part : {"instances.A.shape: there is no shape \"none\"",
+                                       "instances.B.shape: there is no shape \"none\""}) {
+            EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        }
+    }
+}
+
 TEST_F(SceneCommand, AQueryThatIsTooLargeLeavesTheOthersAnswered) {
     const std::string queries =
         R"({"query": "penetration", "a": "A", "b": "B", "tolerance": 0.05},

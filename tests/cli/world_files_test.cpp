@@ -38,7 +38,8 @@ std::vector<double> numbers_of(const std::string& bytes) {
 }
 
 TEST_F(WorldFiles, TablesAreReadFromCsvAndNumPy) {
-    folder_.write("poses.csv", "\xEF\xBB\xBFx, y, degrees\r\n\r\n2.5,1, 0\r\n 4.5,1,0\n8,3.5,0");
+    folder_.write("poses.csv",
+                  "\xEF\xBB\xBF# x, \"y\", degrees\r\n\r\n2.5,1, 0\r\n 4.5,1,0\n8,3.5,0");
     folder_.write("poses.npy", npy_of("(3, 3)", {2.5, 1, 0, 4.5, 1, 0, 8, 3.5, 0}));
     folder_.write("points.csv", "1.75,1.75\n10.25,1.5\n");
     folder_.write("segments.csv", "0.5,1.25,5.5,1.25\n");
@@ -142,6 +143,9 @@ TEST_F(WorldFiles, BadTablesAreRefusedByLineAndColumn) {
     expect_bad("csv", "x,y,degrees\n1,two,3\n", {"t.csv:2:3: ", "\"two\" is not a finite number"});
     expect_bad("csv", "x,1,2\n", {"t.csv:1:1: ", "\"x\" is not a finite number"});
     expect_bad("csv", "1,2,3\nx,y,degrees\n", {"t.csv:2:1: ", "\"x\" is not"});
+    expect_bad("csv", "inf,nan,-Infinity\n4,5,6\n", {"t.csv:1:1: ", "\"inf\" is not a finite"});
+    expect_bad("csv", "1;2;3\n", {"t.csv:1:1: ", "\"1;2;3\" is not a finite number"});
+    expect_bad("csv", "\"1\",\"2\",\"3\"\n", {"t.csv:1:1: ", "is not a finite number"});
     expect_bad("csv", "1,2,inf\n", {"t.csv:1:5: ", "\"inf\" is not a finite number"});
     expect_bad("csv", "", {"is empty"});
     expect_bad("csv", "1,2,9e9\n1,2,3\n", {"row 0: ", "too large"});

@@ -53,7 +53,7 @@ Settings parse_settings(const SettingsArguments& arguments) {
 }
 
 std::string memory_hint(const std::string& error) {
-    return error.find("MiB, more than the limit of ") == std::string::npos
+    return error.find(", more than the limit of ") == std::string::npos
                ? std::string()
                : "; --memory-limit sets the limit";
 }

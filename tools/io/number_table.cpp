@@ -3,7 +3,10 @@
 #include <tools/io/number_table.hpp>
 #include <tools/io/values.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -40,17 +43,31 @@ private:
         return line.substr(start, std::min(line.find(',', start), line.size()) - start);
     }
 
-    /// True of a line with no number at all.
+    /// True of a line in which nothing looks like a number.
     static bool is_header(std::string_view line) {
-        double number = 0.0;
         for (std::size_t start = 0; start <= line.size();) {
             const std::string_view field = next_field(line, start);
-            if (parse_finite(without_spaces(field), number)) {
+            if (resembles_number(without_spaces(field))) {
                 return false;
             }
             start += field.size() + 1;
         }
         return true;
+    }
+
+    /// True of numbers, and of what was meant as one: with quotes, separated by other characters,
+    /// or not finite.
+    static bool resembles_number(std::string_view field) {
+        field.remove_prefix(std::min(field.find_first_not_of("\"'+-"), field.size()));
+        if (field.empty()) {
+            return false;
+        }
+        std::string word(field.substr(0, field.find_first_of("\"'")));
+        std::transform(word.begin(), word.end(), word.begin(), [](char letter) {
+            return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        });
+        return std::isdigit(static_cast<unsigned char>(field.front())) != 0 ||
+               field.front() == '.' || word == "nan" || word == "inf" || word == "infinity";
     }
 
     void read_line(std::string_view line, std::size_t offset) {

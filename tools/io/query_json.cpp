@@ -36,7 +36,7 @@ void write_tiles(JsonWriter& json, const std::vector<TileReport>& tiles) {
         json.key("min").value(tile.min).key("max").value(tile.max);
         json.key("width").value(std::uint64_t{tile.width});
         json.key("height").value(std::uint64_t{tile.height});
-        json.key("round").value(std::uint64_t{tile.tile_batch});
+        json.key("tile_batch").value(std::uint64_t{tile.tile_batch});
         json.key("x").value(std::uint64_t{tile.x}).key("y").value(std::uint64_t{tile.y});
         json.end_object();
     }
