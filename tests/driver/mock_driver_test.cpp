@@ -29,8 +29,10 @@ TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
                                 step == World::Step::submit_larger ||
                                 step == World::Step::record_last;
             const bool asks_for_normals = step == World::Step::collect_first;
-            const bool has_more_room = step == World::Step::record;  // for all samples
-            EXPECT_EQ(asks("vkCreateBuffer"), is_new || asks_for_normals || has_more_room);
+            // What is recorded has room for all samples, which can be more than there was.
+            if (step != World::Step::record) {
+                EXPECT_EQ(asks("vkCreateBuffer"), is_new || asks_for_normals);
+            }
             EXPECT_EQ(asks("vkCreateImage"),
                       is_new || (asks_for_normals && technique == Technique::raster));
             const bool submits =

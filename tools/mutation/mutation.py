@@ -9,18 +9,24 @@
                                          the test that noticed a mutant last time goes first
 
 The mutants are in the folder `mutants`, a file per module (mutants.py has the format). They are
-built in build/mutants, from a copy of the sources. Results are kept beside the table, in
-docs/measurements/mutants.json: a run that was interrupted goes on where it was, unless the code has
-changed since; where only tests have changed, those that were noticed are left out. --again leaves
-out none; --new all that were run with some older code. Fails if a mutant is noticed by no suite,
-and is not marked as equivalent, or cannot be built.
+built in build/mutants, from copies of the sources, as many mutants at a time as there are
+processors. Results are kept beside the table, in docs/measurements/mutants.json: a run that was
+interrupted goes on where it was, unless the code has changed since; where only tests have changed,
+those that were noticed are left out. --again leaves out none; --new all that were run with some
+older code. Fails if a mutant is noticed by no suite, and is not marked as equivalent, or cannot be
+built.
 """
 
+import concurrent.futures
 import dataclasses
+import itertools
 import json
+import os
 import pathlib
+import queue
 import re
 import sys
+import threading
 import time
 
 sys.dont_write_bytecode = True
@@ -41,10 +47,10 @@ HEAD = """# Mutants
 What `tools/mutation/mutation.py run` wrote ([how to read and use it](../../CONTRIBUTING.md#mutants)). A
 mutant is a mistake put into one file, chosen from the code before a look at the tests. *Noticed by*: the
 first suite that failed, and its first failed test; the suites of the mutant's own module come first.
-*Seconds* include compilation and linking.
+*Seconds* include compilation and linking, beside other mutants.
 
-{run} of {listed} mutants were run{older}, in {minutes:.0f} minutes together; {equivalent} of them
-change no answer. Of the other {counted}, {noticed} were noticed ({share:.1f} %).
+{run} of {listed} mutants were run{older}, which takes {minutes:.0f} minutes with {workers} at a time;
+{equivalent} of them change no answer. Of the other {counted}, {noticed} were noticed ({share:.1f} %).
 
 | mutant | kind | noticed by | seconds |
 |---|---|---|---|
@@ -67,49 +73,64 @@ class Store:
 
     def __init__(self, times):
         self.times = times
+        self.lock = threading.Lock()
+        self.sound_lock = threading.Lock()
         results = json.loads(RESULTS.read_text()) if RESULTS.is_file() else {}
         self.results = {name: Result(**each) for name, each in results.items()}
         # By group of suites: the state of code and tests at which they pass, and their times.
         self.sound = json.loads(times.read_text()) if times.is_file() else {}
 
-    def save(self):
-        results = {name: dataclasses.asdict(self.results[name]) for name in sorted(self.results)}
-        for path, content in ((RESULTS, results), (self.times, self.sound)):
-            part = path.with_suffix(".part")
-            part.write_text(json.dumps(content, indent=1) + "\n")
-            part.replace(path)
+    def add(self, name, result):
+        with self.lock:
+            self.results[name] = result
+            every = {each: dataclasses.asdict(self.results[each]) for each in sorted(self.results)}
+            write_json(RESULTS, every)
+
+    def add_sound(self, stage, known):
+        self.sound[stage] = known
+        write_json(self.times, self.sound)
 
 
-class Run:
-    """Mutants are built and tested in one place."""
+def write_json(path, content):
+    part = path.with_suffix(".part")
+    part.write_text(json.dumps(content, indent=1) + "\n")
+    part.replace(path)
 
-    def __init__(self):
-        self.place = workplace.Workplace(ROOT)
-        self.place.folder.mkdir(parents=True, exist_ok=True)
-        self.store = Store(self.place.folder / "times.json")
+
+class Worker:
+    """Builds and tests one mutant at a time, in a place of its own."""
+
+    def __init__(self, number, jobs, store, stopping):
+        self.place = workplace.Workplace(ROOT, number)
+        self.jobs = jobs
+        self.store = store
+        self.stopping = stopping
         self.code, self.tests = self.place.refresh()
         self.place.configure()
         self.suites = suites.Suites(self.place)
         self.sound = {}  # by group of suites: the seconds of each
 
     def require_sound(self, stage):
-        """Builds a group of suites without a mistake and runs it once for each state of the code and
-        the tests: a suite that fails by itself notices nothing."""
+        """Builds a group of suites without a mistake, and runs it once for each state of the code
+        and the tests: a suite that fails by itself notices nothing."""
         if stage in self.sound:
             return
-        known = self.store.sound.get(stage, {})
-        if known.get("state") != [self.code, self.tests]:
-            print(f"{stage}: without a mistake ...", flush=True)
-            if said := self.place.make([self.suites.target(stage)], None):
-                sys.exit(f"{stage} cannot be built:\n{said[-2000:]}")
-            every = self.suites.of(stage)
-            if failed := suites.run(every, self.place.folder / "logs", lambda _: SOUND_LIMIT):
-                sys.exit(f"{stage} fails without a mistake: {failed}")
-            seconds = {each.name: each.seconds for each in every}
-            known = {"state": [self.code, self.tests], "seconds": seconds}
-            self.store.sound[stage] = known
-            self.store.save()
+        if said := self.place.make([self.suites.target(stage)], os.cpu_count(), None):
+            sys.exit(f"{stage} cannot be built:\n{said[-2000:]}")
+        with self.store.sound_lock:
+            known = self.store.sound.get(stage, {})
+            if known.get("state") != [self.code, self.tests]:
+                print(f"{stage}: without a mistake ...", flush=True)
+                every = self.suites.of(stage)
+                if failed := self.run_suites(every, lambda _: SOUND_LIMIT):
+                    sys.exit(f"{stage} fails without a mistake: {failed}")
+                seconds = {each.name: each.seconds for each in every}
+                known = {"state": [self.code, self.tests], "seconds": seconds}
+                self.store.add_sound(stage, known)
         self.sound[stage] = known["seconds"]
+
+    def run_suites(self, every, limit_of):
+        return suites.run(every, self.place.folder / "logs", self.jobs, limit_of, self.stopping)
 
     def limit_of(self, suite):
         return 20.0 + 5.0 * self.seconds_of(suite)
@@ -121,16 +142,16 @@ class Run:
     def notice(self, stage, former=""):
         """The test of a group that fails with the mistake that is in place; SURVIVED if there is
         none, BAD if it is no program. `former`: looks only at the suite that noticed it before."""
-        if said := self.place.make([self.suites.target(stage)], BUILD_LIMIT):
+        if said := self.place.make([self.suites.target(stage)], self.jobs, BUILD_LIMIT):
             if "[-Werror=" in said:
                 return "a warning of the compiler"
-            print(said[-2000:], flush=True)
+            if not self.stopping.is_set():
+                print(said[-2000:], flush=True)
             return BAD
         every = self.suites.of(stage)
         if former:
             every = [each for each in every if former.startswith(f"{each.name}: ")]
-        quickest_first = sorted(every, key=self.seconds_of)
-        return suites.run(quickest_first, self.place.folder / "logs", self.limit_of)
+        return self.run_suites(sorted(every, key=self.seconds_of), self.limit_of)
 
     def run(self, mutant):
         known = self.store.results.get(mutant.full_name)
@@ -145,10 +166,9 @@ class Run:
                 while looks and looks[0][0] in self.sound and noticed == SURVIVED:
                     noticed = self.notice(*looks.pop(0))
             seconds += time.monotonic() - start
-        self.store.results[mutant.full_name] = Result(
-            mutant.digest, self.code, self.tests, noticed, round(seconds, 1)
-        )
-        self.store.save()
+        if not self.stopping.is_set():
+            result = Result(mutant.digest, self.code, self.tests, noticed, round(seconds, 1))
+            self.store.add(mutant.full_name, result)
         return noticed, seconds
 
     def is_done(self, mutant, any_code=False):
@@ -160,6 +180,19 @@ class Run:
             and (any_code or result.code == self.code)
             and (result.tests == self.tests or result.noticed_by not in (SURVIVED, BAD))
         )
+
+    def run_all(self, files, tell):
+        """Runs the mutants of one file after the other, until no file is left."""
+        while not self.stopping.is_set():
+            try:
+                group = files.get_nowait()
+            except queue.Empty:
+                return
+            for mutant in group:
+                noticed, seconds = self.run(mutant)
+                if self.stopping.is_set():
+                    return
+                tell(mutant, noticed, seconds)
 
 
 def word_for(mutant, noticed):
@@ -178,41 +211,69 @@ def chosen(patterns, every):
     return [each for each in every if any(re.search(p, each.full_name) for p in patterns)]
 
 
+def make_workers(count):
+    """As many as are useful, which divide the processors among themselves."""
+    folder = workplace.folder_of(ROOT)
+    folder.mkdir(parents=True, exist_ok=True)
+    store, stopping = Store(folder / "times.json"), threading.Event()
+    count = max(1, min(count, os.cpu_count()))
+    return [Worker(number, os.cpu_count() // count, store, stopping) for number in range(count)]
+
+
 def run(patterns, flags):
     every = mutants.read_all()
-    work = Run()
-    faults = 0
-    # Those of one file one after the other: it is compiled once for each, and once more at the end.
     wanted = sorted(chosen(patterns, every), key=lambda each: (each.module, each.file))
-    for number, mutant in enumerate(wanted, 1):
-        if work.is_done(mutant, "--new" in flags) and "--again" not in flags:
-            noticed, seconds = work.store.results[mutant.full_name].noticed_by, 0.0
-        else:
-            noticed, seconds = work.run(mutant)
-        faults += is_fault(mutant, noticed)
-        said = f"{mutant.full_name}: {word_for(mutant, noticed)} ({seconds:.0f} s)"
-        print(f"{number}/{len(wanted)} {said}", flush=True)
-    TABLE.write_text(table(every, work))
+    # Those of one file one after the other: it is compiled once for each, and once more at the end.
+    groups = [list(group) for _, group in itertools.groupby(wanted, lambda each: each.file)]
+    workers = make_workers(len(groups))
+    store, any_code = workers[0].store, "--new" in flags
+    done, faults = 0, 0
+
+    def tell(mutant, noticed, seconds):
+        nonlocal done, faults
+        with store.lock:
+            done += 1
+            faults += is_fault(mutant, noticed)
+            said = f"{mutant.full_name}: {word_for(mutant, noticed)} ({seconds:.0f} s)"
+            print(f"{done}/{len(wanted)} {said}", flush=True)
+
+    files = queue.SimpleQueue()
+    for group in sorted(groups, key=len, reverse=True):
+        left = [each for each in group if "--again" in flags or not workers[0].is_done(each, any_code)]
+        for mutant in group:
+            if mutant not in left:
+                tell(mutant, store.results[mutant.full_name].noticed_by, 0.0)
+        if left:
+            files.put(left)
+    with concurrent.futures.ThreadPoolExecutor(len(workers)) as pool:
+        try:
+            ends = [pool.submit(each.run_all, files, tell) for each in workers]
+            for end in concurrent.futures.as_completed(ends):
+                end.result()
+        finally:
+            workers[0].stopping.set()
+    TABLE.write_text(table(every, workers[0]))
     return 1 if faults else 0
 
 
-def table(every, work):
+def table(every, worker):
     """The latest result of each mutant, as a page of the documents."""
     rows, seconds, noticed, equivalent, older = [], 0.0, 0, 0, 0
     for mutant in every:
-        result = work.store.results.get(mutant.full_name)
+        result = worker.store.results.get(mutant.full_name)
         if not result or result.change != mutant.digest:
             continue
         seconds += result.seconds
         equivalent += bool(mutant.equivalent)
         noticed += not mutant.equivalent and result.noticed_by not in (SURVIVED, BAD)
-        older += not work.is_done(mutant)
+        older += not worker.is_done(mutant)
         word = word_for(mutant, result.noticed_by).replace("|", "\\|")
         rows.append(f"| {mutant.full_name} | {mutant.kind} | {word} | {result.seconds:.0f} |")
     counted = len(rows) - equivalent
     head = HEAD.format(
         listed=len(every), run=len(rows), noticed=noticed, equivalent=equivalent, counted=counted,
-        share=100.0 * noticed / max(1, counted), minutes=seconds / 60.0,
+        share=100.0 * noticed / max(1, counted), workers=os.cpu_count(),
+        minutes=seconds / 60.0 / os.cpu_count(),
         older=f" ({older} of them with older code)" if older else "",
     )
     return head + "\n".join(rows) + "\n"

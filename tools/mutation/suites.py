@@ -182,14 +182,14 @@ class Process:
         self.process.wait()
 
 
-def run(suites, folder, limit_of):
-    """Runs suites, as many at a time as there are processors; returns what the first one that fails
-    has noticed, or an empty text if none does."""
+def run(suites, folder, jobs, limit_of, stopping):
+    """Runs suites, `jobs` at a time; returns what the first one that fails has noticed, or an empty
+    text if none does before the event `stopping` is set."""
     folder.mkdir(parents=True, exist_ok=True)
     waiting, running = list(suites), {}
     try:
-        while waiting or running:
-            for slot in range(os.cpu_count()):
+        while (waiting or running) and not stopping.is_set():
+            for slot in range(jobs):
                 if waiting and slot not in running:
                     suite = waiting.pop(0)
                     running[slot] = Process(suite, folder / f"{slot}.log", limit_of(suite))

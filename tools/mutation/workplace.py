@@ -1,4 +1,4 @@
-"""The folder in which mutants are built: a copy of the sources and one build folder of its own."""
+"""Folders in which mutants are built, each a copy of the sources and one build folder of its own."""
 
 import contextlib
 import hashlib
@@ -20,12 +20,16 @@ OPTIONS = (
 )
 
 
+def folder_of(root):
+    return root / "build" / "mutants"
+
+
 class Workplace:
     """Nothing outside of its folder is written to, so the user's sources stay as they are."""
 
-    def __init__(self, root):
+    def __init__(self, root, number):
         self.root = root
-        self.folder = root / "build" / "mutants"
+        self.folder = folder_of(root) / str(number)
         self.source = self.folder / "source"
         # As deep as a build folder of the user, so that a compiler cache knows what that one has.
         self.build = self.source / "build" / "mutants"
@@ -60,10 +64,9 @@ class Workplace:
         command = ["cmake", "-S", self.source, "-B", self.build, *OPTIONS]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env=self.environment)
 
-    def make(self, targets, timeout):
+    def make(self, targets, jobs, timeout):
         """Builds targets; returns the compiler's words if that fails, else an empty text."""
-        jobs = str(os.cpu_count())
-        command = ["cmake", "--build", self.build, "-j", jobs, "--target", *targets]
+        command = ["cmake", "--build", self.build, "-j", str(jobs), "--target", *targets]
         try:
             done = subprocess.run(
                 command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

@@ -39,13 +39,10 @@ protected:
     /// With an intersection whose tile is large enough for an occlusion query.
     [[nodiscard]] Batch every(bool recordable) const {
         Batch batch = every_query(a_, b_, 0, recordable);
-        batch.add(IntersectionQuery{{a_, {}},
-                                    {b_, {{0.7, 0.0}, 0.3}},
-                                    0.005,
-                                    IntersectionKind::volume_volume,
-                                    true,
-                                    IntersectionStrategy::stencil,
-                                    Technique::raster});
+        IntersectionQuery watched{{a_, {}}, {b_, {{0.7, 0.0}, 0.3}}, 0.005};
+        watched.technique = Technique::raster;
+        watched.records = false;
+        batch.add(watched);
         return batch;
     }
 
