@@ -10,7 +10,6 @@ heading, as GitHub makes it of the heading's text. Links to other sites are not 
 
 import pathlib
 import re
-import subprocess
 import sys
 import urllib.parse
 
@@ -56,25 +55,24 @@ def faults_of(path, exists, known):
             yield line, f"{link[1]}: no such heading"
 
 
+def is_made(path):
+    """Whether it lies in a folder that the repository leaves out."""
+    first = path.relative_to(ROOT).parts[0]
+    return first.startswith("build") or first in (".git", ".cache", "out")
+
+
 def main():
     arguments = sys.argv[1:]
     if len(arguments) > 1 or arguments[:1] == ["--help"]:
         print(__doc__, file=sys.stderr)
         return 2
     folder = pathlib.Path(arguments[0]).resolve() if arguments else ROOT
-    if arguments:
-        paths = sorted(folder.rglob("*.md"))
-        exists = pathlib.Path.exists
-    else:
-        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, text=True,
-                                stdout=subprocess.PIPE).stdout.split("\0")[:-1]
-        files = {ROOT / name for name in listed}
-        folders = {parent for file in files for parent in file.parents}
-        paths = sorted(file for file in files if file.suffix == ".md" and file.exists())
+    every = {path for path in folder.rglob("*") if arguments or not is_made(path)}
 
-        def exists(target):
-            return target in files and target.exists() or target in folders
+    def exists(target):
+        return target == folder or target in every
 
+    paths = sorted(path for path in every if path.suffix == ".md")
     known, faults = {}, 0
     for path in paths:
         for line, fault in faults_of(path, exists, known):
