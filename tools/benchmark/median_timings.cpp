@@ -1,15 +1,15 @@
 #include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/spread.hpp>
 
-#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace nearfield::benchmark {
 namespace {
 
 /// The median over all frames of the value that `get` returns for each.
 template <class Get>
-double median_of(const std::vector<Timings>& frames, Get get) {
+double median_of(std::span<const Timings> frames, Get get) {
     std::vector<double> values;
     values.reserve(frames.size());
     for (const Timings& frame : frames) {
@@ -20,7 +20,8 @@ double median_of(const std::vector<Timings>& frames, Get get) {
 
 }  // namespace
 
-Timings median_timings(const std::vector<Timings>& frames) {
+Timings median_timings(std::span<const Timings> frames, std::size_t measured) {
+    frames = frames.last(measured);
     Timings result;
     result.localize = median_of(frames, [](const Timings& frame) { return frame.localize; });
     result.plan = median_of(frames, [](const Timings& frame) { return frame.plan; });

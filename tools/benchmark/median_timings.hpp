@@ -2,12 +2,13 @@
 
 #include <nearfield/result.hpp>
 
-#include <vector>
+#include <cstddef>
+#include <span>
 
 namespace nearfield::benchmark {
 
-/// Medians over frames of the same queries, by stage and by pass. Precondition: at least one frame,
-/// and every frame has the same passes as the first.
-[[nodiscard]] Timings median_timings(const std::vector<Timings>& frames);
+/// Medians over the last `measured` frames of the same queries, by stage and by pass; those before
+/// warmed up. Precondition: at least one measured frame, and all have the same passes.
+[[nodiscard]] Timings median_timings(std::span<const Timings> frames, std::size_t measured);
 
 }  // namespace nearfield::benchmark

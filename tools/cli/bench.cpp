@@ -59,7 +59,8 @@ Measurement measure(SceneRunner& runner, const BenchArguments& arguments) {
         std::cerr << '\n';
     }
     return {benchmark::spread_of(frames_ms), *std::max_element(frames_ms.begin(), frames_ms.end()),
-            benchmark::median_timings(timings), runner.pair_count(), runner.world_input_count()};
+            benchmark::median_timings(timings, timings.size()), runner.pair_count(),
+            runner.world_input_count()};
 }
 
 void write_bench_json(std::ostream& stream, const Measurement& measurement,

@@ -99,12 +99,9 @@ std::unique_ptr<Entry> enter(const Scene& scene, Technique technique, Context& c
     return entry;
 }
 
-void summarize(Entry& entry, const std::vector<double>& frames_ms, TechniqueTime& time) {
+void summarize(const Entry& entry, const std::vector<double>& frames_ms, TechniqueTime& time) {
     time.frame_ms = benchmark::spread_of(frames_ms);
-    // The measured frames are the last ones.
-    std::vector<Timings>& timings = entry.timings;
-    timings.erase(timings.begin(), timings.end() - static_cast<std::ptrdiff_t>(frames_ms.size()));
-    time.timings = benchmark::median_timings(timings);
+    time.timings = benchmark::median_timings(entry.timings, frames_ms.size());
 }
 
 }  // namespace

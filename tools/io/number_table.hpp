@@ -22,8 +22,8 @@ struct NumberTable {
 /// Takes a table of `columns` columns from a file: NumPy's format where the name ends in .npy
 /// (float32 or float64, shape (rows, columns), C order, little endian), else CSV (commas, a line a
 /// row; empty lines are skipped, and so is a first line in which nothing looks like a number, the
-/// names of the columns). `form` says what a row is. Throws InputError with the line and column, or the row and
-/// column, of what is wrong.
+/// names of the columns). `form` says what a row is. Throws InputError with the line and column, or
+/// the row and column, of what is wrong.
 [[nodiscard]] NumberTable read_number_table(const InputFile& file, std::size_t columns,
                                             const std::string& form);
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <tools/benchmark/interleave.hpp>
+#include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/spread.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,20 @@ TEST(Spread, QuartilesLieBetweenMeasurementsInAnyOrder) {
     EXPECT_DOUBLE_EQ(spread.median, 2.5);
     EXPECT_DOUBLE_EQ(spread.upper_quartile, 3.25);
     EXPECT_EQ(spread.count, 4U);
+}
+
+TEST(MedianTimings, AreThoseOfTheMeasuredFrames) {
+    std::vector<Timings> frames(5);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double milliseconds = i < 2 ? 100.0 : static_cast<double>(i);
+        frames[i].total = milliseconds;
+        frames[i].passes.push_back({"fill", 2.0 * milliseconds});
+    }
+    const Timings median = median_timings(frames, 3);
+    EXPECT_EQ(median.total, 3.0);
+    ASSERT_EQ(median.passes.size(), 1U);
+    EXPECT_EQ(median.passes[0].name, "fill");
+    EXPECT_EQ(median.passes[0].milliseconds, 6.0);
 }
 
 /// A contender whose frames report this time and write its letter to a log.
