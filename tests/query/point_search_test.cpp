@@ -140,6 +140,49 @@ TEST_F(PointSearch, DecidesTheSideWhereSinglePrecisionCannot) {
     });
 }
 
+// Vertices of A so near to the middle between two walls of B that single precision cannot tell
+// which is nearer. Four that follow each other lie together, as the device searches for them at
+// once.
+TEST_F(PointSearch, DecidesTheNearerWallWhereSinglePrecisionCannot) {
+    for_each_case(seed + 4000, 4, [&](Random& random) {
+        constexpr int walls = 40;
+        constexpr int groups = 100;
+        const double angle = random.between(-3.0, 3.0);
+        const auto turned = [&](double x, double y) {
+            return Vector2{x * std::cos(angle) - y * std::sin(angle),
+                           x * std::sin(angle) + y * std::cos(angle)};
+        };
+        Pair pair;
+        pair.b.name = "strip";
+        Ring& strip = pair.b.rings.emplace_back();
+        for (int i = 0; i <= walls; ++i) {
+            strip.push_back({-10.0 + 20.0 * i / walls, -1.0});
+        }
+        for (int i = walls; i >= 0; --i) {
+            strip.push_back({-10.0 + 20.0 * i / walls, 1.0});
+        }
+        pair.a.name = "row along its middle";
+        Ring& row = pair.a.rings.emplace_back();
+        std::vector<double> depths;
+        double beside = 0.0;
+        for (int i = 0; i < 4 * groups; ++i) {
+            beside = i % 4 == 0 ? random.between(-1e-6, 1e-6) : beside;
+            row.push_back(turned(-8.0 + 16.0 * (i / 4) / groups + 1e-7 * (i % 4), beside));
+            depths.push_back(1.0 - std::abs(beside));
+        }
+        row.push_back(turned(0.0, 30.0));
+        pair.pose_a.angle = -angle;
+        pair.tolerance = 1e-7;
+        const PlacedPair placed(context(), pair, Technique::compute);
+        const PenetrationResult found =
+            run_alone(context(), placed.penetration(PenetrationPoints::vertices));
+        ASSERT_EQ(found.records.size(), depths.size());
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            EXPECT_NEAR(found.records[i].depth, depths[i], found.error_bound) << "vertex " << i;
+        }
+    });
+}
+
 // Sizes apart by four orders of magnitude, rings in dozens, and coordinates of a million.
 TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
     for_each_case(seed + 2000, 6, [&](Random& random) {

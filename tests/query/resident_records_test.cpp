@@ -127,6 +127,24 @@ void check_summary(const ResidentRecords& resident, const RecordsContents& conte
     EXPECT_EQ((Vector2{summary.high[0], summary.high[1]}), high);
 }
 
+// One vertex penetrates, but the device computes with lengths up to those of both shapes.
+TEST_F(Resident, RecordBoundCoversTheExtentOfBothShapes) {
+    Pair needle;
+    needle.a = {"needle", {{{0.0, 0.0}, {100.0, -1.0}, {100.0, 1.0}}}};
+    needle.b = {"square", {{{-1.9, -1.0}, {0.1, -1.0}, {0.1, 1.0}, {-1.9, 1.0}}}};
+    needle.tolerance = 0.01;
+    for (const Technique technique : on_device) {
+        const PlacedPair pair(context(), needle, technique);
+        PenetrationQuery query = pair.penetration(PenetrationPoints::vertices);
+        query.resident = true;
+        const PenetrationResult result = ask(context(), query, [](const ResidentRecords& resident) {
+            EXPECT_GE(resident.error_bound, std::ldexp(101.9, -19));
+            EXPECT_LE(resident.error_bound, std::ldexp(110.0, -18));
+        });
+        EXPECT_EQ(result.count, 1U);
+    }
+}
+
 TEST_F(Resident, PenetrationRecordsAreTheCpusWithinTheBound) {
     std::size_t compared = 0;
     double largest = 0.0;

@@ -29,10 +29,10 @@ GROUPS = {
 # Of each module the groups that use it, in this order, after its own unit tests. By default those of
 # the CPU's answers.
 ANSWERS = ("query", "worlds", "hash")
-DEVICE = ("query", "query on the second driver", "driver")
+DEVICE = ("query", "driver", "query on the second driver")
 USED_BY = {
     "geometry": ("query", "worlds", "cli", "hash"),
-    "plan": ("query", "query on the second driver", "driver", "hash"),
+    "plan": ("query", "driver", "query on the second driver", "hash"),
     "select": ("query", "driver"),
     "decode": DEVICE,
     "results": ("query", "driver", "threads", "hash"),
