@@ -130,5 +130,38 @@ TEST(WorldOverlapsOfSquares, CountTouching) {
     EXPECT_EQ(lists.offsets, (std::vector<std::uint32_t>{0, 2, 2, 3, 3}));
 }
 
+// Far from the origin a box is rounded by more than the box of the instance that came last.
+TEST(WorldOverlapsOfSquares, AreTheSameWhateverIsElsewhere) {
+    Random random(17500);
+    int touching = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Rings rings = star(random, 5, 0.5);
+        const Pose pose{{random.between(1e6, 2e6), random.between(1e6, 2e6)},
+                        random.between(-3.0, 3.0)};
+        Vector2 right{};
+        for (const Vector2& vertex : rings.front()) {
+            const double x = pose.translation.x + vertex.x * std::cos(pose.angle) -
+                             vertex.y * std::sin(pose.angle);
+            const double y = pose.translation.y + vertex.x * std::sin(pose.angle) +
+                             vertex.y * std::cos(pose.angle);
+            right = x > right.x ? Vector2{x, y} : right;
+        }
+        std::vector<Rectangle> rectangles;
+        for (int step = -4; step <= 4; ++step) {
+            const double x = right.x + step * 0x1p-33;
+            rectangles.push_back({{x, right.y - 1.0}, {x + 1.0, right.y + 1.0}});
+        }
+        Scene alone({{"far", rings, pose}});
+        Scene both({{"far", rings, pose}, {"near", rectangle({0, 0}, {1, 1}), {}}});
+        InstanceLists expected;
+        InstanceLists found;
+        ASSERT_TRUE(alone.world().find_overlaps(rectangles, expected).ok());
+        ASSERT_TRUE(both.world().find_overlaps(rectangles, found).ok());
+        EXPECT_EQ(found.offsets, expected.offsets);
+        touching += expected.instances.empty() ? 0 : 1;
+    }
+    EXPECT_GT(touching, 0);
+}
+
 }  // namespace
 }  // namespace nearfield::test
