@@ -87,6 +87,20 @@ TEST_F(Targets, AllGiveTheDistancesOfTheExactBoundary) {
     for_each([&] { check_by_boundary(solve(polygon, grid), polygon, grid); });
 }
 
+/// Millions of cells away, where single precision cannot tell edges apart that are cells apart.
+TEST_F(Targets, AllGiveTheDistancesFarFromTheBoundary) {
+    test::Random random(field_seed);
+    for (const double cell : {0x1p-16, 0x1p-19, 0x1p-22, 0x1p-24}) {
+        SCOPED_TRACE(cell);
+        geometry::Polygon shape;
+        ASSERT_TRUE(shape.assign(test::star(random, 300, 0.99999)).ok());
+        const geometry::TransformedPolygon polygon(shape, {{0.3, -0.2}, 0.7});
+        const FieldGrid grid{polygon.translation() - 30.0 * cell * geometry::Vector(1.0, 1.0), cell,
+                             67, 43};
+        for_each([&] { check_by_boundary(solve(polygon, grid), polygon, grid); });
+    }
+}
+
 /// Edges much shorter than cells, smooth and rough, so that runs of edges are tested.
 TEST_F(Targets, AllGiveTheDistancesOfManyShortEdges) {
     test::Random random(field_seed);
