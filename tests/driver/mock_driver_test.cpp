@@ -42,6 +42,10 @@ TEST(MockDriver, HasNothingToComplainOfALifeWithoutFailures) {
             EXPECT_EQ(asks("vkQueueSubmit"), submits)
                 << "gradient normals are to be asked for when a batch is collected, and what is "
                    "recorded is the host's to submit";
+            const bool reads_results =
+                step == World::Step::collect_first || step == World::Step::collect_larger ||
+                step == World::Step::collect_recorded || step == World::Step::collect_unexecuted;
+            EXPECT_EQ(asks("vkInvalidateMappedMemoryRanges"), reads_results);
             EXPECT_TRUE(step >= World::Step::submit_first && step < World::Step::submit_without_work
                             ? world.is_after_first()
                             : world.is_before_first());
