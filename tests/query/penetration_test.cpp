@@ -41,6 +41,28 @@ TEST_F(Penetration, HoldsForEveryFamily) {
     }
 }
 
+/// Queries in both directions share whether the shapes meet, but not with the batch before: its
+/// last query stood where the first of the other direction stands now.
+TEST_F(Penetration, DoesNotOutliveItsBatch) {
+    const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
+    const ShapeHandle a = *context().add_shape(square);
+    const ShapeHandle b = *context().add_shape(square);
+    PenetrationQuery there{{a, {}}, {b, {{5.0, 0.0}}}, 0.01};
+    there.technique = Technique::cpu;
+    EXPECT_EQ(run_alone(context(), there).count, 0U);
+    there.b.pose.translation.x = 0.5;
+    PenetrationQuery back = there;
+    std::swap(back.a, back.b);
+    there.technique = Technique::raster;
+    Batch batch;
+    batch.add(there);
+    const auto handle = batch.add(back);
+    Results results;
+    ASSERT_TRUE(context().run(batch, results).ok());
+    EXPECT_TRUE(results[handle].intersects);
+    EXPECT_GT(results[handle].count, 0U);
+}
+
 TEST_F(Penetration, HoldsForLongCoasts) {
     Random random(seed);
     for (const int n : {5000, 20000}) {

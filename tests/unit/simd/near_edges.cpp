@@ -67,7 +67,8 @@ void for_each_shape(const Check& check) {
 
 Points points_about(const TransformedEdges& edges, samples::Random& random) {
     Points points;
-    const double step = random.below(2) == 0 ? 0.01 : 1.0;
+    const double steps[] = {1e-5, 0.01, 1.0};
+    const double step = steps[random.below(3)];
     Vector at(random.between(-1.2, 1.2), random.between(-1.2, 1.2));
     for (int i = 0; i < 21; ++i) {
         points.push(edges.placed.to_world(at));
