@@ -158,10 +158,6 @@ uint block_of(uint index, uint first_block, uint elements) {
     return last_at_most(index, first_block, (elements + block_size - 1u) / block_size, 1u, 0u);
 }
 
-float distance_to_box(vec2 p, vec4 box) {
-    return length(max(max(box.xy - p, p - box.zw), vec2(0.0)));
-}
-
 vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
     vec2 d = b - a;
     float squared = dot(d, d);
@@ -177,14 +173,18 @@ bool ray_meets(vec2 p, vec4 box) {
     return p.y >= box.y && p.y <= box.w && p.x <= box.z;
 }
 
-// A walk over the boxes of a shape from the top level to chunks. At each step, `mask` holds the
-// boxes of the present group that are still to be visited; those of the groups above wait.
+// A walk over the boxes of a shape from the top level to chunks, depth first.
 struct Walk {
     uint level;
-    uint group;  // its boxes are 8 * group, ...
-    uint mask;
-    uint waiting[2];  // masks of the groups above: eight bits per level
+    uint group;     // the boxes of this level that were entered last are 8 * group, ...
+    uvec2 pending;  // boxes still to be visited: eight bits per level
 };
+
+// The steps of one walk, each of which takes up to nine turns of loops. Some drivers end the loops of
+// an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
+// of three walks each, and the threads that run in step with it may take the longest of each. What a
+// longer walk would find is left to the CPU.
+const uint max_steps = 500u;
 
 // The boxes of a walk's group.
 struct Group {
@@ -199,34 +199,33 @@ Group group_of(Shape shape, uint level, uint group) {
 }
 
 Walk start_walk(Shape shape) {
-    return Walk(shape.levels - 1u, 0u, 0u, uint[](0u, 0u));
+    return Walk(shape.levels - 1u, 0u, uvec2(0u));
+}
+
+// Marks boxes of the walk's group, one bit each, as ones to be visited.
+void add_boxes(inout Walk walk, uint boxes) {
+    uint bits = boxes << (chunk_size * (walk.level & 3u));
+    walk.pending |= walk.level < 4u ? uvec2(bits, 0u) : uvec2(0u, bits);
+}
+
+// Goes to the next box to visit, on the lowest level that has one, and says which it is; false at
+// the end of the walk.
+bool next_box(inout Walk walk, out uint box) {
+    bool upper = walk.pending.x == 0u;
+    uint word = upper ? walk.pending.y : walk.pending.x;
+    if (word == 0u) {
+        return false;
+    }
+    uint bit = findLSB(word);
+    walk.pending &= upper ? uvec2(0u, word - 1u) : uvec2(word - 1u, ~0u);
+    uint level = bit / chunk_size + (upper ? 4u : 0u);
+    walk.group >>= 3u * (level - walk.level);
+    walk.level = level;
+    box = chunk_size * walk.group + bit % chunk_size;
+    return true;
 }
 
 void descend(inout Walk walk, uint box) {
-    int place = 8 * int(walk.level & 3u);
-    if (walk.level < 4u) {
-        walk.waiting[0] = bitfieldInsert(walk.waiting[0], walk.mask, place, 8);
-    } else {
-        walk.waiting[1] = bitfieldInsert(walk.waiting[1], walk.mask, place, 8);
-    }
     walk.group = box;
     --walk.level;
-}
-
-// Returns the next box to visit in a group, after going up where a group has none left; false at
-// the end of the walk.
-bool next_box(Shape shape, inout Walk walk, out uint box) {
-    while (walk.mask == 0u) {
-        ++walk.level;
-        if (walk.level >= shape.levels) {
-            return false;
-        }
-        walk.group /= chunk_size;
-        uint waiting = walk.level < 4u ? walk.waiting[0] : walk.waiting[1];
-        walk.mask = bitfieldExtract(waiting, 8 * int(walk.level & 3u), 8);
-    }
-    uint bit = findLSB(walk.mask);
-    walk.mask &= walk.mask - 1u;
-    box = chunk_size * walk.group + bit;
-    return true;
 }

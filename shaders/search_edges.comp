@@ -36,47 +36,59 @@ struct Stretch {
     bool last_inside;
 };
 
-Stretch find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides) {
-    Stretch stretch = Stretch(vec2(infinity, -infinity), false, false);
+// The boxes of a walk's group that the stretch, or the ray from either end, may meet.
+void enter(inout Walk walk, vec2 from, vec2 to, Shape b, vec4 margin, bool sides) {
+    Group group = group_of(b, walk.level, walk.group);
+    uint boxes = 0u;
+    for (uint i = 0u; i < group.count; ++i) {
+        vec4 box = floats_at(group.first + i);
+        vec2 t = vec2(0.0, 1.0);
+        bool visit = clip_to_box(from, to - from, box + margin, t) ||
+                     (sides && (ray_meets(from, box) || ray_meets(to, box)));
+        boxes |= visit ? 1u << i : 0u;
+    }
+    add_boxes(walk, boxes);
+}
+
+void consider_chunk(vec2 from, vec2 to, Shape b, uint chunk, vec4 margin, bool sides,
+                    inout Stretch stretch) {
+    uint end = edges_end(b, chunk);
+    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
+        vec4 edge = floats_at(b.edges + slot);
+        vec4 edge_box = vec4(min(edge.xy, edge.zw), max(edge.xy, edge.zw));
+        vec2 t = vec2(0.0, 1.0);
+        if (clip_to_box(from, to - from, edge_box + margin, t)) {
+            stretch.near = vec2(min(stretch.near.x, t.x), max(stretch.near.y, t.y));
+        }
+        if (sides) {
+            stretch.first_inside = stretch.first_inside != crosses(from, edge.xy, edge.zw);
+            stretch.last_inside = stretch.last_inside != crosses(to, edge.xy, edge.zw);
+        }
+    }
+}
+
+// False where the walk takes too long.
+bool find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides, out Stretch stretch) {
+    stretch = Stretch(vec2(infinity, -infinity), false, false);
     vec4 margin = vec4(-grow, -grow, grow, grow);
-    vec2 along = to - from;
     Walk walk = start_walk(b);
     bool enters = true;
-    for (;;) {
+    for (uint i = 0u; i < max_steps; ++i) {
         if (enters) {
-            walk.mask = 0u;
-            Group group = group_of(b, walk.level, walk.group);
-            for (uint i = 0u; i < group.count; ++i) {
-                vec4 box = floats_at(group.first + i);
-                vec2 t = vec2(0.0, 1.0);
-                bool visit = clip_to_box(from, along, box + margin, t) ||
-                             (sides && (ray_meets(from, box) || ray_meets(to, box)));
-                walk.mask |= visit ? 1u << i : 0u;
-            }
+            enter(walk, from, to, b, margin, sides);
         }
         uint box;
-        if (!next_box(b, walk, box)) {
-            return stretch;
+        if (!next_box(walk, box)) {
+            return true;
         }
         enters = walk.level > 0u;
         if (enters) {
             descend(walk, box);
-            continue;
-        }
-        uint end = edges_end(b, box);
-        for (uint i = chunk_size * box; i < end; ++i) {
-            vec4 edge = floats_at(b.edges + i);
-            vec4 edge_box = vec4(min(edge.xy, edge.zw), max(edge.xy, edge.zw));
-            vec2 t = vec2(0.0, 1.0);
-            if (clip_to_box(from, along, edge_box + margin, t)) {
-                stretch.near = vec2(min(stretch.near.x, t.x), max(stretch.near.y, t.y));
-            }
-            if (sides) {
-                stretch.first_inside = stretch.first_inside != crosses(from, edge.xy, edge.zw);
-                stretch.last_inside = stretch.last_inside != crosses(to, edge.xy, edge.zw);
-            }
+        } else {
+            consider_chunk(from, to, b, box, margin, sides, stretch);
         }
     }
+    return false;
 }
 
 Item item_of(uint index) {
@@ -113,8 +125,10 @@ Points points_of(Item item) {
     vec2 end = direction.rotation * edge.zw + direction.translation;
     vec2 to = parts == 1u ? from : from + (end - from) * (float(parts - 1u) / float(parts));
     bool sides = !direction.outside;
-    Stretch stretch =
-        find_stretch(from, to, b, direction.reach + 2.0 * direction.margin, sides);
+    Stretch stretch;
+    if (!find_stretch(from, to, b, direction.reach + 2.0 * direction.margin, sides, stretch)) {
+        return Points(0u, parts, 0u, parts);
+    }
     if (stretch.near.y < stretch.near.x) {
         return Points(0u, stretch.first_inside ? parts : 0u, 0u, 0u);
     }

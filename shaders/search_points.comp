@@ -44,6 +44,10 @@ Points points_at(vec4 x, vec4 y) {
     return Points(x, y, 0.5 * (low + high), 0.5 * distance(low, high));
 }
 
+float distance_to_box(vec2 p, vec4 box) {
+    return length(max(max(box.xy - p, p - box.zw), vec2(0.0)));
+}
+
 // Of four points, the nearest ones on an edge.
 void find_on_edge(Points p, vec4 edge, out vec4 x, out vec4 y, out vec4 squared) {
     vec2 d = edge.zw - edge.xy;
@@ -64,7 +68,7 @@ bvec4 cross_edge(Points p, vec4 edge) {
 }
 
 // The points that lie inside, of those that are asked for; the others do.
-bvec4 find_inside(Points p, bvec4 asked, Shape b) {
+bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
     // The rays of those that are asked for go to growing x.
     float lowest = least(mix(vec4(infinity), p.y, asked));
     float highest = largest(mix(vec4(-infinity), p.y, asked));
@@ -72,17 +76,19 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b) {
     uvec4 odd = uvec4(0u);
     Walk walk = start_walk(b);
     bool enters = any(asked);
-    for (;;) {
+    for (uint step = 0u; step < max_steps; ++step) {
         if (enters) {
             Group group = group_of(b, walk.level, walk.group);
+            uint boxes = 0u;
             for (uint i = 0u; i < group.count; ++i) {
                 vec4 box = floats_at(group.first + i);
                 bool visit = highest >= box.y && lowest <= box.w && leftmost <= box.z;
-                walk.mask |= visit ? 1u << i : 0u;
+                boxes |= visit ? 1u << i : 0u;
             }
+            add_boxes(walk, boxes);
         }
         uint box;
-        if (!next_box(b, walk, box)) {
+        if (!next_box(walk, box)) {
             return bvec4(odd | uvec4(not(asked)));
         }
         enters = walk.level > 0u;
@@ -91,28 +97,25 @@ bvec4 find_inside(Points p, bvec4 asked, Shape b) {
             continue;
         }
         uint end = edges_end(b, box);
-        for (uint i = chunk_size * box; i < end; ++i) {
-            odd ^= uvec4(cross_edge(p, floats_at(b.edges + i)));
+        for (uint slot = chunk_size * box; slot < end; ++slot) {
+            odd ^= uvec4(cross_edge(p, floats_at(b.edges + slot)));
         }
     }
+    too_long = true;
+    return bvec4(false);
 }
 
 void consider_chunk(Points p, Shape b, uint chunk, inout Nearest nearest) {
     uint end = edges_end(b, chunk);
-    for (uint i = chunk_size * chunk; i < end; ++i) {
+    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
         vec4 x, y, squared;
-        find_on_edge(p, floats_at(b.edges + i), x, y, squared);
+        find_on_edge(p, floats_at(b.edges + slot), x, y, squared);
         bvec4 nearer = lessThan(squared, nearest.squared);
         nearest.squared = min(squared, nearest.squared);
         nearest.x = mix(nearest.x, x, nearer);
         nearest.y = mix(nearest.y, y, nearer);
-        nearest.slot = mix(nearest.slot, uvec4(i), nearer);
+        nearest.slot = mix(nearest.slot, uvec4(slot), nearer);
     }
-}
-
-// The boxes that may hold an edge nearer than what is known are nearer to the disc's centre.
-float reach_of(Points p, Nearest nearest) {
-    return p.radius + sqrt(largest(nearest.squared));
 }
 
 // Follows the nearest box from level to level: a first bound for the search. Returns the chunk.
@@ -133,23 +136,29 @@ uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
     return box;
 }
 
+// The boxes of a walk's group that may hold an edge within `reach` of one of the points.
+void enter(inout Walk walk, Points p, Shape b, float reach) {
+    Group group = group_of(b, walk.level, walk.group);
+    uint boxes = 0u;
+    for (uint i = 0u; i < group.count; ++i) {
+        vec4 box = floats_at(group.first + i);
+        boxes |= distance_to_box(p.centre, box) <= p.radius + reach ? 1u << i : 0u;
+    }
+    add_boxes(walk, boxes);
+}
+
 // Returns the nearest edges that are nearer than `limit`; slot is no_parts if there is none.
-Nearest find_nearest(Points p, Shape b, vec4 limit) {
+Nearest find_nearest(Points p, Shape b, vec4 limit, inout bool too_long) {
     Nearest nearest = Nearest(limit * limit, vec4(0.0), vec4(0.0), uvec4(no_parts));
     uint considered = descend_to_nearest(p, b, nearest);
     Walk walk = start_walk(b);
     bool enters = true;
-    float reach = reach_of(p, nearest);
-    for (;;) {
+    for (uint i = 0u; i < max_steps; ++i) {
         if (enters) {
-            Group group = group_of(b, walk.level, walk.group);
-            for (uint i = 0u; i < group.count; ++i) {
-                vec4 box = floats_at(group.first + i);
-                walk.mask |= distance_to_box(p.centre, box) < reach ? 1u << i : 0u;
-            }
+            enter(walk, p, b, sqrt(largest(nearest.squared)));
         }
         uint box;
-        if (!next_box(b, walk, box)) {
+        if (!next_box(walk, box)) {
             return nearest;
         }
         enters = walk.level > 0u;
@@ -157,9 +166,10 @@ Nearest find_nearest(Points p, Shape b, vec4 limit) {
             descend(walk, box);
         } else if (box != considered) {
             consider_chunk(p, b, box, nearest);
-            reach = reach_of(p, nearest);
         }
     }
+    too_long = true;
+    return nearest;
 }
 
 struct Rivals {
@@ -178,12 +188,12 @@ void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uv
     float same = 16.0 * direction.margin * direction.margin;
     uint first = word_at(b.infos + chunk) >> 4;
     uint end = edges_end(b, chunk);
-    for (uint i = chunk_size * chunk; i < end; ++i) {
+    for (uint slot = chunk_size * chunk; slot < end; ++slot) {
         vec4 x, y, squared;
-        find_on_edge(p, floats_at(b.edges + i), x, y, squared);
+        find_on_edge(p, floats_at(b.edges + slot), x, y, squared);
         vec4 distances = sqrt(squared);
         vec4 apart = (x - nearest.x) * (x - nearest.x) + (y - nearest.y) * (y - nearest.y);
-        uvec4 number = uvec4(first + i % chunk_size);
+        uvec4 number = uvec4(first + slot % chunk_size);
         uvec4 exist = uvec4(lessThanEqual(distances, limit)) &
                       uvec4(greaterThan(apart, 4.0 * along_wall));
         uvec4 elsewhere = uvec4(lessThan(number + 1u, edge)) |
@@ -195,22 +205,19 @@ void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uv
     }
 }
 
-Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction direction) {
+Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction direction,
+                   inout bool too_long) {
     Rivals rivals = Rivals(bvec4(false), bvec4(false));
     vec4 near = sqrt(nearest.squared);
-    float reach = p.radius + largest(near) + max(direction.rival, direction.doubt);
+    float reach = largest(near) + max(direction.rival, direction.doubt);
     Walk walk = start_walk(b);
     bool enters = true;
-    for (;;) {
+    for (uint i = 0u; i < max_steps; ++i) {
         if (enters) {
-            Group group = group_of(b, walk.level, walk.group);
-            for (uint i = 0u; i < group.count; ++i) {
-                vec4 box = floats_at(group.first + i);
-                walk.mask |= distance_to_box(p.centre, box) <= reach ? 1u << i : 0u;
-            }
+            enter(walk, p, b, reach);
         }
         uint box;
-        if (!next_box(b, walk, box)) {
+        if (!next_box(walk, box)) {
             return rivals;
         }
         enters = walk.level > 0u;
@@ -220,25 +227,31 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction dir
             compare_chunk(p, b, box, nearest, near, edge, direction, rivals);
         }
     }
+    too_long = true;
+    return rivals;
 }
 
 // Returns the words of four points; 0 for those that are not asked for.
 uvec4 resolve(Points p, bvec4 asked, Direction direction) {
     Shape b = shape_at(direction.shape_b);
-    bvec4 inside = find_inside(p, asked, b);
+    bool too_long = false;
+    bvec4 inside = find_inside(p, asked, b, too_long);
     float near_boundary = 2.0 * direction.margin;
     vec4 limit = direction.outside ? vec4(direction.reach + near_boundary)
                                    : mix(vec4(near_boundary), vec4(infinity), inside);
-    Nearest nearest = find_nearest(p, b, limit);
+    Nearest nearest = find_nearest(p, b, limit, too_long);
     uvec4 found = uvec4(notEqual(nearest.slot, uvec4(no_parts)));
-    if (found == uvec4(0u)) {
-        return uvec4(0u);
-    }
     uvec4 edge;
     for (int i = 0; i < 4; ++i) {
         edge[i] = found[i] != 0u ? number_of(b, nearest.slot[i]) : 0u;
     }
-    Rivals rivals = find_rivals(p, b, nearest, edge, direction);
+    Rivals rivals = Rivals(bvec4(false), bvec4(false));
+    if (found != uvec4(0u)) {
+        rivals = find_rivals(p, b, nearest, edge, direction, too_long);
+    }
+    if (too_long) {
+        return resolved_flag | doubt_flag | edge;
+    }
     uvec4 doubtful = uvec4(rivals.doubtful) |
                      uvec4(lessThanEqual(nearest.squared, vec4(near_boundary * near_boundary)));
     return found * (resolved_flag | uvec4(inside) * inside_flag |
@@ -274,12 +287,15 @@ Place place_of(uint index) {
     return place;
 }
 
-// Moves on to the next point. There has to be one.
-void advance(inout Place place) {
+// Moves on to the next point, which has this index. There has to be one.
+void advance(inout Place place, uint index) {
     ++place.point;
-    while (place.point == place.edge.z + place.asked.z) {
+    if (place.point == place.edge.z + place.asked.z) {
         ++place.element;
         load(place);
+        if (place.asked.z == 0u) {
+            place = place_of(index);
+        }
     }
 }
 
@@ -300,7 +316,7 @@ Batch batch_at(uint index, uint count) {
         batch.number[i] = place.point;
         batch.asked[i] = place.point >= place.asked.x && place.point < place.asked.y;
         if (i + 1u < count) {
-            advance(place);
+            advance(place, index + i + 1u);
         }
     }
     return batch;

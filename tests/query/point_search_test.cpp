@@ -205,6 +205,31 @@ TEST_F(PointSearch, DecidesTheNearestOfWallsThatSinglePrecisionTakesForOne) {
     });
 }
 
+// Boxes on five levels over the edges; rays across all teeth of a comb, for which the walks of the
+// device take too long.
+TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
+    for_each_case(seed + 6000, 4, [&](Random& random) {
+        const std::size_t edges = 70000;
+        const bool is_comb = random.whole(0, 2) == 0;
+        Pair pair;
+        pair.a = {"star", star(random, 40, 0.3)};
+        pair.b = is_comb ? NamedRings{"comb", comb(static_cast<int>(edges / 4))}
+                         : NamedRings{"coast", coast(random, edges, 0.5)};
+        pair.pose_a.translation = {random.between(-0.7, 0.7), random.between(-0.7, 0.7)};
+        pair.tolerance = 0.01;
+        const PlacedPair placed(context(), pair, Technique::compute);
+        for (const PenetrationPoints points :
+             {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
+            PenetrationQuery query = placed.penetration(points);
+            const PenetrationResult found = run_alone(context(), query);
+            query.technique = Technique::cpu;
+            const PenetrationResult expected = run_alone(context(), query);
+            check_agreement({placed, query}, found, by_technique_of(found, expected));
+            EXPECT_GT(found.count, 0U);
+        }
+    });
+}
+
 // Sizes apart by four orders of magnitude, rings in dozens, and coordinates of a million.
 TEST_F(PointSearch, HoldsForMixedSizesFarFromTheOrigin) {
     for_each_case(seed + 2000, 6, [&](Random& random) {
