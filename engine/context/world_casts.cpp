@@ -1,33 +1,20 @@
 #include <engine/base/interruption.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
-#include <engine/toi/motion.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/toi/swept_box.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <tuple>
 
 namespace nearfield {
 namespace {
 
-using geometry::Box;
 using geometry::number;
-using geometry::TransformedPolygon;
 
-/// Contains the shape at all times of a motion.
-Box swept_box(const geometry::Polygon& shape, const Sweep& sweep) {
-    Box box = TransformedPolygon(shape, sweep.start).box();
-    box.extend(TransformedPolygon(shape, sweep.end).box());
-    if (sweep.start.angle == sweep.end.angle) {
-        return box;
-    }
-    // It turns about its own origin, which moves straight.
-    const toi::Motion motion(shape, sweep.start, sweep.end);
-    Box turned(geometry::to_vector(sweep.start.translation));
-    turned.extend(geometry::to_vector(sweep.end.translation));
-    return box.merged(geometry::grown(turned, motion.reach()));
-}
+/// So that the lists of their candidates stay small.
+constexpr std::size_t sweeps_at_a_time = std::size_t{1} << 12U;
 
 ShapeCastHit hit_of(const TimeOfImpactResult& result, InstanceHandle instance) {
     return {result.state,       instance,       result.time,    result.time_error_bound,
@@ -38,26 +25,30 @@ ShapeCastHit hit_of(const TimeOfImpactResult& result, InstanceHandle instance) {
 
 void World::Implementation::find_candidates(const ShapeCastQuery& query,
                                             const geometry::Polygon& shape, const Sweep& sweep,
-                                            std::size_t number) {
-    // Rounding grows with the arcs and paths that are moved along.
-    const toi::Motion motion(shape, sweep.start, sweep.end);
-    const double margin = query.contact_distance + instances_.max_rounding() +
-                          64.0 * std::numeric_limits<double>::epsilon() * motion.magnitude();
-    const Box box = geometry::grown(swept_box(shape, sweep), margin);
-    instances_.boxes().for_meeting(box, [&](std::uint32_t index) {
-        if (!instances_.passes(index, query.filter)) {
-            return;
+                                            std::vector<std::uint32_t>& found) const {
+    const geometry::Box box =
+        geometry::grown(toi::swept_box({shape, sweep.start, sweep.end}), query.contact_distance);
+    const geometry::Box search = geometry::grown(box, instances_.max_rounding());
+    instances_.boxes().for_meeting(search, [&](std::uint32_t index) {
+        // Who is a candidate must not depend on the rounding of others.
+        if (instances_.passes(index, query.filter) &&
+            localize::boxes_meet(instances_.box(index), box, instances_.rounding(index))) {
+            found.push_back(index);
         }
-        TimeOfImpactQuery impact;
-        impact.a = {query.shape, sweep.start};
-        impact.end_a = sweep.end;
-        impact.b = instance_of(index);
-        impact.end_b = instances_[index].pose;
-        impact.tolerance = query.tolerance;
-        impact.contact_distance = query.contact_distance;
-        batch_.add(impact);
-        candidates_.push_back({number, index});
     });
+}
+
+void World::Implementation::add_candidate(const ShapeCastQuery& query, const Sweep& sweep,
+                                          std::size_t number, std::uint32_t index) {
+    TimeOfImpactQuery impact;
+    impact.a = {query.shape, sweep.start};
+    impact.end_a = sweep.end;
+    impact.b = instance_of(index);
+    impact.end_b = instances_[index].pose;
+    impact.tolerance = query.tolerance;
+    impact.contact_distance = query.contact_distance;
+    batch_.add(impact);
+    candidates_.push_back({number, index});
 }
 
 void World::Implementation::run_batch() {
@@ -115,13 +106,28 @@ void World::Implementation::cast_shape(const ShapeCastQuery& query, std::span<co
                                  "; it must be a finite number of at least 0");
     }
     prepare(query.filter, "cast_shape");
+    std::fill(hits.begin(), hits.end(), ShapeCastHit{});
+    for (std::size_t first = 0; first < sweeps.size(); first += sweeps_at_a_time) {
+        const auto some = sweeps.subspan(first, std::min(sweeps_at_a_time, sweeps.size() - first));
+        candidate_lists_.write(
+            jobs_, some.size(), candidate_offsets_, candidates_of_sweeps_,
+            [&](std::uint32_t /*job*/, std::size_t i, std::vector<std::uint32_t>& found) {
+                find_candidates(query, polygon, some[i], found);
+            });
+        cast_among_candidates(query, some, first, hits);
+    }
+}
+
+void World::Implementation::cast_among_candidates(const ShapeCastQuery& query,
+                                                  std::span<const Sweep> sweeps, std::size_t first,
+                                                  std::span<ShapeCastHit> hits) {
     constexpr std::size_t queries_at_a_time = 1024;
     batch_.clear();
     candidates_.clear();
-    std::fill(hits.begin(), hits.end(), ShapeCastHit{});
     for (std::size_t i = 0; i < sweeps.size(); ++i) {
-        checkpoint();
-        find_candidates(query, polygon, sweeps[i], i);
+        for (std::uint32_t k = candidate_offsets_[i]; k < candidate_offsets_[i + 1]; ++k) {
+            add_candidate(query, sweeps[i], first + i, candidates_of_sweeps_[k]);
+        }
         if (candidates_.size() >= queries_at_a_time || i + 1 == sweeps.size()) {
             answer_candidates(hits);
             batch_.clear();

@@ -173,86 +173,6 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
     });
 }
 
-void World::Implementation::cast_rays(std::span<const Segment> segments, RayHits& hits,
-                                      const WorldFilter& filter) {
-    require_segments("cast_rays", segments);
-    prepare(filter, "cast_rays");
-    hits.offsets.assign(1, 0);
-    hits.hits.clear();
-    world::RayQueries& queries = scratch_.front().rays;
-    queries.begin(instances_, filter);
-    expect_answers(segments.size());
-    for (const Segment& segment : segments) {
-        checkpoint();
-        queries.find_all(segment, hits.hits);
-        hits.offsets.push_back(static_cast<std::uint32_t>(hits.hits.size()));
-        finish_answers(1);
-    }
-}
-
-template <class Find>
-void World::Implementation::write_lists(std::size_t count, InstanceLists& lists, const Find& find) {
-    lists.offsets.assign(1, 0);
-    lists.instances.clear();
-    std::vector<std::uint32_t>& found = scratch_.front().found;
-    expect_answers(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        checkpoint();
-        found.clear();
-        find(i, found);
-        std::sort(found.begin(), found.end(), [this](std::uint32_t a, std::uint32_t b) {
-            return instances_.number(a) < instances_.number(b);
-        });
-        for (const std::uint32_t index : found) {
-            lists.instances.push_back(instances_.handle(index));
-        }
-        lists.offsets.push_back(static_cast<std::uint32_t>(lists.instances.size()));
-        finish_answers(1);
-    }
-}
-
-void World::Implementation::find_overlaps(std::span<const Rectangle> rectangles,
-                                          InstanceLists& lists, const WorldFilter& filter) {
-    for (std::size_t i = 0; i < rectangles.size(); ++i) {
-        const Rectangle& rectangle = rectangles[i];
-        require_point("find_overlaps", "the low corner of rectangle", i, rectangle.min);
-        require_point("find_overlaps", "the high corner of rectangle", i, rectangle.max);
-        if (rectangle.max.x < rectangle.min.x || rectangle.max.y < rectangle.min.y) {
-            refuse("find_overlaps", "the high corner of rectangle " + std::to_string(i) +
-                                        " is below its low corner");
-        }
-    }
-    prepare(filter, "find_overlaps");
-    world::OverlapQueries& queries = scratch_.front().overlaps;
-    queries.begin(instances_, filter);
-    write_lists(rectangles.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
-        queries.find(rectangles[i], found);
-    });
-}
-
-void World::Implementation::find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
-                                          const WorldFilter& filter) {
-    require_points("find_overlaps", points);
-    prepare(filter, "find_overlaps");
-    world::OverlapQueries& queries = scratch_.front().overlaps;
-    queries.begin(instances_, filter);
-    write_lists(points.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
-        queries.find(points[i], found);
-    });
-}
-
-void World::Implementation::find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
-                                          InstanceLists& lists) {
-    const geometry::Polygon& polygon = shape(query.shape, "find_overlaps");
-    require_poses("find_overlaps", poses);
-    prepare(query.filter, "find_overlaps");
-    world::PoseQueries& queries = scratch_.front().poses;
-    queries.begin(instances_, polygon, query.filter);
-    write_lists(poses.size(), lists, [&](std::size_t i, std::vector<std::uint32_t>& found) {
-        queries.find_intersecting(poses[i], found);
-    });
-}
-
 std::uint64_t World::Implementation::bytes() const {
     return sizeof(*this) + instances_.bytes();
 }
@@ -266,6 +186,11 @@ void World::Implementation::trim() {
     results_ = {};
     candidates_ = {};
     hilbert_order_ = {};
+    ray_lists_ = {};
+    instance_lists_ = {};
+    candidate_lists_ = {};
+    candidate_offsets_ = {};
+    candidates_of_sweeps_ = {};
 }
 
 }  // namespace nearfield

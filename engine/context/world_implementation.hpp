@@ -2,6 +2,7 @@
 
 #include <engine/base/jobs.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/context/job_lists.hpp>
 #include <engine/world/hilbert_curve.hpp>
 #include <engine/world/instances.hpp>
 #include <engine/world/nearest_queries.hpp>
@@ -86,11 +87,18 @@ private:
     /// The same for a query, whose filter has to be one of this world.
     void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
-    /// Writes one list per entry; `find(i, found)` appends the instances of entry i, in any order.
+    /// Writes one list per entry; `find(job, i, found)` appends the instances of entry i, in any
+    /// order.
     template <class Find>
     void write_lists(std::size_t count, InstanceLists& lists, const Find& find);
+    /// Appends the instances that a sweep may touch, in any order.
     void find_candidates(const ShapeCastQuery& query, const geometry::Polygon& shape,
-                         const Sweep& sweep, std::size_t number);
+                         const Sweep& sweep, std::vector<std::uint32_t>& found) const;
+    void add_candidate(const ShapeCastQuery& query, const Sweep& sweep, std::size_t number,
+                       std::uint32_t index);
+    /// Casts some sweeps, of which `first` is the number of the first, at their candidates.
+    void cast_among_candidates(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
+                               std::size_t first, std::span<ShapeCastHit> hits);
     void answer_candidates(std::span<ShapeCastHit> hits);
 
     Context::Implementation* context_;
@@ -103,6 +111,12 @@ private:
     Batch batch_;  // of shape casts and pairs
     Results results_;
     std::vector<Candidate> candidates_;  // by query of the batch
+    JobLists<RayHit> ray_lists_;
+    JobLists<InstanceHandle> instance_lists_;
+    // Of shape casts: the instances that each of some sweeps may touch.
+    JobLists<std::uint32_t> candidate_lists_;
+    std::vector<std::uint32_t> candidate_offsets_;
+    std::vector<std::uint32_t> candidates_of_sweeps_;
 };
 
 }  // namespace nearfield
