@@ -70,6 +70,11 @@ Status World::find_nearest(const NearestQuery& query, std::span<const Vector2> p
     return catch_within(limits, [&] { implementation_->find_nearest(query, points, hits); });
 }
 
+Status World::find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
+                           std::span<Clearance> nearest, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_nearest(query, poses, nearest); });
+}
+
 Status World::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                         const WorldFilter& filter, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->cast_rays(segments, hits, filter); });

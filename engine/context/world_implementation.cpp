@@ -17,6 +17,23 @@ constexpr std::size_t part = 128;
 /// boxes.
 constexpr std::size_t sorted_at_a_time = std::size_t{1} << 18U;
 
+/// `inputs`: the number of poses or points; `hits`: of entries in the caller's memory.
+void require_room_for_nearest(std::uint32_t count, const char* what, std::size_t inputs,
+                              std::size_t hits) {
+    if (count == 0 || hits / count != inputs || hits % count != 0) {
+        refuse("find_nearest", "there are " + std::to_string(inputs) + " " + what + ", " +
+                                   std::to_string(count) + " hits are wanted of each, and " +
+                                   std::to_string(hits) + " have space");
+    }
+}
+
+void require_reach_of_nearest(double max_distance) {
+    if (!(max_distance >= 0.0)) {
+        refuse("find_nearest",
+               "the largest distance is " + number(max_distance) + "; it must be at least 0");
+    }
+}
+
 const geometry::Polygon* find_shape(void* store, ShapeHandle shape) {
     return static_cast<batch::ShapeStore*>(store)->find(shape);
 }
@@ -123,16 +140,8 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
 
 void World::Implementation::find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                                          std::span<NearestHit> hits) {
-    if (query.count == 0 || hits.size() / query.count != points.size() ||
-        hits.size() % query.count != 0) {
-        refuse("find_nearest", "there are " + std::to_string(points.size()) + " points, " +
-                                   std::to_string(query.count) + " hits are wanted of each, and " +
-                                   std::to_string(hits.size()) + " have space");
-    }
-    if (!(query.max_distance >= 0.0)) {
-        refuse("find_nearest",
-               "the largest distance is " + number(query.max_distance) + "; it must be at least 0");
-    }
+    require_room_for_nearest(query.count, "points", points.size(), hits.size());
+    require_reach_of_nearest(query.max_distance);
     if (query.kind != NearestKind::instances && query.kind != NearestKind::edges) {
         refuse("find_nearest", "the kind is no enumerator");
     }
@@ -154,6 +163,27 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
         };
         jobs_.divide(some.size(), part, answer);
     }
+}
+
+void World::Implementation::find_nearest(const ShapeNearestQuery& query,
+                                         std::span<const Pose> poses,
+                                         std::span<Clearance> nearest) {
+    require_room_for_nearest(query.count, "poses", poses.size(), nearest.size());
+    require_reach_of_nearest(query.max_distance);
+    const geometry::Polygon& polygon = shape(query.shape, "find_nearest");
+    require_poses("find_nearest", poses);
+    prepare(query.filter, "find_nearest");
+    expect_answers(poses.size());
+    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::PoseQueries& queries = scratch_[job].poses;
+        queries.begin(instances_, polygon, query.filter);
+        for (std::size_t i = first; i < end; ++i) {
+            checkpoint();
+            queries.find_nearest(poses[i], query.max_distance,
+                                 nearest.subspan(i * query.count, query.count));
+        }
+        finish_answers(end - first);
+    });
 }
 
 void World::Implementation::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,

@@ -36,6 +36,8 @@ public:
                          std::span<Clearance> clearances);
     void find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                       std::span<NearestHit> hits);
+    void find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
+                      std::span<Clearance> nearest);
     void cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                    const WorldFilter& filter);
     void cast_rays(std::span<const Segment> segments, RayHits& hits, const WorldFilter& filter);

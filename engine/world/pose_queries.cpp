@@ -196,4 +196,47 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     return best_;
 }
 
+void PoseQueries::find_nearest(const Pose& pose, double max_distance,
+                               std::span<Clearance> nearest) {
+    place(pose);
+    guess_ = BoxHierarchy::nowhere;
+    std::size_t count = 0;
+    // What is farther away comes after all that are wanted.
+    const auto farthest = [&] {
+        const double last = count == nearest.size() ? nearest.back().distance
+                                                    : std::numeric_limits<double>::infinity();
+        return std::max(std::min(last, max_distance), 0.0);
+    };
+    const auto comes_before = [this](const Clearance& one, const Clearance& other) {
+        return one.distance != other.distance ? one.distance < other.distance
+                                              : instances_->number(one.instance.index) <
+                                                    instances_->number(other.instance.index);
+    };
+    const double rounding = edges().rounding + instances_->max_rounding();
+    const auto bound = [&] {
+        const double distance = with_slack(farthest(), 4.0 * rounding);
+        return distance * distance;
+    };
+    instances_->boxes().for_near(edges().box, bound, [&](std::uint32_t index, double) {
+        if (!instances_->passes(index, filter_)) {
+            return;
+        }
+        best_ = {};
+        nearest_ = BoxHierarchy::nowhere;
+        measure(index, {.max_clearance = farthest()});
+        best_.instance = instances_->handle(index);
+        const bool is_full = count == nearest.size();
+        if (nearest_ == BoxHierarchy::nowhere ||
+            (is_full && !comes_before(best_, nearest.back()))) {
+            return;
+        }
+        count += is_full ? 0 : 1;
+        const auto end = nearest.begin() + static_cast<std::ptrdiff_t>(count);
+        const auto place = std::upper_bound(nearest.begin(), end - 1, best_, comes_before);
+        std::move_backward(place, end - 1, end);
+        *place = best_;
+    });
+    std::fill(nearest.begin() + static_cast<std::ptrdiff_t>(count), nearest.end(), Clearance{});
+}
+
 }  // namespace nearfield::world

@@ -8,6 +8,7 @@
 #include <nearfield/world.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::world {
@@ -24,6 +25,8 @@ public:
     /// Appends the instances that the shape intersects, in any order.
     void find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found);
     [[nodiscard]] Clearance clearance(const Pose& pose, const ClearanceQuery& query);
+    /// Fills `nearest`, of which there are as many as are wanted.
+    void find_nearest(const Pose& pose, double max_distance, std::span<Clearance> nearest);
 
 private:
     /// Puts the shape at a pose.

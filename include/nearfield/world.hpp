@@ -120,6 +120,15 @@ struct NearestHit {
     Feature feature = {};      ///< of the instance's shape: where `nearest` lies
 };
 
+/// The nearest instances of one shape at many poses: World::find_nearest().
+struct ShapeNearestQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances considered
+    std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
+    /// Instances farther away than this are not considered. World units, >= 0.
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
 /// A straight path from one point to another, in world coordinates.
 struct Segment {
     Vector2 from = {};  ///< where it starts
@@ -248,6 +257,16 @@ public:
     /// `count` times as many hits as points.
     Status find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                         std::span<NearestHit> hits, const Limits& limits = {});
+
+    /// For each pose, the nearest instances of the shape there in ascending order of
+    /// Clearance::distance, each with its own clearance, as if it were alone in the world: those
+    /// that the shape intersects come first, the deepest at the head. Of equally near ones, the
+    /// instance added first comes first. Pose i gets nearest[i * count] to
+    /// nearest[i * count + count - 1]; where there are fewer, the rest name no instance and have an
+    /// infinite distance. Fails (invalid_query) if there are not `count` times as many entries as
+    /// poses.
+    Status find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
+                        std::span<Clearance> nearest, const Limits& limits = {});
 
     /// For each segment, the first hit. Of several at the same place, the one of the instance added
     /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.

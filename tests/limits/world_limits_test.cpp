@@ -73,6 +73,17 @@ public:
         }
         return status;
     }
+    Status find_nearest_of_shape(const Limits& limits, Numbers& numbers) {
+        std::vector<Clearance> nearest(3 * poses_.size());
+        ShapeNearestQuery query{shape_};
+        query.count = 3;
+        Status status = world_.find_nearest(query, poses_, nearest, limits);
+        for (const Clearance& clearance : nearest) {
+            numbers.push_back(clearance.distance);
+            append(numbers, clearance.nearest);
+        }
+        return status;
+    }
     Status cast_rays(const Limits& limits, Numbers& numbers) {
         std::vector<RayHit> hits(segments_.size());
         Status status = world_.cast_rays(segments_, hits, {}, limits);
@@ -179,6 +190,7 @@ std::vector<NamedQuery> all_queries() {
         {"test_poses", &Stars::test_poses},
         {"find_clearances", &Stars::find_clearances},
         {"find_nearest", &Stars::find_nearest},
+        {"find_nearest of a shape", &Stars::find_nearest_of_shape},
         {"cast_rays", &Stars::cast_rays},
         {"cast_rays, all hits", &Stars::cast_all_rays},
         {"cast_shape", &Stars::cast_shape},

@@ -38,9 +38,11 @@ Questions any_questions(Random& random, const Rectangle& box, int count) {
     questions.nearest.count = static_cast<std::uint32_t>(random.whole(1, 6));
     questions.edges.count = static_cast<std::uint32_t>(random.whole(1, 9));
     questions.edges.kind = NearestKind::edges;
+    questions.nearest_of_shape.count = static_cast<std::uint32_t>(random.whole(1, 6));
     if (random.whole(0, 1) == 0) {
         questions.nearest.max_distance = random.scale(1e-2, 5.0);
         questions.edges.max_distance = random.scale(1e-2, 5.0);
+        questions.nearest_of_shape.max_distance = random.scale(1e-2, 5.0);
     }
     questions.contact_distance = random.whole(0, 1) == 0 ? 0.0 : random.scale(1e-3, 0.5);
     return questions;
@@ -72,6 +74,15 @@ void Answers::add(const InstanceLists& lists) {
     }
 }
 
+void Answers::add(const Clearance& clearance) {
+    add(clearance.distance);
+    add(clearance.error_bound);
+    add(clearance.instance);
+    add(clearance.point);
+    add(clearance.nearest);
+    add(clearance.direction);
+}
+
 void Answers::ask_clearances(World& world, const ClearanceQuery& query,
                              std::span<const Pose> poses) {
     std::vector<Clearance> clearances(poses.size());
@@ -79,12 +90,7 @@ void Answers::ask_clearances(World& world, const ClearanceQuery& query,
         return;
     }
     for (const Clearance& clearance : clearances) {
-        add(clearance.distance);
-        add(clearance.error_bound);
-        add(clearance.instance);
-        add(clearance.point);
-        add(clearance.nearest);
-        add(clearance.direction);
+        add(clearance);
     }
 }
 
@@ -102,6 +108,15 @@ void Answers::ask_poses(World& world, ShapeHandle shape, const Questions& questi
     limited.shape = shape;
     limited.filter = questions.filter;
     ask_clearances(world, limited, questions.poses);
+    ShapeNearestQuery several = questions.nearest_of_shape;
+    several.shape = shape;
+    several.filter = questions.filter;
+    std::vector<Clearance> nearest(questions.poses.size() * several.count);
+    if (note(world.find_nearest(several, questions.poses, nearest), "find_nearest of a shape")) {
+        for (const Clearance& clearance : nearest) {
+            add(clearance);
+        }
+    }
 }
 
 void Answers::ask_nearest(World& world, const NearestQuery& query,

@@ -25,6 +25,7 @@ struct Questions {
     ClearanceQuery limits;
     NearestQuery nearest;
     NearestQuery edges;
+    ShapeNearestQuery nearest_of_shape;
     double tolerance = 1e-3;
     double contact_distance = 0.0;
 };
@@ -54,6 +55,7 @@ private:
     void add(double number) { numbers_.push_back(number); }
     void add(const Vector2& v) { numbers_.insert(numbers_.end(), {v.x, v.y}); }
     void add(InstanceHandle handle) { add(name_(handle)); }
+    void add(const Clearance& clearance);
     void add(const RayHit& hit);
     void add(const InstanceLists& lists);
 

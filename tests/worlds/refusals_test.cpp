@@ -268,7 +268,8 @@ TEST_F(WorldRefusals, NothingIsAskedOfNothing) {
     EXPECT_TRUE(world().move(std::span<const InstanceHandle>(), {}).ok());
     EXPECT_TRUE(world().test_poses({item_}, {}, {}).ok());
     EXPECT_TRUE(world().find_clearances({item_}, {}, {}).ok());
-    EXPECT_TRUE(world().find_nearest({}, {}, {}).ok());
+    EXPECT_TRUE(world().find_nearest(NearestQuery{}, {}, {}).ok());
+    EXPECT_TRUE(world().find_nearest(ShapeNearestQuery{item_}, {}, {}).ok());
     EXPECT_TRUE(world().cast_rays({}, std::span<RayHit>()).ok());
     EXPECT_TRUE(world().cast_rays({}, rays).ok());
     EXPECT_TRUE(world().cast_shape({item_, {}, 1e-3}, {}, {}).ok());
