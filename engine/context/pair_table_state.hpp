@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/world/motions.hpp>
 #include <engine/world/pair_list.hpp>
 #include <nearfield/world_pairs.hpp>
 
@@ -12,6 +13,7 @@ namespace nearfield {
 /// What a table keeps from update to update, besides its rows.
 struct PairTableBase::State {
     std::weak_ptr<const void> world;  // identity of the one of the last update
+    world::Motions motions;           // for times of impact
     world::PairList list;
     std::vector<std::uint32_t> row_of;  // by candidate; PairList::none: no hit
     std::vector<std::uint32_t> row_of_before;

@@ -51,16 +51,22 @@ InstanceHandle World::Implementation::add(const WorldInstance& instance) {
     return instances_.add(instance);
 }
 
-void World::Implementation::move(std::span<const InstanceHandle> instances,
-                                 std::span<const Pose> poses) {
+void World::Implementation::require_moves(const char* call,
+                                          std::span<const InstanceHandle> instances,
+                                          std::span<const Pose> poses) const {
     if (instances.size() != poses.size()) {
-        refuse("move", "there are " + std::to_string(instances.size()) + " instances and " +
-                           std::to_string(poses.size()) + " poses");
+        refuse(call, "there are " + std::to_string(instances.size()) + " instances and " +
+                         std::to_string(poses.size()) + " poses");
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        static_cast<void>(instances_.find(instances[i], "move"));
-        require_pose("move", "an instance", i, poses[i]);
+        static_cast<void>(instances_.find(instances[i], call));
+        require_pose(call, "an instance", i, poses[i]);
     }
+}
+
+void World::Implementation::move(std::span<const InstanceHandle> instances,
+                                 std::span<const Pose> poses) {
+    require_moves("move", instances, poses);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         instances_.move(instances[i].index, poses[i]);
     }

@@ -53,6 +53,8 @@ public:
     /// Defined in world_pairs.cpp for the queries of the public class.
     template <class Query>
     void update(PairTable<Query>& table);
+    void update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
+                std::span<const Pose> ends);
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();
@@ -72,6 +74,9 @@ private:
         std::uint32_t instance;
     };
 
+    /// `find_pairs()` brings the table's list of pairs up to date.
+    template <class Query, class FindPairs>
+    void update(PairTable<Query>& table, const FindPairs& find_pairs);
     template <class Query>
     void answer_new_pairs(PairTable<Query>& table);
     template <class Query>
@@ -82,6 +87,9 @@ private:
     [[nodiscard]] Instance instance_of(std::uint32_t index) const {
         return {instances_[index].shape, instances_[index].pose};
     }
+    /// Throws unless every instance exists and has a pose that can be used.
+    void require_moves(const char* call, std::span<const InstanceHandle> instances,
+                       std::span<const Pose> poses) const;
     /// Answers the queries of the batch.
     void run_batch();
     /// Takes in what has changed in the world.

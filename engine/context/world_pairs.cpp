@@ -14,7 +14,19 @@ namespace {
 /// Queries whose answer is the same with the shapes swapped have one row per pair.
 template <class Query>
 constexpr bool is_symmetric =
-    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery>;
+    std::is_same_v<Query, SeparationQuery> || std::is_same_v<Query, IntersectionTestQuery> ||
+    std::is_same_v<Query, TimeOfImpactQuery>;
+
+/// How far apart the boxes of a pair may be.
+template <class Query>
+double reach_of(const PairTable<Query>& table) {
+    const double reach = table.selection().reach;
+    if constexpr (requires { table.query().contact_distance; }) {
+        return std::max(reach, table.query().contact_distance);
+    } else {
+        return reach;
+    }
+}
 
 template <class Result>
 auto* records_of(Result& result) {
@@ -29,15 +41,19 @@ auto* records_of(Result& result) {
 
 template <class Query>
 bool is_hit(const PairRow<Query>& row, double reach) {
-    if (row.status != StatusCode::ok || row.intersects) {
+    if (row.status != StatusCode::ok) {
         return true;
     }
-    if constexpr (requires { row.distance; }) {
-        return row.distance <= reach;
+    if constexpr (requires { row.state; }) {
+        return row.state != ImpactState::separated;
+    } else if constexpr (requires { row.inside; }) {
+        return row.inside;
+    } else if constexpr (requires { row.distance; }) {
+        return row.intersects || row.distance <= reach;
     } else if constexpr (requires { row.count; }) {
-        return row.count > 0;
+        return row.intersects || row.count > 0;
     } else {
-        return false;
+        return row.intersects;
     }
 }
 
@@ -96,6 +112,10 @@ void World::Implementation::answer_new_pairs(PairTable<Query>& table) {
         if (pairs[i].before == world::PairList::none) {
             query.a = instance_of(pairs[i].a);
             query.b = instance_of(pairs[i].b);
+            if constexpr (requires { query.end_a; }) {
+                query.end_a = table.state_->motions.end(pairs[i].a);
+                query.end_b = table.state_->motions.end(pairs[i].b);
+            }
             batch_.add(query);
             candidates_.push_back({i, pairs[i].b});
         }
@@ -198,10 +218,11 @@ void World::Implementation::merge_rows(PairTable<Query>& table) {
     state.row_of.swap(state.row_of_before);
 }
 
-template <class Query>
-void World::Implementation::update(PairTable<Query>& table) {
+template <class Query, class FindPairs>
+void World::Implementation::update(PairTable<Query>& table, const FindPairs& find_pairs) {
     PairTableBase::State& state = *table.state_;
     const auto start_anew = [&] {
+        state.motions.clear();
         state.list.clear();
         state.row_of.clear();
         table.now_.rows.clear();
@@ -214,13 +235,30 @@ void World::Implementation::update(PairTable<Query>& table) {
             start_anew();
             state.world = identity_;
         }
-        state.list.update(instances_, table.selection_.reach, !is_symmetric<Query>);
+        find_pairs();
         answer_new_pairs(table);
         merge_rows(table);
     } catch (...) {
         start_anew();
         throw;
     }
+}
+
+template <class Query>
+void World::Implementation::update(PairTable<Query>& table) {
+    update(table,
+           [&] { table.state_->list.update(instances_, reach_of(table), !is_symmetric<Query>); });
+}
+
+void World::Implementation::update(PairTable<TimeOfImpactQuery>& table,
+                                   std::span<const InstanceHandle> moving,
+                                   std::span<const Pose> ends) {
+    update(table, [&] {
+        require_moves("update", moving, ends);
+        PairTableBase::State& state = *table.state_;
+        state.motions.update(instances_, moving, ends);
+        state.list.update(instances_, state.motions, reach_of(table));
+    });
 }
 
 Status World::update(PairTable<PenetrationQuery>& table, const Limits& limits) {
@@ -249,6 +287,15 @@ Status World::update(PairTable<IntersectionTestQuery>& table, const Limits& limi
 
 Status World::update(PairTable<SeparationVectorQuery>& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<ContainmentQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
+                     std::span<const Pose> ends, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table, moving, ends); });
 }
 
 }  // namespace nearfield

@@ -26,13 +26,13 @@ void PairList::find_changed(const Instances& instances) {
     last_change_ = instances.last_change();
 }
 
-void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, double reach,
-                             bool both_ways) {
-    const geometry::Box& box = instances.box(index);
+template <class Boxes>
+void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, const Boxes& boxes,
+                             double reach, bool both_ways) {
+    const geometry::Box& box = boxes.box(index);
     // Slightly more, for the rounding of what is compared below.
-    const geometry::Box search =
-        geometry::grown(box, reach * (1.0 + 1e-9) + instances.max_rounding());
-    instances.boxes().for_meeting(search, [&](std::uint32_t other) {
+    const geometry::Box search = geometry::grown(box, reach * (1.0 + 1e-9) + boxes.max_rounding());
+    boxes.boxes().for_meeting(search, [&](std::uint32_t other) {
         const bool is_found_twice =
             has_changed_[other] != 0 && instances.number(other) < instances.number(index);
         if (other == index || is_found_twice || !instances.is_pair(index, other)) {
@@ -41,7 +41,7 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, do
         const bool is_first = instances.number(index) < instances.number(other);
         const std::uint32_t first = is_first ? index : other;
         const std::uint32_t second = is_first ? other : index;
-        if (!localize::boxes_meet(instances.box(first), instances.box(second), reach)) {
+        if (!localize::boxes_meet(boxes.box(first), boxes.box(second), reach)) {
             return;
         }
         found_.push_back({first, second, none});
@@ -53,10 +53,24 @@ void PairList::find_pairs_of(std::uint32_t index, const Instances& instances, do
 
 void PairList::update(const Instances& instances, double reach, bool both_ways) {
     find_changed(instances);
+    find_pairs(instances, instances, reach, both_ways);
+}
+
+void PairList::update(const Instances& instances, const Motions& motions, double reach) {
+    has_changed_.resize(instances.size());
+    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+        has_changed_[i] = motions.has_changed(i) ? 1 : 0;
+    }
+    find_pairs(instances, motions, reach, false);
+}
+
+template <class Boxes>
+void PairList::find_pairs(const Instances& instances, const Boxes& boxes, double reach,
+                          bool both_ways) {
     found_.clear();
     for (std::uint32_t i = 0; i < instances.size(); ++i) {
         if (has_changed_[i] != 0 && instances.is_placed(i)) {
-            find_pairs_of(i, instances, reach, both_ways);
+            find_pairs_of(i, instances, boxes, reach, both_ways);
         }
     }
     const auto comes_before = [&](const Pair& one, const Pair& other) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/world/instances.hpp>
+#include <engine/world/motions.hpp>
 
 #include <cstdint>
 #include <span>
@@ -25,6 +26,8 @@ public:
     /// Brings the list up to date with prepared instances. `both_ways`: each pair appears in both
     /// orders; otherwise with the instance added first as `a`.
     void update(const Instances& instances, double reach, bool both_ways);
+    /// The same in one order, with boxes around the motions that `motions` was last updated with.
+    void update(const Instances& instances, const Motions& motions, double reach);
     /// In ascending order of the instances' numbers.
     [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
     /// Forgets all.
@@ -32,8 +35,13 @@ public:
 
 private:
     void find_changed(const Instances& instances);
-    void find_pairs_of(std::uint32_t index, const Instances& instances, double reach,
-                       bool both_ways);
+    /// `Boxes`: the instances, or their motions.
+    template <class Boxes>
+    void find_pairs_of(std::uint32_t index, const Instances& instances, const Boxes& boxes,
+                       double reach, bool both_ways);
+    /// Brings the list up to date with the instances that have changed.
+    template <class Boxes>
+    void find_pairs(const Instances& instances, const Boxes& boxes, double reach, bool both_ways);
 
     std::uint64_t last_change_ = 0;  // of the instances, at the last update
     std::vector<Pair> pairs_;

@@ -255,15 +255,8 @@ enum class ImpactState : std::uint8_t {
 /// The name of a state as in the enumeration, e.g. "bound_not_reached".
 [[nodiscard]] NEARFIELD_EXPORT const char* to_string(ImpactState state) noexcept;
 
-/// Answer to a TimeOfImpactQuery. Shapes touch if they share a point or, with a contact distance,
-/// are no farther apart than that. `time` is never late: in every state, the shapes do not touch
-/// before it. Holds for the rings as given, as `intersects` does.
-///
-/// `error_bound`: shapes that are separated by at most this much, or by at most this much more than
-/// the contact distance, may be reported as touching (the rounding of transformed vertices plus the
-/// shapes' deviations). `intersects`: the shapes were found to touch at time + time_error_bound or
-/// before. It is false for a hit at which they only came so close that rounding cannot tell.
-struct TimeOfImpactResult : ResultSummary {
+/// What a TimeOfImpactResult states besides its summary.
+struct TimeOfImpactValues {
     ImpactState state = ImpactState::separated;  ///< the outcome
     /// The shapes do not touch before this time: 0 if they touch at the start, 1 if they never
     /// touch.
@@ -287,6 +280,19 @@ struct TimeOfImpactResult : ResultSummary {
     std::uint32_t steps = 0;  ///< number of evaluations of the shapes
 };
 
+/// Answer to a TimeOfImpactQuery. Shapes touch if they share a point or, with a contact distance,
+/// are no farther apart than that. `time` is never late: in every state, the shapes do not touch
+/// before it. Holds for the rings as given, as `intersects` does.
+///
+/// `error_bound`: shapes that are separated by at most this much, or by at most this much more than
+/// the contact distance, may be reported as touching (the rounding of transformed vertices plus the
+/// shapes' deviations). `intersects`: the shapes were found to touch at time + time_error_bound or
+/// before. It is false for a hit at which they only came so close that rounding cannot tell.
+struct TimeOfImpactResult : ResultSummary, TimeOfImpactValues {
+    using Values = TimeOfImpactValues;  ///< what it states besides its summary
+    using Record = NoRecord;            ///< what it lists, nothing
+};
+
 /// What a SeparationVectorResult states besides its summary.
 struct SeparationVectorValues {
     Vector2 vector;       ///< add it to the translation of A's pose
@@ -307,17 +313,8 @@ struct SeparationVectorResult : ResultSummary, SeparationVectorValues {
     using Record = NoRecord;                ///< what it lists, nothing
 };
 
-/// Answer to a ContainmentQuery. Holds for the rings as given, as `intersects` does.
-///
-/// Touching from inside counts as inside: a shape is inside itself, with clearance 0. Every edge of
-/// a ring counts as boundary, also one that two parts of B share: a shape across it is inside, with
-/// clearance 0.
-///
-/// `error_bound` (the rounding of transformed vertices plus the shapes' deviations) bounds the
-/// error of `clearance`. The shapes may be reported either way if moving each boundary by at most
-/// this much could change the answer; but rings that lie inside without any move are never reported
-/// as not inside. `tolerance` and `cell` are 0.
-struct ContainmentResult : ResultSummary {
+/// What a ContainmentResult states besides its summary.
+struct ContainmentValues {
     bool inside = false;  ///< every point of A is a point of B
     /// The least distance between the boundaries if A is inside. 0 if they touch, or are so close
     /// that rounding cannot tell; 0 if A is not inside.
@@ -332,6 +329,21 @@ struct ContainmentResult : ResultSummary {
     /// False if the pair is one of several: another one is as close up to the rounding of the
     /// vertices, and one of its points is farther than that from this pair's. True at clearance 0.
     bool unique = true;
+};
+
+/// Answer to a ContainmentQuery. Holds for the rings as given, as `intersects` does.
+///
+/// Touching from inside counts as inside: a shape is inside itself, with clearance 0. Every edge of
+/// a ring counts as boundary, also one that two parts of B share: a shape across it is inside, with
+/// clearance 0.
+///
+/// `error_bound` (the rounding of transformed vertices plus the shapes' deviations) bounds the
+/// error of `clearance`. The shapes may be reported either way if moving each boundary by at most
+/// this much could change the answer; but rings that lie inside without any move are never reported
+/// as not inside. `tolerance` and `cell` are 0.
+struct ContainmentResult : ResultSummary, ContainmentValues {
+    using Values = ContainmentValues;  ///< what it states besides its summary
+    using Record = NoRecord;           ///< what it lists, nothing
 };
 
 /// One result of any kind, in the order of AnyQuery.

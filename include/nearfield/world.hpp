@@ -310,6 +310,15 @@ public:
     Status update(PairTable<IntersectionTestQuery>& table, const Limits& limits = {});
     /// Likewise.
     Status update(PairTable<SeparationVectorQuery>& table, const Limits& limits = {});
+    /// Likewise.
+    Status update(PairTable<ContainmentQuery>& table, const Limits& limits = {});
+    /// The times of impact while instances move: from time 0 to time 1, moving[i] goes from its
+    /// pose to ends[i], as TimeOfImpactQuery describes it, and all others stand still. The
+    /// instances keep their poses: a step that goes to its end is followed by move(moving, ends).
+    /// If an instance is named twice, the later end counts. Also fails as move() does. Otherwise
+    /// likewise.
+    Status update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
+                  std::span<const Pose> ends, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

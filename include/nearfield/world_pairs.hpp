@@ -19,11 +19,13 @@ namespace nearfield {
 /// The pairs of a world that a PairTable asks about.
 struct PairSelection {
     /// Pairs of instances whose bounding boxes are at most this far apart along both axes are
-    /// candidates: world units, >= 0; 0: the closed boxes overlap. Filters apply (WorldInstance).
+    /// candidates: world units, >= 0; 0: the closed boxes overlap. The contact distance of a query
+    /// that has one counts if it is larger. Filters apply (WorldInstance).
     double reach = 0.0;
     /// True: the table has only the pairs that are hit: a contact or penetrating point was found,
     /// or the shapes intersect or, for separations and closest points, are at most `reach` apart;
-    /// and those whose status is an error. False: all candidates.
+    /// for containment those with `a` inside `b`; for times of impact those that are not
+    /// ImpactState::separated; and all whose status is an error. False: all candidates.
     bool hits_only = false;
 };
 
@@ -68,14 +70,20 @@ private:
 };
 
 /// One query of all pairs of instances in a world: PenetrationQuery, ContactQuery,
-/// IntersectionQuery, ClosestPointQuery, SeparationQuery, IntersectionTestQuery or
-/// SeparationVectorQuery. World::update() brings the table up to date; a pair neither of whose
-/// instances has moved or deformed since the last update keeps its row. The rows are the same, bit
-/// for bit, as in a new table.
+/// IntersectionQuery, ClosestPointQuery, SeparationQuery, IntersectionTestQuery,
+/// SeparationVectorQuery, ContainmentQuery or TimeOfImpactQuery. World::update() brings the table
+/// up to date; a pair neither of whose instances has moved or deformed since the last update keeps
+/// its row. The rows are the same, bit for bit, as in a new table.
 ///
-/// Separations and intersection tests have one row per pair, with the instance added first as `a`;
-/// the other queries have two, each instance being `a` once. Rows are in ascending order of the
-/// pairs, in the order in which their instances were added: by `a`, then by `b`.
+/// Separations, intersection tests and times of impact have one row per pair, with the instance
+/// added first as `a`; the other queries have two, each instance being `a` once. Rows are in
+/// ascending order of the pairs, in the order in which their instances were added: by `a`, then by
+/// `b`.
+///
+/// Times of impact: World::update() is told where instances move to. Bounding boxes are then those
+/// of the whole motions, turns included, so that no impact is missed. A pair keeps its row if, in
+/// addition, both motions are those of the last update; of two that stand still, it says whether
+/// they touch.
 ///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory from update to update. All spans are borrowed until the next update.
@@ -84,8 +92,9 @@ class PairTable : public PairTableBase {
 public:
     using Record = typename Query::Result::Record;  ///< what a row has several of; see the result
 
-    /// A table without rows. `a` and `b` of the query are ignored. Technique::automatic means
-    /// Technique::cpu; the others are rejected by World::update(), as are resident results.
+    /// A table without rows. `a` and `b` of the query are ignored, as are the end poses of a time
+    /// of impact. Technique::automatic means Technique::cpu; the others are rejected by
+    /// World::update(), as are resident results.
     explicit PairTable(const Query& query, const PairSelection& selection = {})
         : PairTableBase(selection), query_(query) {}
 

@@ -27,7 +27,7 @@ public:
             WorldInstance instance;
             instance.shape = *context_.add_shape(star(random_, 60, 0.5));
             instance.pose = {{1.3 * (i % 6), 1.3 * (i / 6)}, random_.between(0.0, 6.0)};
-            EXPECT_TRUE(world_.add(instance).has_value());
+            instances_.push_back(*world_.add(instance));
         }
         shape_ = *context_.add_shape(star(random_, 60, 0.5));
         for (int i = 0; i < 40; ++i) {
@@ -121,12 +121,12 @@ public:
     }
     template <class Table>
     Status update(Table table, const Limits& limits, Numbers& numbers) {
-        Status status = world_.update(table, limits);
+        Status status = update_table(table, limits);
         if (!status.ok()) {
             EXPECT_TRUE(table.rows().empty());
             EXPECT_TRUE(table.records().empty());
             EXPECT_EQ(table.candidates(), 0U);
-            Status again = world_.update(table);  // a table that was cut is brought up to date
+            Status again = update_table(table, {});  // a table that was cut is brought up to date
             EXPECT_TRUE(again.ok()) << again.text();
         }
         for (const auto& row : table.rows()) {
@@ -141,6 +141,14 @@ public:
     [[nodiscard]] const std::vector<Rectangle>& rectangles() const { return rectangles_; }
 
 private:
+    template <class Table>
+    Status update_table(Table& table, const Limits& limits) {
+        return world_.update(table, limits);
+    }
+    /// Half of the instances move.
+    Status update_table(PairTable<TimeOfImpactQuery>& table, const Limits& limits) {
+        return world_.update(table, {instances_.data(), 15}, {poses_.data(), 15}, limits);
+    }
     static Status add(const InstanceLists& lists, Status status, Numbers& numbers) {
         numbers.insert(numbers.end(), lists.offsets.begin(), lists.offsets.end());
         for (const InstanceHandle& instance : lists.instances) {
@@ -153,6 +161,7 @@ private:
     World world_;
     Random random_;
     ShapeHandle shape_;
+    std::vector<InstanceHandle> instances_;
     std::vector<Pose> poses_;
     std::vector<Vector2> points_;
     std::vector<Segment> segments_;
@@ -186,6 +195,8 @@ std::vector<NamedQuery> all_queries() {
     separation.tolerance = 0.02;
     SeparationVectorQuery vector;
     vector.tolerance = 0.02;
+    TimeOfImpactQuery impact;
+    impact.tolerance = 1e-3;
     return {
         {"test_poses", &Stars::test_poses},
         {"find_clearances", &Stars::find_clearances},
@@ -211,6 +222,8 @@ std::vector<NamedQuery> all_queries() {
         {"update of separations", table_of(separation)},
         {"update of intersection tests", table_of(IntersectionTestQuery{})},
         {"update of separation vectors", table_of(vector)},
+        {"update of containment", table_of(ContainmentQuery{})},
+        {"update of times of impact", table_of(impact)},
     };
 }
 

@@ -172,6 +172,25 @@ void Answers::ask_casts(World& world, ShapeHandle shape, const Questions& questi
     }
 }
 
+void Answers::ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
+                          std::span<const InstanceHandle> moving, std::span<const Pose> ends) {
+    if (!note(world.update(table, moving, ends), "update of times of impact")) {
+        return;
+    }
+    for (const PairRow<TimeOfImpactQuery>& row : table.rows()) {
+        add(row.a);
+        add(row.b);
+        add(static_cast<double>(row.status));
+        add(static_cast<double>(row.state));
+        add(row.time);
+        add(row.time_error_bound);
+        add(row.error_bound);
+        add(row.min_distance);
+        add(row.point_a);
+        add(row.point_b);
+    }
+}
+
 void Answers::ask_overlaps(World& world, ShapeHandle shape, const Questions& questions) {
     InstanceLists lists;
     if (note(world.find_overlaps(questions.rectangles, lists, questions.filter),

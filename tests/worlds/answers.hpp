@@ -44,6 +44,10 @@ public:
     /// Asks everything; on a failure `status` says which call failed.
     void ask(World& world, ShapeHandle shape, const Questions& questions);
 
+    /// Asks for the times of impact while some instances move to their ends.
+    void ask_impacts(World& world, PairTable<TimeOfImpactQuery>& table,
+                     std::span<const InstanceHandle> moving, std::span<const Pose> ends);
+
     [[nodiscard]] const Status& status() const { return status_; }
     /// Empty if both have the same bits, otherwise the first difference.
     [[nodiscard]] std::string difference_from(const Answers& other) const;

@@ -24,6 +24,11 @@ History::History(std::uint64_t seed, const Settings& settings)
     : random_(seed), on_grid_(random_.whole(0, 3) == 0) {
     context_.emplace(make_context(settings));
     world_.emplace(std::move(*World::create(*context_)));
+    TimeOfImpactQuery impact;
+    impact.tolerance = 1e-3;
+    impact.max_steps = 50;
+    impact.contact_distance = random_.whole(0, 1) == 0 ? 0.0 : 0.1;
+    impacts_.emplace(impact, PairSelection{.reach = 0.0, .hits_only = random_.whole(0, 1) == 0});
     asked_ = on_grid_ ? rectangle({0.0, 0.0}, {1.0, 1.0})
                       : scaled_and_moved(star(random_, any_size(random_), 0.4), 0.5, {});
     asked_shape_ = *context_->add_shape(asked_);
@@ -181,6 +186,30 @@ void History::set_filter() {
             "set_filter");
 }
 
+/// A member moves, in the next steps of time, to another place or to the one where it is.
+void History::set_end() {
+    log_ += 'e';
+    Member& member = members_[any(members_.size())];
+    member.end.reset();
+    if (random_.whole(0, 2) > 0) {
+        member.end = member.instance.pose;
+        member.end->translation.x += on_grid_ ? random_.whole(-3, 3) : random_.between(-1.0, 1.0);
+        member.end->angle += on_grid_ ? 0.0 : random_.whole(0, 1) * random_.between(-4.0, 4.0);
+    }
+}
+
+History::Motions History::motions_of(std::span<const Member* const> members,
+                                     std::span<const InstanceHandle> handles) {
+    Motions motions;
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        if (members[i]->end) {
+            motions.moving.push_back(handles[i]);
+            motions.ends.push_back(*members[i]->end);
+        }
+    }
+    return motions;
+}
+
 /// Asks one thing, so that some of what is kept is made and the rest is not.
 void History::glance() {
     log_ += 'q';
@@ -213,6 +242,8 @@ void History::step() {
         deform();
     } else if (what < 64) {
         replace();
+    } else if (what < 68) {
+        set_end();
     } else if (what < 80) {
         remove();
     } else if (what < 82) {
@@ -255,9 +286,11 @@ std::string History::compare() {
     const Questions questions = any_questions(random_, box, 6);
     // Named by their position among those whose shape is there.
     std::vector<const Member*> present;
+    std::vector<InstanceHandle> present_handles;
     for (const Member& member : members_) {
         if (shapes_[member.shape].is_present) {
             present.push_back(&member);
+            present_handles.push_back(member.handle);
         }
     }
     Context context = make_context({});
@@ -292,6 +325,11 @@ std::string History::compare() {
     });
     kept.ask(*world_, asked_shape_, questions);
     fresh.ask(world, asked, questions);
+    const Motions kept_motions = motions_of(present, present_handles);
+    const Motions fresh_motions = motions_of(present, handles);
+    kept.ask_impacts(*world_, *impacts_, kept_motions.moving, kept_motions.ends);
+    PairTable impacts(impacts_->query(), impacts_->selection());
+    fresh.ask_impacts(world, impacts, fresh_motions.moving, fresh_motions.ends);
     require(kept.status(), "a query of the world");
     require(fresh.status(), "a query of the new world");
     return failure_.empty() ? kept.difference_from(fresh) : failure_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ private:
         InstanceHandle handle;
         std::size_t shape;
         WorldInstance instance;
+        std::optional<Pose> end = {};  ///< where it moves to while times of impact are asked for
+    };
+    /// The members that move, and where to, in the spans of an update.
+    struct Motions {
+        std::vector<InstanceHandle> moving;
+        std::vector<Pose> ends;
     };
 
     [[nodiscard]] Rings any_rings();
@@ -49,6 +56,10 @@ private:
     void remove();
     void remove_shape();
     void set_filter();
+    void set_end();
+    /// `handles[i]`: the handle of members[i].
+    [[nodiscard]] static Motions motions_of(std::span<const Member* const> members,
+                                            std::span<const InstanceHandle> handles);
     void glance();
     void check_members();
     void require(const Status& status, const char* call);
@@ -58,6 +69,7 @@ private:
     std::optional<World> world_;
     std::vector<KnownShape> shapes_;
     std::vector<Member> members_;  // in the order of adding
+    std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     Rings asked_;
     ShapeHandle asked_shape_;
     bool on_grid_;

@@ -129,6 +129,18 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             return c.scene.world().find_clearances({c.item}, c.questions.poses, out);
         },
         [](Changed& c) {
+            std::vector<Clearance> out(2 * c.questions.poses.size());
+            return c.scene.world().find_nearest({c.item, {}, 2}, c.questions.poses, out);
+        },
+        [](Changed& c) {
+            TimeOfImpactQuery query;
+            query.tolerance = 1e-3;
+            PairTable out(query);
+            const InstanceHandle moving[] = {c.scene.handle(0)};
+            const Pose ends[] = {{{3.0, 3.0}, 1.0}};
+            return c.scene.world().update(out, moving, ends);
+        },
+        [](Changed& c) {
             std::vector<NearestHit> out(2 * c.questions.points.size());
             NearestQuery query;
             query.count = 2;
@@ -250,6 +262,10 @@ public:
         nearest_.resize(3 * questions_.points.size());
         hits_.resize(questions_.segments.size());
         casts_.resize(questions_.sweeps.size());
+        nearest_of_item_.resize(3 * questions_.poses.size());
+        TimeOfImpactQuery impact;
+        impact.tolerance = 1e-3;
+        impacts_.emplace(impact);
     }
 
     void run(bool odd) {
@@ -263,6 +279,11 @@ public:
         const auto guest = world.add({item_, {{4.0, 4.0}, 0.0}});
         ASSERT_TRUE(guest.has_value());
         ask(world);
+        ends_ = poses_;
+        for (Pose& end : ends_) {
+            end.translation.x += odd ? -0.3 : 0.3;
+        }
+        ASSERT_TRUE(world.update(*impacts_, handles_, ends_).ok());
         ASSERT_TRUE(world.remove(*guest).ok());
     }
 
@@ -279,6 +300,7 @@ private:
         ASSERT_TRUE(world.test_poses({item_}, questions_.poses, intersects_).ok());
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
+        ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
         three.kind = NearestKind::edges;
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.cast_rays(questions_.segments, hits_).ok());
@@ -296,9 +318,12 @@ private:
     Rings narrow_;
     std::vector<InstanceHandle> handles_;
     std::vector<Pose> poses_;
+    std::vector<Pose> ends_;
+    std::optional<PairTable<TimeOfImpactQuery>> impacts_;
     std::vector<std::uint8_t> intersects_;
     std::vector<Clearance> clearances_;
     std::vector<NearestHit> nearest_;
+    std::vector<Clearance> nearest_of_item_;
     std::vector<RayHit> hits_;
     std::vector<ShapeCastHit> casts_;
     RayHits all_;

@@ -68,6 +68,14 @@ void add(Numbers& to, const ClosestPointValues& values) {
     add(to, values.direction);
 }
 void add(Numbers& /*to*/, const IntersectionTestValues& /*none*/) {}
+void add(Numbers& to, const ContainmentValues& values) {
+    to.insert(to.end(), {values.inside ? 1.0 : 0.0, values.clearance, values.unique ? 1.0 : 0.0});
+    add(to, values.point_a);
+    add(to, values.point_b);
+    add(to, values.direction);
+    add(to, values.feature_a);
+    add(to, values.feature_b);
+}
 void add(Numbers& to, const SeparationVectorValues& values) {
     add(to, values.vector);
     to.insert(to.end(), {values.length, values.lower_bound});
@@ -252,6 +260,24 @@ TEST(PairTables, FollowIntersectionTestsAndSeparationVectors) {
     vector.tolerance = 0.1;
     vector.max_work = 20'000;
     follow(vector, 0.0);
+}
+
+TEST(PairTables, FollowContainment) {
+    follow(ContainmentQuery{}, 0.0);
+}
+
+TEST(PairTables, HaveOnlyWhatIsInsideIfHitsAreWanted) {
+    Scene scene({{"bin", rectangle({0, 0}, {10, 10}), {}},
+                 {"inside", rectangle({0, 0}, {1, 1}), {{2.0, 4.0}}},
+                 {"partly", rectangle({0, 0}, {1, 1}), {{9.5, 4.0}}},
+                 {"outside", rectangle({0, 0}, {1, 1}), {{20.0, 4.0}}}});
+    PairTable table(ContainmentQuery{}, {0.0, true});
+    ASSERT_TRUE(scene.world().update(table).ok());
+    EXPECT_EQ(table.candidates(), 4U);
+    ASSERT_EQ(table.rows().size(), 1U);
+    EXPECT_EQ(table.rows()[0].a, scene.handle(1));
+    EXPECT_EQ(table.rows()[0].b, scene.handle(0));
+    EXPECT_EQ(table.rows()[0].clearance, 2.0);
 }
 
 TEST(PairTables, HaveTheRowsOfTheBroadPhaseInOrder) {
