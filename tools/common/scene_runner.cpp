@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -130,6 +132,9 @@ SceneRunner::~SceneRunner() {
 }
 
 double SceneRunner::run_frame(FrameInput input) {
+    if (input == FrameInput::poses) {
+        move_instances();
+    }
     const auto start = std::chrono::steady_clock::now();
     if (input == FrameInput::all) {
         update_shapes();
@@ -160,6 +165,32 @@ void SceneRunner::update_shapes() {
             require(context_.update_shape(shapes_[index], shape.rings, shape.deviation),
                     place_of(shape));
         }
+    }
+}
+
+void SceneRunner::move_instances() {
+    is_moved_ = !is_moved_;
+    const auto pose_of = [this](std::size_t index) {
+        Pose pose = scene_.instances[index].pose;
+        const double towards_zero = pose.translation.x > 0.0
+                                        ? -std::numeric_limits<double>::infinity()
+                                        : std::numeric_limits<double>::infinity();
+        if (is_moved_) {
+            pose.translation.x = std::nextafter(pose.translation.x, towards_zero);
+        }
+        return pose;
+    };
+    const auto move = [&](Selection& selection) {
+        for (std::size_t i = 0; i < selection.sound.size(); ++i) {
+            selection.instances[i].pose = pose_of(selection.sound[i]);
+        }
+    };
+    for (std::size_t index = 0; index < instances_.size(); ++index) {
+        instances_[index].pose = pose_of(index);
+    }
+    move(all_);
+    for (auto& [query, selection] : between_) {
+        move(selection);
     }
 }
 

@@ -25,8 +25,10 @@ void set_technique(Scene& scene, std::optional<Technique> technique);
 
 /// What a frame passes to the library.
 enum class FrameInput {
-    all,    ///< the vertices of all shapes, as if they had deformed, and all poses of pairs
-    poses,  ///< the poses alone; shapes stay as they are
+    all,  ///< the vertices of all shapes, as if they had deformed, and all poses of pairs
+    /// Poses alone, each by its last bit another one than in the frame before; shapes stay as they
+    /// are, as do the instances that queries of all instances ask about.
+    poses,
 };
 
 /// Runs a scene in a context frame by frame.
@@ -102,6 +104,8 @@ private:
     void add_instances();
     [[nodiscard]] Selection select(const GroupPair& groups) const;
     void update_shapes();
+    /// Gives every instance of a pair another pose, next to the scene's own, or that one again.
+    void move_instances();
     void add_queries();
     void add_to(Batch& batch, const Entry& entry) const;
     void add(std::size_t query, std::size_t a, std::size_t b);
@@ -133,6 +137,7 @@ private:
     std::vector<Instance> instances_;
     std::vector<std::string> shape_problems_;     ///< empty for those that can be used
     std::vector<std::string> instance_problems_;  ///< likewise
+    bool is_moved_ = false;                       ///< see move_instances()
     Selection all_;                               ///< all instances that can be used
     std::map<std::size_t, Selection> between_;    ///< by query, for pairs between groups
     std::optional<WorldRunner> worlds_;           ///< if there are queries of all instances
