@@ -27,7 +27,7 @@ TEST_F(WorldQueries, TheSceneOfTheDocumentsIsAnswered) {
     ASSERT_TRUE(json.is_object());
     EXPECT_TRUE(json.at("device").is_null());
     EXPECT_EQ(json.at("technique"), "cpu");
-    EXPECT_EQ(json.at("results").size(), 12U);
+    EXPECT_EQ(json.at("results").size(), 13U);
     for (const Json& result : json.at("results")) {
         EXPECT_EQ(result.at("status"), "ok");
     }

@@ -159,30 +159,25 @@ std::uint32_t WorldRunner::wanted_hits(const Entry& entry) const {
         std::clamp<std::uint64_t>(most, 1, std::max(request.count, 1U)));
 }
 
-/// Asks about some points at a time, so that memory grows with the hits that there are, not with
+/// Asks about some inputs at a time, so that memory grows with the hits that there are, not with
 /// those that were wanted.
-Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& limits) {
+template <class Query, class Input, class Hit>
+Status WorldRunner::write_nearest(World& world, const Query& query, std::span<const Input> inputs,
+                                  const Limits& limits, std::vector<Hit>& scratch,
+                                  NearestLists<Hit>& lists) {
     constexpr std::size_t hits_at_a_time = std::size_t{1} << 18U;
-    const WorldRequest& request = *entry.answer.request;
-    NearestQuery query;
-    query.count = wanted_hits(entry);
-    query.kind = request.kind;
-    query.max_distance = request.max_distance;
-    query.filter = entry.filter;
-    auto& lists = become<NearestLists>(entry.answer.records);
     lists.offsets.assign(1, 0);
     lists.hits.clear();
-    const std::span<const Vector2> points(request.points);
     const std::size_t part = std::max<std::size_t>(hits_at_a_time / query.count, 1);
-    for (std::size_t first = 0; first < points.size(); first += part) {
-        const auto asked = points.subspan(first, std::min(part, points.size() - first));
-        nearest_.resize(asked.size() * query.count);
-        if (Status status = world.find_nearest(query, asked, nearest_, limits); !status.ok()) {
+    for (std::size_t first = 0; first < inputs.size(); first += part) {
+        const auto asked = inputs.subspan(first, std::min(part, inputs.size() - first));
+        scratch.resize(asked.size() * query.count);
+        if (Status status = world.find_nearest(query, asked, scratch, limits); !status.ok()) {
             return status;
         }
-        for (std::size_t i = 0; i < nearest_.size(); ++i) {
-            if (!(nearest_[i].instance == InstanceHandle{})) {
-                lists.hits.push_back(nearest_[i]);
+        for (std::size_t i = 0; i < scratch.size(); ++i) {
+            if (!(scratch[i].instance == InstanceHandle{})) {
+                lists.hits.push_back(scratch[i]);
             }
             if ((i + 1) % query.count == 0) {
                 lists.offsets.push_back(static_cast<std::uint32_t>(lists.hits.size()));
@@ -190,6 +185,20 @@ Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& lim
         }
     }
     return {};
+}
+
+Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& limits) {
+    const WorldRequest& request = *entry.answer.request;
+    if (request.shape) {
+        const ShapeNearestQuery query{shape_of(entry), entry.filter, wanted_hits(entry),
+                                      request.max_distance};
+        return write_nearest(world, query, std::span<const Pose>(request.poses), limits,
+                             nearest_of_shape_,
+                             become<NearestLists<Clearance>>(entry.answer.records));
+    }
+    const NearestQuery query{wanted_hits(entry), request.kind, request.max_distance, entry.filter};
+    return write_nearest(world, query, std::span<const Vector2>(request.points), limits, nearest_,
+                         become<NearestLists<NearestHit>>(entry.answer.records));
 }
 
 Status WorldRunner::answer_rays(World& world, Entry& entry, const Limits& limits) const {

@@ -53,6 +53,12 @@ private:
     [[nodiscard]] Status answer_rays(World& world, Entry& entry, const Limits& limits) const;
     [[nodiscard]] Status answer_cast(World& world, Entry& entry, const Limits& limits) const;
     [[nodiscard]] Status answer_overlap(World& world, Entry& entry, const Limits& limits) const;
+    /// Finds those of points, or of a shape at poses. `scratch`: of some of them at a time, with
+    /// what was not found.
+    template <class Query, class Input, class Hit>
+    [[nodiscard]] static Status write_nearest(World& world, const Query& query,
+                                              std::span<const Input> inputs, const Limits& limits,
+                                              std::vector<Hit>& scratch, NearestLists<Hit>& lists);
     [[nodiscard]] std::uint32_t wanted_hits(const Entry& entry) const;
     [[nodiscard]] ShapeHandle shape_of(const Entry& entry) const;
 
@@ -64,8 +70,9 @@ private:
     /// many groups as a category has bits.
     std::vector<std::vector<std::size_t>> groups_;
     std::vector<GroupedWorld> worlds_;
-    std::vector<Entry> entries_;       ///< by index into Scene::queries
-    std::vector<NearestHit> nearest_;  ///< of some points, with those that were not found
+    std::vector<Entry> entries_;  ///< by index into Scene::queries
+    std::vector<NearestHit> nearest_;
+    std::vector<Clearance> nearest_of_shape_;
 };
 
 }  // namespace nearfield::tools

@@ -14,10 +14,12 @@
 
 namespace nearfield::tools {
 
-/// The hits of many points: those of point i are hits[offsets[i]] to hits[offsets[i + 1] - 1].
+/// The nearest of many points or poses: those of input i are hits[offsets[i]] to
+/// hits[offsets[i + 1] - 1].
+template <class Hit>
 struct NearestLists {
     std::vector<std::uint32_t> offsets;
-    std::vector<NearestHit> hits;
+    std::vector<Hit> hits;
 };
 
 /// What a query of a world found: one record per pose, segment or sweep, or a list of records per
@@ -26,7 +28,8 @@ using WorldRecords = std::variant<std::vector<std::uint8_t>,  // poses: 1 if it 
                                   std::vector<Clearance>,     // poses
                                   std::vector<RayHit>,        // rays: the first hits
                                   std::vector<ShapeCastHit>,  // cast
-                                  NearestLists,               // nearest
+                                  NearestLists<NearestHit>,   // nearest of points
+                                  NearestLists<Clearance>,    // nearest of a shape at poses
                                   RayHits,                    // rays: all hits
                                   InstanceLists>;             // overlap
 

@@ -79,7 +79,8 @@ void write_cells(Row& row, InstanceHandle instance) {
 }
 
 /// The records of an answer with lists.
-[[nodiscard]] inline const std::vector<NearestHit>& records_of(const NearestLists& lists) {
+template <class Hit>
+[[nodiscard]] const std::vector<Hit>& records_of(const NearestLists<Hit>& lists) {
     return lists.hits;
 }
 [[nodiscard]] inline const std::vector<RayHit>& records_of(const RayHits& lists) {

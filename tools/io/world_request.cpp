@@ -87,7 +87,8 @@ private:
                 read_poses_query();
                 break;
             case WorldQueryType::nearest:
-                require_members({"points", "points_file", "count", "kind", "max_distance"});
+                require_members({"points", "points_file", "shape", "poses", "poses_file", "count",
+                                 "kind", "max_distance"});
                 read_nearest_query();
                 break;
             case WorldQueryType::rays:
@@ -131,9 +132,13 @@ private:
     }
 
     void read_nearest_query() {
-        read_points();
+        require_one_table({"points", "poses"}, "either \"points\", or \"shape\" and \"poses\"");
+        read_places();
         request_.kind =
             has_choice("kind", "instances", "edges") ? NearestKind::edges : NearestKind::instances;
+        if (request_.shape && request_.kind == NearestKind::edges) {
+            place_.member("kind").fail("\"edges\" belongs to \"points\"");
+        }
         if (place_.has("count")) {
             request_.count = read_count(place_.member("count"));
         }
@@ -152,13 +157,21 @@ private:
     }
 
     void read_overlap_query() {
-        int kinds = 0;
-        for (const char* const key : {"rectangles", "points", "poses"}) {
-            kinds += has_table(key) ? 1 : 0;
+        require_one_table({"rectangles", "points", "poses"},
+                          "either \"rectangles\", \"points\", or \"shape\" and \"poses\"");
+        read_places();
+    }
+
+    void require_one_table(std::initializer_list<const char*> keys, const std::string& needed) {
+        const auto count = std::count_if(keys.begin(), keys.end(),
+                                         [this](const char* key) { return has_table(key); });
+        if (count != 1) {
+            place_.fail("needs " + needed);
         }
-        if (kinds != 1) {
-            place_.fail("needs either \"rectangles\", \"points\", or \"shape\" and \"poses\"");
-        }
+    }
+
+    /// Reads the one table that there is: of poses of a shape, points or rectangles.
+    void read_places() {
         if (has_table("poses")) {
             read_shape();
             read_poses();

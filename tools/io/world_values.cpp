@@ -173,7 +173,7 @@ void write_all_cells(const WorldAnswer& answer, Row& row, End end) {
 std::string_view input_name(const WorldRequest& request) noexcept {
     switch (request.type) {
         case WorldQueryType::nearest:
-            return "point";
+            return request.shape ? "pose" : "point";
         case WorldQueryType::rays:
             return "segment";
         case WorldQueryType::cast:
