@@ -284,13 +284,14 @@ public:
     Status cast_shape(const ShapeCastQuery& query, std::span<const Sweep> sweeps,
                       std::span<ShapeCastHit> hits, const Limits& limits = {});
 
-    /// For each rectangle, the instances with which it shares a point.
+    /// For each rectangle, the instances with which it shares a point, exact up to the rounding of
+    /// transformed vertices.
     Status find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
                          const WorldFilter& filter = {}, const Limits& limits = {});
     /// For each point, the instances that it lies in; unspecified for points on a boundary.
     Status find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
                          const WorldFilter& filter = {}, const Limits& limits = {});
-    /// For each pose, the instances with which the shape there shares a point.
+    /// For each pose, the instances with which the shape there shares a point; likewise.
     Status find_overlaps(const PoseTestQuery& query, std::span<const Pose> poses,
                          InstanceLists& lists, const Limits& limits = {});
 
