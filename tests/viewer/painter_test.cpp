@@ -98,6 +98,20 @@ TEST_F(Painter, DrawsLinesDotsAndCells) {
     expect_alike(paint(drawing), canvas, "lines");
 }
 
+TEST_F(Painter, PlacesTextByItsStartMiddleOrEnd) {
+    const std::string words = "clearance 0.25";
+    for (const tools::Align align :
+         {tools::Align::left, tools::Align::center, tools::Align::right}) {
+        tools::Drawing drawing;
+        drawing.text({120.0, 100.0}, words, 17.0, ink, align);
+        tools::Canvas canvas(side, side, tools::palette::panel);
+        for (const auto& character : canvas.text_outlines({120.0, 100.0}, words, 17.0, align)) {
+            canvas.fill(character, ink);
+        }
+        expect_alike(paint(drawing), canvas, "text", 30);
+    }
+}
+
 TEST_F(Painter, APageIsPaintedAnewEachTime) {
     tools::Drawing drawing;
     drawing.dot({120.0, 120.0}, 50.0, ink);

@@ -17,6 +17,11 @@ void require(cairo_status_t status) {
     }
 }
 
+/// Continuation bytes of UTF-8 belong to the preceding character.
+bool is_continuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
 }  // namespace
 
 Canvas::Canvas(int width, int height, const Color& background)
@@ -155,11 +160,18 @@ void Canvas::select_font(double size, Weight weight) {
 
 void Canvas::text(Vector2 position, const std::string& text, double size, const Color& color,
                   Align align, Weight weight) {
+    const Vector2 start = start_of_text(position, text, size, align, weight);
+    set(color);
+    cairo_move_to(context_.get(), start.x, start.y);
+    cairo_show_text(context_.get(), text.c_str());
+}
+
+/// Selects the font, too.
+Vector2 Canvas::start_of_text(Vector2 position, const std::string& text, double size, Align align,
+                              Weight weight) {
     const double width = text_width(text, size, weight);
     const double shift = align == Align::left ? 0.0 : align == Align::center ? width / 2.0 : width;
-    set(color);
-    cairo_move_to(context_.get(), position.x - shift, position.y);
-    cairo_show_text(context_.get(), text.c_str());
+    return {position.x - shift, position.y};
 }
 
 double Canvas::text_width(const std::string& text, double size, Weight weight) {
@@ -175,13 +187,56 @@ std::string Canvas::shortened(std::string text, double size, double width, Weigh
     }
     const std::string ellipsis = "\u2026";
     while (!text.empty() && text_width(text + ellipsis, size, weight) > width) {
-        // Continuation bytes of UTF-8 belong to the preceding character.
-        while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
+        while (text.size() > 1 && is_continuation(text.back())) {
             text.pop_back();
         }
         text.pop_back();
     }
     return text + ellipsis;
+}
+
+std::vector<std::vector<Ring>> Canvas::text_outlines(Vector2 position, const std::string& text,
+                                                     double size, Align align, Weight weight) {
+    std::vector<std::vector<Ring>> outlines;
+    Vector2 start = start_of_text(position, text, size, align, weight);
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t first = at++;
+        while (at < text.size() && is_continuation(text[at])) {
+            ++at;
+        }
+        const std::string character = text.substr(first, at - first);
+        const double advance = text_width(character, size, weight);
+        cairo_new_path(context_.get());
+        // At the origin: Cairo leaves out what lies far from the page.
+        cairo_move_to(context_.get(), 0.0, 0.0);
+        cairo_text_path(context_.get(), character.c_str());
+        outlines.push_back(rings_of_path(start));
+        start.x += advance;
+    }
+    return outlines;
+}
+
+/// The closed lines of the current path, moved to an origin; curves become short edges.
+std::vector<Ring> Canvas::rings_of_path(Vector2 origin) {
+    const std::unique_ptr<cairo_path_t, decltype(&cairo_path_destroy)> path(
+        cairo_copy_path_flat(context_.get()), cairo_path_destroy);
+    require(path->status);
+    const std::span data(path->data, static_cast<std::size_t>(path->num_data));
+    std::vector<Ring> rings;
+    for (std::size_t at = 0; at < data.size();) {
+        const auto& header = data[at].header;
+        if (header.type == CAIRO_PATH_MOVE_TO) {
+            rings.emplace_back();
+        }
+        if (header.type != CAIRO_PATH_CLOSE_PATH) {
+            rings.back().push_back(
+                {origin.x + data[at + 1].point.x, origin.y + data[at + 1].point.y});
+        }
+        at += static_cast<std::size_t>(header.length);
+    }
+    // After each closed line Cairo starts another, of one point.
+    std::erase_if(rings, [](const Ring& ring) { return ring.size() < 3; });
+    return rings;
 }
 
 std::vector<std::uint32_t> Canvas::pixels() const {

@@ -56,6 +56,12 @@ public:
     [[nodiscard]] std::string shortened(std::string text, double size, double width,
                                         Weight weight = Weight::normal);
 
+    /// The outlines of the characters of such a line, one by one, for the odd-even rule.
+    [[nodiscard]] std::vector<std::vector<Ring>> text_outlines(Vector2 position,
+                                                               const std::string& text, double size,
+                                                               Align align = Align::left,
+                                                               Weight weight = Weight::normal);
+
     /// The current page, 0xAARRGGBB, row by row.
     [[nodiscard]] std::vector<std::uint32_t> pixels() const;
     /// The current page as a PNG file.
@@ -73,6 +79,9 @@ private:
     void set(const Pen& pen);
     void select_font(double size, Weight weight);
     void trace(std::span<const std::vector<Vector2>> lines, bool closed);
+    [[nodiscard]] Vector2 start_of_text(Vector2 position, const std::string& text, double size,
+                                        Align align, Weight weight);
+    [[nodiscard]] std::vector<Ring> rings_of_path(Vector2 origin);
 
     std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
     std::unique_ptr<cairo_t, DestroyContext> context_;

@@ -16,13 +16,23 @@ struct Lab {
     double b;
 };
 
-// From the boundary to the extreme; both sides have the same lightness at each step.
-constexpr std::array<Lab, 4> inside{{{0.985, -0.002, -0.004},
-                                     {0.865, -0.028, -0.055},
-                                     {0.735, -0.045, -0.090},
-                                     {0.600, -0.045, -0.115}}};
-constexpr std::array<Lab, 4> outside{
+/// The colours of one side of a map, from the boundary to the extreme.
+using Side = std::array<Lab, 4>;
+
+// Both sides have the same lightness at each step.
+constexpr Side inside{{{0.985, -0.002, -0.004},
+                       {0.865, -0.028, -0.055},
+                       {0.735, -0.045, -0.090},
+                       {0.600, -0.045, -0.115}}};
+constexpr Side outside{
     {{0.985, 0.002, 0.006}, {0.905, 0.018, 0.052}, {0.810, 0.040, 0.090}, {0.690, 0.062, 0.108}}};
+// Red to dark red; yellow by way of green to blue.
+constexpr Side overlapping{
+    {{0.680, 0.170, 0.080}, {0.580, 0.190, 0.100}, {0.480, 0.165, 0.085}, {0.380, 0.130, 0.060}}};
+constexpr Side clear{{{0.890, 0.010, 0.165},
+                      {0.810, -0.095, 0.125},
+                      {0.700, -0.100, -0.005},
+                      {0.570, -0.035, -0.125}}};
 
 double to_srgb(double linear) {
     const double clamped = std::clamp(linear, 0.0, 1.0);
@@ -36,6 +46,17 @@ Color to_color(const Lab& lab) {
     return {to_srgb(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
             to_srgb(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
             to_srgb(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+/// The colour at a position from 0, the boundary, to 1, the extreme.
+Color color_along(const Side& side, double position) {
+    const double along = std::min(position, 1.0) * static_cast<double>(side.size() - 1);
+    const std::size_t index = std::min(static_cast<std::size_t>(along), side.size() - 2);
+    const double weight = along - static_cast<double>(index);
+    const Lab& from = side[index];
+    const Lab& to = side[index + 1];
+    return to_color({std::lerp(from.lightness, to.lightness, weight),
+                     std::lerp(from.a, to.a, weight), std::lerp(from.b, to.b, weight)});
 }
 
 }  // namespace
@@ -53,14 +74,11 @@ std::uint32_t pixel_of(const Color& color) {
 }
 
 Color diverging_color(double position) {
-    const std::array<Lab, 4>& side = position < 0.0 ? inside : outside;
-    const double along = std::min(std::abs(position), 1.0) * static_cast<double>(side.size() - 1);
-    const std::size_t index = std::min(static_cast<std::size_t>(along), side.size() - 2);
-    const double weight = along - static_cast<double>(index);
-    const Lab& from = side[index];
-    const Lab& to = side[index + 1];
-    return to_color({std::lerp(from.lightness, to.lightness, weight),
-                     std::lerp(from.a, to.a, weight), std::lerp(from.b, to.b, weight)});
+    return color_along(position < 0.0 ? inside : outside, std::abs(position));
+}
+
+Color clearance_color(double position) {
+    return color_along(position > 0.0 ? clear : overlapping, std::abs(position));
 }
 
 }  // namespace nearfield::tools

@@ -50,4 +50,9 @@ inline constexpr Color highlight = rgb(0xFFD21F);
 /// (the boundary, nearly white) to 1 (farthest outside). Lightness decreases evenly on both sides.
 [[nodiscard]] Color diverging_color(double position);
 
+/// The colour map for clearances: `position` runs from -1 (the greatest depth, dark red) to 0 (in
+/// contact, red), and from just above 0 (yellow) through green to 1 (as clear as the scale goes,
+/// blue).
+[[nodiscard]] Color clearance_color(double position);
+
 }  // namespace nearfield::tools

@@ -37,4 +37,12 @@ void Drawing::cells(ColoredCells cells) {
     items_.emplace_back(std::move(cells));
 }
 
+void Drawing::text(Vector2 position, const std::string& text, double size, const Color& color,
+                   Align align) {
+    Canvas letters(1, 1, color);
+    for (std::vector<Ring>& character : letters.text_outlines(position, text, size, align)) {
+        fill(std::move(character), color);
+    }
+}
+
 }  // namespace nearfield::tools

@@ -2,9 +2,11 @@
 
 #include <nearfield/shape.hpp>
 
+#include <tools/drawing/canvas.hpp>
 #include <tools/drawing/color.hpp>
 
 #include <cstddef>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -50,6 +52,9 @@ public:
     /// Adds a shaft and, if it is long enough, a filled head at `to`.
     void arrow(Vector2 from, Vector2 to, double head, const Color& color, double width);
     void cells(ColoredCells cells);
+    /// Adds a line of text; its baseline starts, is centred or ends at `position`.
+    void text(Vector2 position, const std::string& text, double size, const Color& color,
+              Align align = Align::left);
 
     void clear() { items_.clear(); }
     [[nodiscard]] const std::vector<DrawnItem>& items() const { return items_; }

@@ -1,14 +1,18 @@
 #include <gtest/gtest.h>
+#include <tools/drawing/canvas.hpp>
 #include <tools/drawing/color.hpp>
 #include <tools/drawing/contour.hpp>
 #include <tools/drawing/figure.hpp>
 #include <tools/drawing/furniture.hpp>
 #include <tools/drawing/view.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace nearfield::tools {
 namespace {
@@ -92,6 +96,61 @@ TEST(ToolsColor, BothSidesGrowDarkerFromTheBoundary) {
     }
     EXPECT_GT(diverging_color(-1.0).blue, diverging_color(-1.0).red);
     EXPECT_GT(diverging_color(1.0).red, diverging_color(1.0).blue);
+}
+
+TEST(ToolsColor, OverlapsAreRedAndClearancesTurnFromYellowToBlue) {
+    for (const double position : {-1.5, -1.0, -0.5, -1e-9, 0.0}) {
+        const Color color = clearance_color(position);
+        EXPECT_GT(color.red, color.green + 0.3) << position;
+        EXPECT_GT(color.red, color.blue + 0.3) << position;
+    }
+    EXPECT_GT(clearance_color(0.0).red, clearance_color(-1.0).red + 0.2) << "darker with the depth";
+    const Color touching = clearance_color(1e-9);
+    EXPECT_GT(touching.green, touching.blue + 0.3) << "yellow";
+    const Color clear = clearance_color(1.0);
+    EXPECT_GT(clear.blue, clear.red + 0.3);
+    EXPECT_EQ(pixel_of(clearance_color(7.0)), pixel_of(clear));
+}
+
+TEST(ToolsCanvas, OutlinesOfATextAreWhereTheTextIs) {
+    constexpr int width = 300;
+    constexpr int height = 30;
+    const std::string words = "d = 0.25 \u2212 80,000 %";
+    Canvas written(width, height, rgb(0xFFFFFF));
+    written.text({4.0, 20.0}, words, 17.0, rgb(0x000000));
+    Canvas filled(width, height, rgb(0xFFFFFF));
+    const auto outlines = filled.text_outlines({4.0, 20.0}, words, 17.0);
+    EXPECT_EQ(outlines.size(), words.size() - 2) << "one for each character";
+    for (const std::vector<Ring>& character : outlines) {
+        filled.fill(character, rgb(0x000000));
+    }
+    // Text is hinted: no pixel of one is far from a pixel of the other.
+    const std::vector<std::uint32_t> a = written.pixels();
+    const std::vector<std::uint32_t> b = filled.pixels();
+    const auto darkest_near = [](const std::vector<std::uint32_t>& pixels, int x, int y) {
+        std::uint32_t least = 255;
+        for (int row = std::max(y - 1, 0); row <= std::min(y + 1, height - 1); ++row) {
+            for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1); ++column) {
+                least =
+                    std::min(least, pixels[static_cast<std::size_t>(row * width + column)] & 0xFFU);
+            }
+        }
+        return least;
+    };
+    int dark = 0;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const auto at = static_cast<std::size_t>(y * width + x);
+            dark += (a[at] & 0xFFU) < 64U ? 1 : 0;
+            if ((a[at] & 0xFFU) < 64U) {
+                EXPECT_LT(darkest_near(b, x, y), 192U) << x << ' ' << y;
+            }
+            if ((b[at] & 0xFFU) < 64U) {
+                EXPECT_LT(darkest_near(a, x, y), 192U) << x << ' ' << y;
+            }
+        }
+    }
+    EXPECT_GT(dark, 200);
 }
 
 TEST(ToolsFurniture, ScaleNumbersHaveTheDigitsTheirStepNeeds) {
