@@ -1,0 +1,37 @@
+#pragma once
+
+#include <tools/simulation/clearance_scene.hpp>
+
+namespace nearfield::simulation {
+
+/// Items nested in a strip, one of which is dragged over the others. The strip's edge counts as an
+/// obstacle, the first one. Until the user takes an item, one of them follows a path of its own.
+class Nest final : public ClearanceScene {
+public:
+    /// Nests the items: each at the first place, from the left, where it keeps a gap.
+    explicit Nest(Context& context);
+
+    void grab(Vector2 point) override;
+    void drag(Vector2 point) override;
+    void release() override { held_.reset(); }
+    [[nodiscard]] const std::vector<Ring>& mover() const override {
+        return obstacles_[*moving_obstacle_].rings;
+    }
+
+protected:
+    void move() override;
+    void list_poses(std::vector<Pose>& poses) const override { poses.push_back(pose_); }
+    [[nodiscard]] std::size_t best_path() const override { return 0; }
+
+private:
+    void nest(std::vector<Ring> item);
+    /// Makes an item the one that moves.
+    void take(std::size_t item);
+    /// Moves it.
+    void place(const Pose& pose);
+
+    bool taken_by_user_ = false;
+    std::optional<Vector2> held_;  // from the item's position to the mouse
+};
+
+}  // namespace nearfield::simulation
