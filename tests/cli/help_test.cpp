@@ -127,7 +127,8 @@ TEST_F(Help, NamesCommandsAndTheirOptions) {
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
     expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--keep", "--json"});
-    expect_names({"simulate"}, {"--response", "--frames", "--bodies", "--every", "--video"});
+    expect_names({"simulate"},
+                 {"nest", "robots", "--response", "--frames", "--bodies", "--every", "--video"});
     expect_names({"calibrate"}, {"file"});
     expect_names({"info"}, {"devices"});
     EXPECT_EQ(run_program({"--version"}).out.rfind("nearfield ", 0), 0U);

@@ -1,6 +1,9 @@
 #include "cli_test.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace nearfield::test {
 namespace {
@@ -47,6 +50,84 @@ TEST_F(Simulate, EveryRunIsTheSameButForTimes) {
     }
 }
 
+TEST_F(Simulate, TellsTheClearanceOfAnItemInANest) {
+    const Json json = run({"nest", "--frames", "90"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("scene"), "nest");
+    EXPECT_EQ(json.at("technique"), "cpu");
+    EXPECT_TRUE(json.at("device").is_null());
+    EXPECT_TRUE(json.at("min_clearance").is_null());
+    EXPECT_EQ(json.at("max_clearance"), 1.0);
+    EXPECT_EQ(json.at("objects"), 37);  // the strip's edge is one of them
+    EXPECT_EQ(json.at("paths_a_frame"), 1);
+    EXPECT_EQ(json.at("poses_a_frame"), 1);
+    ASSERT_EQ(json.at("frames").size(), 90U);
+    double least = 1.0;
+    bool is_free = false;
+    for (const Json& frame : json.at("frames")) {
+        const double distance = frame.at("distance").get<double>();
+        least = std::min(least, distance);
+        is_free |= distance > 0.0;
+        EXPECT_EQ(frame.at("free_paths"), distance > 0.0 ? 1 : 0);
+        EXPECT_LE(distance, 1.0);
+        EXPECT_EQ(frame.at("instance").is_null(), distance == 1.0);
+        EXPECT_EQ(frame.at("point").is_null(), frame.at("direction").is_null());
+    }
+    EXPECT_EQ(json.at("least_clearance"), least);
+    EXPECT_LT(least, 0.0);
+    EXPECT_TRUE(is_free);
+}
+
+TEST_F(Simulate, TellsTheClearancesOfThousandsOfPaths) {
+    const Json json = run({"robots", "--frames", "3", "--threads", "2"});
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json.at("lines"), 1450);  // of twelve islands, and the vehicle
+    EXPECT_EQ(json.at("min_clearance"), 0.0);
+    EXPECT_EQ(json.at("paths_a_frame"), 2000);
+    EXPECT_EQ(json.at("poses_a_frame"), 80000);
+    ASSERT_EQ(json.at("frames").size(), 3U);
+    for (const Json& frame : json.at("frames")) {
+        EXPECT_GT(frame.at("query_ms").get<double>(), 0.0);
+        EXPECT_GT(frame.at("distance").get<double>(), 0.0);
+        EXPECT_GT(frame.at("free_paths").get<int>(), 0);
+        EXPECT_LT(frame.at("free_paths").get<int>(), 2000);
+    }
+}
+
+TEST_F(Simulate, DrawsScenesOfClearances) {
+    for (const std::string scene : {"nest", "robots"}) {
+        const Outcome outcome = run_program({"simulate", scene, "--frames", "2", "--every", "2",
+                                             "--image", folder_.path(scene + "_%d.png")});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("paths free"), std::string::npos) << outcome.out;
+        const auto files = folder_.contents();
+        ASSERT_TRUE(files.contains(scene + "_2.png"));
+        EXPECT_FALSE(files.contains(scene + "_1.png"));
+        EXPECT_NE(files.at(scene + "_0.png"), files.at(scene + "_2.png"));
+    }
+}
+
+TEST_F(Simulate, RefusesWhatDoesNotApplyToClearances) {
+    for (const std::string scene : {"nest", "robots"}) {
+        const Arguments simulate{"simulate", scene, "--frames", "1"};
+        for (const auto& [option, value] :
+             std::vector<std::pair<std::string, std::string>>{{"--response", "penalty"},
+                                                              {"--bodies", "5"},
+                                                              {"--tolerance", "0.1"},
+                                                              {"--boxes", "oriented"},
+                                                              {"--height", "3"},
+                                                              {"--costs", "costs.json"},
+                                                              {"--memory-limit", "64"},
+                                                              {"--technique", "raster"}}) {
+            expect_refused(simulate + Arguments{option, value},
+                           {option, "does not apply to " + scene});
+        }
+        expect_refused(simulate + Arguments{"--field"}, {"--field", "does not apply to " + scene});
+        expect_refused(simulate + Arguments{"--image", folder_.path("no/such/%d.png")},
+                       {"no/such/0.png", "cannot be written"});
+    }
+}
+
 TEST_F(Simulate, DrawsTheFramesThatAreAskedFor) {
     const Outcome outcome = run_program({"simulate", "wavy", "--frames", "5", "--every", "2",
                                          "--field", "--image", folder_.path("wavy_%03d.png")});
@@ -71,7 +152,8 @@ TEST_F(Simulate, APatternWithoutANumberKeepsTheLastFrame) {
 
 TEST_F(Simulate, RefusesWhatItCannotDoBeforeItStarts) {
     const Arguments simulate{"simulate"};
-    expect_refused(simulate + Arguments{"planets"}, {"planets", "map, gears, links, cars, wavy"});
+    expect_refused(simulate + Arguments{"planets"},
+                   {"planets", "map, gears, links, cars, wavy", "nest, robots"});
     expect_refused(simulate, {"scene"});
     expect_refused(simulate + Arguments{"map", "--frames", "0"}, {"--frames"});
     expect_refused(simulate + Arguments{"map", "--frames", "-3"}, {"--frames"});

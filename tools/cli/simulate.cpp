@@ -1,30 +1,27 @@
 #include <nearfield/context.hpp>
 
+#include <tools/cli/frame_output.hpp>
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/simulate.hpp>
+#include <tools/cli/simulate_clearances.hpp>
 #include <tools/cli/simulation_report.hpp>
 #include <tools/common/interruptible.hpp>
 #include <tools/common/library_error.hpp>
 #include <tools/common/parsed_option.hpp>
 #include <tools/common/scene_runner.hpp>
-#include <tools/io/frame_files.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/report_target.hpp>
-#include <tools/io/video_file.hpp>
-#include <tools/rendering/page.hpp>
 #include <tools/rendering/scene_picture.hpp>
 #include <tools/simulation/simulation_choice.hpp>
 #include <tools/simulation/world.hpp>
-#include <unistd.h>
 
-#include <cmath>
-#include <iostream>
+#include <stdexcept>
 #include <utility>
 
 namespace nearfield::tools {
 namespace {
 
-constexpr double frame_width = 960.0;
+constexpr const char* default_response = "penalty";
 
 simulation::World make_world(Context& context, const SimulateArguments& arguments,
                              simulation::Scene scene, simulation::Response response,
@@ -36,80 +33,25 @@ simulation::World make_world(Context& context, const SimulateArguments& argument
     }
 }
 
-/// The destinations of the requested frames.
-struct Outputs {
-    std::optional<FrameFiles> files;
-    std::optional<VideoFile> video;
-
-    Outputs(const SimulateArguments& arguments, const simulation::Scene& scene, const View& view) {
-        if (arguments.image) {
-            files.emplace(*arguments.image);
-        }
-        if (arguments.video) {
-            video.emplace(*arguments.video, static_cast<std::uint32_t>(view.page().max.x),
-                          static_cast<std::uint32_t>(view.page().max.y),
-                          static_cast<std::uint32_t>(std::round(1.0 / scene.frame_time)));
-        }
+void draw_frame(Drawing& drawing, const SimulateArguments& arguments, Context& context,
+                simulation::World& world, const View& view) {
+    if (arguments.field) {
+        drawing.cells(field_overlay(context, world, view, FieldLayer::distance));
     }
-};
-
-/// The device that draws the pictures; nearfield shares it.
-struct DrawingDevice {
-    GpuInstance instance;
-    Gpu gpu{instance};
-};
-
-/// Draws frames.
-class Pictures {
-public:
-    Pictures(const SimulateArguments& arguments, Outputs& outputs, const View& view,
-             const std::optional<DrawingDevice>& device)
-        : arguments_(arguments), outputs_(outputs), view_(view) {
-        if (device) {
-            page_.emplace(device->gpu, static_cast<std::uint32_t>(view.page().max.x),
-                          static_cast<std::uint32_t>(view.page().max.y));
-        }
+    draw_bodies(drawing, world.scene(), view);
+    // With more bodies than this, marks would hide them all.
+    constexpr std::size_t max_bodies_with_marks = 100;
+    if (world.scene().bodies.size() <= max_bodies_with_marks) {
+        draw_observations(drawing, observe(world), view);
     }
-
-    void add(std::uint32_t frame, Context& context, simulation::World& world) {
-        const bool in_a_file =
-            outputs_.files && (frame % arguments_.every == 0 || frame == arguments_.frames);
-        if (!in_a_file && !outputs_.video) {
-            return;
-        }
-        drawing_.clear();
-        if (arguments_.field) {
-            drawing_.cells(field_overlay(context, world, view_, FieldLayer::distance));
-        }
-        draw_bodies(drawing_, world.scene(), view_);
-        // With more bodies than this, marks would hide them all.
-        constexpr std::size_t max_bodies_with_marks = 100;
-        if (world.scene().bodies.size() <= max_bodies_with_marks) {
-            draw_observations(drawing_, observe(world), view_);
-        }
-        const FrameImage image = page_->paint(drawing_);
-        if (in_a_file) {
-            outputs_.files->write(frame, png_of(image));
-        }
-        if (outputs_.video) {
-            outputs_.video->add(image.pixels);
-        }
-    }
-
-private:
-    const SimulateArguments& arguments_;
-    Outputs& outputs_;
-    const View& view_;
-    Drawing drawing_;
-    std::optional<OffscreenPage> page_;  // empty if there is no output
-};
+}
 
 SimulationReport report_of(const simulation::World& world, const SimulateArguments& arguments,
                            const Context& context, Technique technique) {
     const simulation::Scene& scene = world.scene();
     SimulationReport report;
     report.scene = scene.name;
-    report.response = arguments.response;
+    report.response = arguments.response.value_or(default_response);
     report.technique = to_string(technique);
     report.device = context.device_name();
     report.tolerance = scene.tolerance;
@@ -122,18 +64,20 @@ SimulationReport report_of(const simulation::World& world, const SimulateArgumen
 }  // namespace
 
 CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) {
-    CLI::App* command = program.add_subcommand(
-        "simulate", "Run one of the paper's simulations, or another of their kind");
+    CLI::App* command =
+        program.add_subcommand("simulate", "Run one of the paper's simulations, or another scene");
     command
         ->add_option("scene", arguments.scene,
                      "map, gears, links, cars or wavy, as in the paper; overlap: the bars of wavy, "
-                     "far inside each other; pour: 1,000 stars; required")
+                     "far inside each other; pour: 1,000 stars; nest: an item dragged over others "
+                     "in a strip; robots: paths between islands; required")
         ->required()
         ->type_name("NAME");
     command
         ->add_option("--response", arguments.response,
                      "penalty (forces at points inside the other body) or backtracking (to just "
-                     "before a contact, and impulses there); default penalty")
+                     "before a contact, and impulses there); default penalty; not of nest and "
+                     "robots")
         ->type_name("NAME");
     add_count_option(*command, "--frames", arguments.frames, {1, 10'000'000},
                      "How many frames; default 300")
@@ -165,64 +109,53 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
                      "Draw all frames into a video, by the program ffmpeg; default none")
         ->type_name("FILE");
     command->add_flag("--field", arguments.field,
-                      "Draw the distance to the nearest body behind them");
+                      "Draw the distance to the nearest body behind them; not of nest and robots");
     command
         ->add_option("--json", arguments.json,
-                     "Write energies, query times and the worst penetration of each frame as JSON; "
-                     "- for the standard output, the summary then goes to the standard error; "
-                     "default none")
+                     "Write energies, query times and the worst penetration of each frame as JSON, "
+                     "of nest and robots the clearances; - for the standard output, the summary "
+                     "then goes to the standard error; default none")
         ->type_name("FILE|-");
     return command;
 }
 
 int run_simulate(const SimulateArguments& arguments) {
+    if (const auto* const clearances = find_clearance_scene(arguments.scene)) {
+        return run_clearances(arguments, *clearances);
+    }
     simulation::Scene scene = make_scene(arguments.scene, arguments.tolerance, arguments.bodies);
-    const simulation::Response response = parse_response(arguments.response);
+    const simulation::Response response =
+        parse_response(arguments.response.value_or(default_response));
     const Technique technique =
         parse_technique_option(arguments.technique).value_or(Technique::automatic);
     const Settings settings = parse_settings(arguments.settings);
-    const View view = view_of(scene, frame_width);
+    const View view = view_of(scene.view, frame_width);
     catch_ctrl_c();
     ReportTarget target(arguments.json);
-    Outputs outputs(arguments, scene, view);
-    std::optional<DrawingDevice> device;
-    if (arguments.image || arguments.video) {
-        device.emplace();
-    }
+    FrameOutput output(arguments, view, scene.frame_time);
     AskedTechniques asked;
     asked.add(technique);
-    Context context = device && technique != Technique::cpu
-                          ? take(Context::create(device->gpu.host_device(), settings))
+    Context context = output.gpu() != nullptr && technique != Technique::cpu
+                          ? take(Context::create(output.gpu()->host_device(), settings))
                           : open_context(settings, asked);
     simulation::World world = make_world(context, arguments, std::move(scene), response, technique);
 
     SimulationReport report = report_of(world, arguments, context, technique);
-    Pictures pictures(arguments, outputs, view, device);
-    const bool show_progress = isatty(STDERR_FILENO) == 1;
-    pictures.add(0, context, world);
-    for (std::uint32_t frame = 1; frame <= arguments.frames; ++frame) {
-        if (show_progress) {
-            std::cerr << "\rframe " << frame << " of " << arguments.frames << std::flush;
-        }
+    const auto draw = [&](Drawing& drawing) {
+        draw_frame(drawing, arguments, context, world, view);
+    };
+    output.add(0, draw);
+    const int status = run_frames(arguments.frames, [&](std::uint32_t frame) {
         report.frames.push_back(world.advance());
-        pictures.add(frame, context, world);
-        if (was_ctrl_c_pressed()) {
-            break;
-        }
-    }
-    const bool is_stopped = was_ctrl_c_pressed();
-    if (show_progress) {
-        std::cerr << '\n';
-    }
-    if (outputs.video) {
-        outputs.video->finish();
-    }
+        output.add(frame, draw);
+    });
+    output.finish();
     if (std::ostream* json = target.json()) {
         write_simulation_json(*json, report);
     }
     write_simulation_summary(target.summary(), report);
     target.commit();
-    return is_stopped ? exit_status::stopped : exit_status::done;
+    return status;
 }
 
 }  // namespace nearfield::tools

@@ -9,10 +9,13 @@
 
 namespace nearfield::tools {
 
+/// The width of pictures and videos, pixels.
+inline constexpr double frame_width = 960.0;
+
 /// The arguments of `nearfield simulate`.
 struct SimulateArguments {
     std::string scene;
-    std::string response = "penalty";
+    std::optional<std::string> response;
     std::uint32_t frames = 300;
     std::optional<std::uint32_t> bodies;
     std::optional<std::string> tolerance;

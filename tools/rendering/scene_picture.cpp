@@ -14,21 +14,9 @@ using simulation::operator*;
 constexpr Color penetrating_color = rgb(0xC2185B);
 constexpr Color contact_color = rgb(0x1B2430);
 
-std::vector<Ring> on_page(const simulation::Body& body, const View& view) {
-    std::vector<Ring> rings;
-    const Pose pose = body.pose();
-    for (const Ring& ring : body.rings()) {
-        Ring& placed = rings.emplace_back();
-        for (const Vector2& vertex : ring) {
-            placed.push_back(view.to_page(simulation::placed(pose, vertex)));
-        }
-    }
-    return rings;
-}
-
 void draw_plate(Drawing& drawing, const simulation::Body& body, const simulation::Look& look,
                 const View& view) {
-    const std::vector<Ring> rings = on_page(body, view);
+    const std::vector<Ring> rings = on_page(body.rings(), body.pose(), view);
     drawing.fill(rings, hue_color(look.hue, 0.1, 0.82).with_alpha(0.85));
     for (const Ring& ring : rings) {
         drawing.line(ring, hue_color(look.hue, 0.11, 0.42), 1.4, true);
@@ -50,6 +38,17 @@ std::vector<const Record*> thinned_out(const std::vector<Record>& records, const
 }
 
 }  // namespace
+
+std::vector<Ring> on_page(const std::vector<Ring>& rings, const Pose& pose, const View& view) {
+    std::vector<Ring> placed;
+    for (const Ring& ring : rings) {
+        Ring& copy = placed.emplace_back();
+        for (const Vector2& vertex : ring) {
+            copy.push_back(view.to_page(simulation::placed(pose, vertex)));
+        }
+    }
+    return placed;
+}
 
 Observations observe(simulation::World& world) {
     Observations observations;

@@ -29,6 +29,10 @@ enum class FieldLayer {
 [[nodiscard]] ColoredCells field_overlay(Context& context, simulation::World& world,
                                          const View& view, FieldLayer layer);
 
+/// The outlines of a shape at a pose, in pixels of the page.
+[[nodiscard]] std::vector<Ring> on_page(const std::vector<Ring>& rings, const Pose& pose,
+                                        const View& view);
+
 /// Adds the bodies, as flat plates or, if they have a height, as solids seen from above at a slant.
 void draw_bodies(Drawing& drawing, const simulation::Scene& scene, const View& view);
 

@@ -3,6 +3,7 @@
 #include <nearfield/context.hpp>
 
 #include <tools/drawing/view.hpp>
+#include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/world.hpp>
 
 #include <cstdint>
@@ -17,10 +18,13 @@ namespace nearfield::tools {
                                            const std::optional<std::string>& tolerance,
                                            std::optional<std::uint32_t> bodies = std::nullopt);
 
+/// The scene of clearances with this name; null if it is another scene's.
+[[nodiscard]] const simulation::NamedClearanceScene* find_clearance_scene(const std::string& name);
+
 /// Parses the option --response. Throws InputError.
 [[nodiscard]] simulation::Response parse_response(const std::string& name);
 
-/// The view of a scene on a page of this width in pixels; the height follows.
-[[nodiscard]] View view_of(const simulation::Scene& scene, double page_width);
+/// The view of a part of the world on a page of this width in pixels; the height follows.
+[[nodiscard]] View view_of(const Rectangle& world, double page_width);
 
 }  // namespace nearfield::tools

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <tools/cli/simulate.hpp>
+#include <tools/simulation/clearance_scene.hpp>
+
+namespace nearfield::tools {
+
+/// Runs a scene of clearances as run_simulate() does.
+[[nodiscard]] int run_clearances(const SimulateArguments& arguments,
+                                 const simulation::NamedClearanceScene& scene);
+
+}  // namespace nearfield::tools
