@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <tests/hosts/example_program.hpp>
 #include <tests/hosts/picture_file.hpp>
+#include <tools/common/library_error.hpp>
 #include <tools/drawing/view.hpp>
+#include <tools/simulation/nest.hpp>
 #include <tools/simulation/plane.hpp>
 #include <tools/simulation/scenes.hpp>
 
@@ -50,10 +52,9 @@ protected:
         return count;
     }
 
-    [[nodiscard]] static const examples::Color& pixel(const Pixels& picture,
-                                                      const simulation::Scene& scene,
+    [[nodiscard]] static const examples::Color& pixel(const Pixels& picture, const Rectangle& world,
                                                       const Vector2& place) {
-        const tools::View view(scene.view, {{double{panel}, 0.0}, {double{width}, double{height}}});
+        const tools::View view(world, {{double{panel}, 0.0}, {double{width}, double{height}}});
         const Vector2 at = view.to_page(place);
         return picture.at(static_cast<int>(at.x), static_cast<int>(at.y));
     }
@@ -72,13 +73,13 @@ TEST_F(Viewer, ABodyFollowsTheMouse) {
     dragging.push_back("--drag=" + to_words(from, to));
     const Pixels dragged = take_picture(dragging);
 
-    const examples::Color of_body = pixel(before, scene, from);
-    const examples::Color background = pixel(before, scene, to);
+    const examples::Color of_body = pixel(before, scene.view, from);
+    const examples::Color background = pixel(before, scene.view, to);
     ASSERT_NE(of_body, background);
     // Beside the mark of the drag, which is drawn over the body.
     const Vector2 beside{to.x - 0.15, to.y - 0.1};
-    EXPECT_EQ(pixel(alone, scene, beside), background);
-    EXPECT_EQ(pixel(dragged, scene, beside), of_body);
+    EXPECT_EQ(pixel(alone, scene.view, beside), background);
+    EXPECT_EQ(pixel(dragged, scene.view, beside), of_body);
     EXPECT_GT(differences(alone, dragged), 10'000);
 }
 
@@ -102,6 +103,30 @@ TEST_F(Viewer, ADeformableBodyIsPulledOut) {
     dragging.push_back("--drag=" + to_words(from, to));
     const Pixels dragged = take_picture(dragging);
     EXPECT_GT(differences(alone, dragged), 2'000);
+}
+
+TEST_F(Viewer, AnItemOfTheNestFollowsTheMouseAndChangesItsColour) {
+    Context context = tools::take(Context::create_cpu());
+    const simulation::Nest nest(context);
+    // The last item, a star about its position.
+    const Vector2 from = nest.obstacles().back().pose.translation;
+    const auto color_at = [&](const Vector2& to) {
+        // Off the middle, which the mark of the deepest vertex may cover.
+        return pixel(take_picture({"nest", "--frames=4", "--drag=" + to_words(from, to)}),
+                     nest.view(), {to.x - 0.12, to.y - 0.12});
+    };
+    // Onto another item; and out of the strip, away from everything.
+    const examples::Color overlapping = color_at(nest.obstacles()[1].pose.translation);
+    const examples::Color clear = color_at({from.x, -1.5});
+    EXPECT_GT(overlapping[0], overlapping[2] + 80) << "red";
+    EXPECT_GT(clear[2], clear[0] + 40) << "green to blue";
+}
+
+TEST_F(Viewer, TheGoalOfTheRobotsCanBeDragged) {
+    const Pixels alone = take_picture({"robots", "--frames=2"});
+    const Pixels dragged =
+        take_picture({"robots", "--frames=2", "--drag=" + to_words({22.5, 11.5}, {1.5, 6.0})});
+    EXPECT_GT(differences(alone, dragged), 1'000);
 }
 
 TEST_F(Viewer, EachOverlayChangesThePicture) {
@@ -155,6 +180,7 @@ TEST(ViewerErrors, TheArgumentsAreBad) {
     expect_viewer_refused({"--field=magic"}, {}, 2, "\"magic\" is none of none, distance");
     expect_viewer_refused({"--show=magic"}, {}, 2, "\"magic\" is none of contacts");
     expect_viewer_refused({"-d", "0"}, {}, 2, "-d");
+    expect_viewer_refused({"nest", "-d", "0.1"}, {}, 2, "-d: does not apply to nest");
     expect_viewer_refused({"--frames=0"}, {}, 2, "--frames");
     expect_viewer_refused({"--drag=0,0,1,1"}, {}, 2, "--frames");
     expect_viewer_refused({"--frames=1", "--drag=0,0"}, {}, 2, "not X0,Y0,X1,Y1");

@@ -38,7 +38,7 @@ struct Arguments {
 
 void add_options(CLI::App& program, Arguments& arguments) {
     program.add_option("scene", arguments.scene,
-                       "map, gears, links, cars, wavy, overlap or pour; default map");
+                       "map, gears, links, cars, wavy, overlap, pour, nest or robots; default map");
     program.add_option("--response", arguments.response, "penalty or backtracking");
     program.add_option("--technique", arguments.technique,
                        "raster, compute, cpu or automatic; default automatic");
@@ -115,8 +115,15 @@ viewer::Wishes parse_wishes(const Arguments& arguments) {
     viewer::Wishes wishes;
     wishes.choices.scene = arguments.scene;
     // Rejects an invalid scene or tolerance before a window opens.
-    const simulation::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
-    wishes.choices.tolerance = arguments.tolerance ? scene.tolerance : 0.0;
+    if (tools::find_clearance_scene(arguments.scene) != nullptr) {
+        if (arguments.tolerance) {
+            throw tools::InputError("-d: does not apply to " + arguments.scene +
+                                    ", whose clearances are exact");
+        }
+    } else {
+        const simulation::Scene scene = tools::make_scene(arguments.scene, arguments.tolerance);
+        wishes.choices.tolerance = arguments.tolerance ? scene.tolerance : 0.0;
+    }
     wishes.choices.response = tools::parse_response(arguments.response);
     wishes.choices.technique =
         tools::parse_technique_option(arguments.technique).value_or(Technique::automatic);

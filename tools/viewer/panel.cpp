@@ -52,18 +52,22 @@ void choose(const char* label, Value& value, std::span<const Named<Value>> from)
 }
 
 void choose_scene(Choices& choices) {
-    if (ImGui::BeginCombo("scene", choices.scene.c_str())) {
-        for (const simulation::NamedScene& each : simulation::all_scenes()) {
+    const auto offer = [&choices](const auto& scenes) {
+        for (const auto& each : scenes) {
             if (ImGui::Selectable(each.name, choices.scene == each.name)) {
                 choices.scene = each.name;
                 choices.tolerance = 0.0;
             }
         }
+    };
+    if (ImGui::BeginCombo("scene", choices.scene.c_str())) {
+        offer(simulation::all_scenes());
+        offer(simulation::clearance_scenes());
         ImGui::EndCombo();
     }
 }
 
-void add_controls(Wishes& wishes, const Reading& reading) {
+void add_run_controls(Wishes& wishes) {
     if (ImGui::Button(wishes.running ? "Pause" : "Run")) {
         wishes.running = !wishes.running;
     }
@@ -76,9 +80,11 @@ void add_controls(Wishes& wishes, const Reading& reading) {
     if (ImGui::Button("Restart")) {
         wishes.restart = true;
     }
-    ImGui::TextDisabled("keys space, n, r; the mouse drags bodies");
-    Choices& choices = wishes.choices;
-    choose_scene(choices);
+    ImGui::TextDisabled("keys space, n, r; the mouse drags");
+    choose_scene(wishes.choices);
+}
+
+void add_choices(Choices& choices, const Reading& reading) {
     choose<simulation::Response>("response", choices.response, responses);
     static const auto techniques =
         named({Technique::automatic, Technique::raster, Technique::compute, Technique::cpu});
@@ -150,6 +156,22 @@ void add_frame(const Reading& reading) {
     }
 }
 
+void add_clearances(const Reading& reading, const simulation::ClearanceFrame& frame) {
+    ImGui::Separator();
+    if (begin_numbers("clearances")) {
+        add_row("objects", double(reading.objects), "%.0f");
+        add_row("lines", double(reading.lines), "%.0f");
+        add_row("time, s", reading.time, "%.3f");
+        add_row("clearance (below 0: depth)", frame.clearance.distance, "%.4f");
+        add_row("paths", double(frame.paths), "%.0f");
+        add_row("of these free", double(frame.free_paths), "%.0f");
+        add_row("poses in one call", double(frame.poses), "%.0f");
+        add_row("its time, ms", frame.milliseconds, "%.3f");
+        ImGui::EndTable();
+    }
+    ImGui::TextDisabled("The CPU answers, exactly.");
+}
+
 void add_times(const Timings& timings) {
     ImGui::Separator();
     ImGui::TextUnformatted("The overlays' queries, one batch, ms");
@@ -219,6 +241,19 @@ void add_notice(const std::string& notice) {
     }
 }
 
+/// What there is to choose and to read for a scene of bodies.
+void add_bodies(Wishes& wishes, const Reading& reading) {
+    add_choices(wishes.choices, reading);
+    add_overlays(wishes.overlays);
+    add_notice(reading.notice);
+    add_notice(reading.findings.refusal);
+    if (wishes.overlays.tiles) {
+        add_atlas(reading.findings.tiles);
+    }
+    add_frame(reading);
+    add_times(reading.findings.timings);
+}
+
 }  // namespace
 
 void add_panel(Wishes& wishes, const Reading& reading, float height) {
@@ -228,15 +263,13 @@ void add_panel(Wishes& wishes, const Reading& reading, float height) {
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PushItemWidth(170.0F);
-    add_controls(wishes, reading);
-    add_overlays(wishes.overlays);
-    add_notice(reading.notice);
-    add_notice(reading.findings.refusal);
-    if (wishes.overlays.tiles) {
-        add_atlas(reading.findings.tiles);
+    add_run_controls(wishes);
+    if (reading.clearances) {
+        add_notice(reading.notice);
+        add_clearances(reading, *reading.clearances);
+    } else {
+        add_bodies(wishes, reading);
     }
-    add_frame(reading);
-    add_times(reading.findings.timings);
     ImGui::PopItemWidth();
     ImGui::End();
 }

@@ -3,6 +3,7 @@
 #include <tools/viewer/findings.hpp>
 #include <tools/viewer/simulation.hpp>
 
+#include <optional>
 #include <string>
 
 namespace nearfield::viewer {
@@ -25,6 +26,7 @@ struct Reading {
     std::size_t lines = 0;
     simulation::FrameReport frame;  ///< the last report
     Findings findings;
+    std::optional<simulation::ClearanceFrame> clearances;  ///< of a scene of clearances
     std::string notice;  ///< why something did not happen; otherwise empty
 };
 

@@ -38,8 +38,46 @@ void Simulation::begin(simulation::Scene scene, double time) {
     world_.emplace(*context_, std::move(scene), choices_.response, choices_.technique);
 }
 
+const Rectangle& Simulation::view() const {
+    return clearances_ ? clearances_->view() : scene().view;
+}
+
+double Simulation::time() const {
+    return clearances_ ? clearances_->frame().time : begun_at_ + world_->time();
+}
+
+void Simulation::grab(Vector2 point) {
+    if (clearances_) {
+        clearances_->grab(point);
+    } else {
+        drag_.grab(scene(), point);
+    }
+}
+
+void Simulation::drag_to(Vector2 point) {
+    if (clearances_) {
+        clearances_->drag(point);
+    } else {
+        drag_.move(point);
+    }
+}
+
+void Simulation::release() {
+    if (clearances_) {
+        clearances_->release();
+    } else {
+        drag_.release();
+    }
+}
+
 void Simulation::restart() {
     drag_.release();
+    clearances_.reset();
+    if (const auto* const named = tools::find_clearance_scene(choices_.scene)) {
+        world_.reset();
+        clearances_ = named->make(*context_);
+        return;
+    }
     simulation::Scene scene = tools::make_scene(choices_.scene, std::nullopt);
     act_ = std::move(scene.act);
     own_tolerance_ = scene.tolerance;
@@ -58,16 +96,18 @@ void Simulation::choose(const Choices& choices) {
     if (choices.hierarchy_height != choices_.hierarchy_height) {
         other = make_context(host_, settings_, choices);
     }
-    const bool overlaps = choices.response == simulation::Response::backtracking &&
+    const bool overlaps = world_ && choices.response == simulation::Response::backtracking &&
                           !world_->proximity().overlaps().empty();
-    const bool anew = choices.scene != choices_.scene || overlaps;
+    const bool anew = choices.scene != choices_.scene || clearances_ || overlaps;
     const Choices former = std::exchange(choices_, choices);
-    const double time = this->time();
+    double time = 0.0;
     simulation::Scene scene;
     if (!anew) {
+        time = this->time();
         scene = std::move(world_->scene());
     }
     world_.reset();
+    clearances_.reset();
     if (other) {
         context_ = std::move(other);
     }

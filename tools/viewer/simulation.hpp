@@ -2,11 +2,13 @@
 
 #include <nearfield/context.hpp>
 
+#include <tools/simulation/clearance_scene.hpp>
 #include <tools/simulation/world.hpp>
 #include <tools/viewer/drag.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -23,7 +25,8 @@ struct Choices {
     friend bool operator==(const Choices&, const Choices&) = default;
 };
 
-/// A running scene that the user can drag bodies in.
+/// A running scene that the user can drag something in: bodies in a world of theirs, or a scene of
+/// clearances.
 class Simulation {
 public:
     /// Throws tools::InputError if the scene does not exist or does not support the response;
@@ -38,14 +41,23 @@ public:
     /// tools::InputError and changes nothing.
     void choose(const Choices& choices);
     void restart();
-    simulation::FrameReport advance() { return world_->advance(); }
-
     [[nodiscard]] const Choices& choices() const { return choices_; }
     [[nodiscard]] Context& context() { return *context_; }
+    [[nodiscard]] const Rectangle& view() const;  ///< the part of the world to show
+    [[nodiscard]] double time() const;            ///< of the scene, seconds
+
+    /// What the mouse does with the scene.
+    void grab(Vector2 point);
+    void drag_to(Vector2 point);
+    void release();
+
+    /// The scene of clearances, if that is what was chosen; else null. The members below are about
+    /// scenes of bodies.
+    [[nodiscard]] simulation::ClearanceScene* clearances() { return clearances_.get(); }
+    simulation::FrameReport advance() { return world_->advance(); }
     [[nodiscard]] simulation::World& world() { return *world_; }
     [[nodiscard]] const simulation::Scene& scene() const { return world_->scene(); }
-    [[nodiscard]] double time() const { return begun_at_ + world_->time(); }
-    [[nodiscard]] Drag& drag() { return drag_; }
+    [[nodiscard]] const Drag& drag() const { return drag_; }
 
 private:
     void begin(simulation::Scene scene, double time);
@@ -58,7 +70,9 @@ private:
     double own_tolerance_ = 0.0;       // likewise
     double begun_at_ = 0.0;            // scene time when the world began
     Drag drag_;
+    // One of the two:
     std::optional<simulation::World> world_;
+    std::unique_ptr<simulation::ClearanceScene> clearances_;
 };
 
 }  // namespace nearfield::viewer

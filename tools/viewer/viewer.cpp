@@ -2,6 +2,7 @@
 
 #include <tools/common/library_error.hpp>
 #include <tools/io/input_error.hpp>
+#include <tools/rendering/clearance_picture.hpp>
 #include <tools/viewer/viewer.hpp>
 
 #include <algorithm>
@@ -36,7 +37,7 @@ Viewer::Viewer(const Settings& settings, const Wishes& wishes)
 tools::View Viewer::view() const {
     const vk::Extent2D extent = window_.extent();
     const double left = static_cast<double>(panel_width);
-    return {simulation_.scene().view,
+    return {simulation_.view(),
             {{left, 0.0},
              {std::max(left + 1.0, static_cast<double>(extent.width)),
               static_cast<double>(extent.height)}}};
@@ -75,21 +76,20 @@ void Viewer::reload_shaders() {
 }
 
 void Viewer::handle(const SDL_Event& event) {
-    Drag& drag = simulation_.drag();
     switch (event.type) {
         case SDL_MOUSEBUTTONDOWN: {
             const Vector2 place = place_of(event.button.x, event.button.y);
             if (event.button.button == SDL_BUTTON_LEFT && !Gui::wants_mouse() &&
                 place.x >= static_cast<double>(panel_width)) {
-                drag.grab(simulation_.scene(), view().to_world(place));
+                simulation_.grab(view().to_world(place));
             }
             break;
         }
         case SDL_MOUSEMOTION:
-            drag.move(view().to_world(place_of(event.motion.x, event.motion.y)));
+            simulation_.drag_to(view().to_world(place_of(event.motion.x, event.motion.y)));
             break;
         case SDL_MOUSEBUTTONUP:
-            drag.release();
+            simulation_.release();
             break;
         case SDL_KEYDOWN:
             if (!Gui::wants_keys()) {
@@ -132,12 +132,8 @@ void Viewer::advance() {
         if (wishes_.restart) {
             simulation_.restart();
         }
-        if (wishes_.running || wishes_.step) {
-            reading_.frame = simulation_.advance();
-        }
-        reading_.findings = find(simulation_, wishes_.overlays);
         drawing_.clear();
-        draw(drawing_, simulation_, wishes_.overlays, reading_.findings, view());
+        simulation_.clearances() != nullptr ? advance_clearances() : advance_bodies();
         worked_ = wishes_;
     } catch (const tools::InputError& error) {
         go_back(error.what());
@@ -149,15 +145,37 @@ void Viewer::advance() {
     }
     wishes_.restart = false;
     wishes_.step = false;
-    if (simulation_.drag().in_vain(simulation_.scene())) {
-        reading_.notice = "This body goes its own way, whatever pulls.";
+    reading_.time = simulation_.time();
+}
+
+void Viewer::advance_bodies() {
+    if (wishes_.running || wishes_.step) {
+        reading_.frame = simulation_.advance();
     }
     const simulation::Scene& scene = simulation_.scene();
+    reading_.findings = find(simulation_, wishes_.overlays);
+    draw(drawing_, simulation_, wishes_.overlays, reading_.findings, view());
+    if (simulation_.drag().in_vain(scene)) {
+        reading_.notice = "This body goes its own way, whatever pulls.";
+    }
+    reading_.clearances.reset();
     reading_.device = simulation_.context().device_name();
-    reading_.time = simulation_.time();
     reading_.tolerance = scene.tolerance;
     reading_.objects = scene.bodies.size();
     reading_.lines = simulation::line_count(scene);
+}
+
+void Viewer::advance_clearances() {
+    simulation::ClearanceScene& scene = *simulation_.clearances();
+    if (wishes_.running || wishes_.step) {
+        scene.advance();
+    } else {
+        scene.ask();  // the user may have dragged something
+    }
+    tools::draw_clearances(drawing_, scene, view());
+    reading_.clearances = scene.frame();
+    reading_.objects = scene.obstacles().size();
+    reading_.lines = scene.line_count();
 }
 
 bool Viewer::show() {

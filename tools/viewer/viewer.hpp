@@ -29,6 +29,8 @@ private:
     void handle_key(SDL_Keycode key);
     void reload_shaders();
     void advance();
+    void advance_bodies();
+    void advance_clearances();
     void go_back(const std::string& why);
     bool show();
 
