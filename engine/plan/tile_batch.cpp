@@ -158,43 +158,44 @@ const NearestEdge* TileBatchBuilder::find_nearest(std::uint32_t simplified,
 }
 
 void TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
-                                         const geometry::DistanceMeshOptions& options,
-                                         std::vector<TileVertex>& mesh) {
-    distance_mesh_.clear();
+                                         double error, std::vector<TileVertex>& mesh) {
+    distance_mesh_.begin({error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}});
+    tangents_.clear();
+    for (const NearestEdge& nearest : nearest_) {
+        tangents_.push_back(geometry::tangent(nearest.edge.a, nearest.edge.b));
+    }
     SparseCheckpoint<64> checkpoint;
     for (std::uint32_t i = 0; i < nearest_.size(); ++i) {
         checkpoint.step();
         const NearestEdge& nearest = nearest_[i];
         const TileEdge& edge = nearest.edge;
         const TileEdge part = part_near(edge, tile, nearest.reach() + 1.0);
-        geometry::append_tent(part.a, part.b, {nearest.reach_left, nearest.reach_right}, i, options,
-                              distance_mesh_);
+        const bool is_whole = part.a == edge.a && part.b == edge.b;
+        distance_mesh_.add_tent(part.a, part.b,
+                                is_whole ? tangents_[i] : geometry::tangent(part.a, part.b),
+                                {nearest.reach_left, nearest.reach_right}, i);
         // Where a vertex is nearest, both its edges are equally near: it needs a cone only if both
         // are in the list, and only as far out as both can be nearest.
         if (const NearestEdge* const before =
                 find_nearest(boundary.simplified().previous(edge.simplified), i)) {
-            const double reach = std::min(nearest.reach(), before->reach());
-            geometry::append_cone_sector(before->edge.a, edge.a, edge.b, reach, i, options,
-                                         distance_mesh_);
+            distance_mesh_.add_cone_sector(
+                tangents_[static_cast<std::size_t>(before - &nearest_[0])], edge.a, tangents_[i],
+                std::min(nearest.reach(), before->reach()), i);
         }
     }
-    float farthest = 1.0F;
-    for (const geometry::MeshVertex& vertex : distance_mesh_) {
-        farthest = std::max(farthest, vertex.distance);
-    }
-    const float depth_scale = 1.0F / (farthest * 1.0001F);
+    const float depth_scale = 1.0F / (std::max(1.0F, distance_mesh_.place()) * 1.0001F);
     const auto x = static_cast<float>(tile.place.x);
     const auto y = static_cast<float>(tile.place.y);
-    for (std::size_t i = 0; i < distance_mesh_.size(); i += 3) {
-        const std::span<const geometry::MeshVertex, 3> triangle(&distance_mesh_[i], 3);
-        if (!is_outside(tile, triangle)) {
-            for (const geometry::MeshVertex& vertex : triangle) {
-                add_vertex(tile,
-                           {vertex.x + x, vertex.y + y, vertex.distance * depth_scale, vertex.id},
-                           mesh);
-            }
+    const std::size_t before = mesh.size();
+    mesh.resize(before + 3 * distance_mesh_.max_triangles());
+    TileVertex* next = mesh.data() + before;
+    distance_mesh_.for_each_triangle([&](const std::array<geometry::MeshVertex, 3>& triangle) {
+        for (const geometry::MeshVertex& vertex : triangle) {
+            *next++ = in_tile(
+                tile, {vertex.x + x, vertex.y + y, vertex.distance * depth_scale, vertex.id});
         }
-    }
+    });
+    mesh.resize(static_cast<std::size_t>(next - mesh.data()));
 }
 
 void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
@@ -215,7 +216,7 @@ void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& t
     }
     if (query.field.blended) {
         for (const geometry::MeshVertex& vertex : rectangle_of(tile, draw.first_value)) {
-            add_vertex(tile, vertex, batch.meshes[TileMeshId::gradients]);
+            batch.meshes[TileMeshId::gradients].push_back(in_tile(tile, vertex));
         }
     }
     if (query.field.features) {
@@ -277,7 +278,7 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     add_rectangle(tile, batch.meshes[rectangles_of(draw.sign)]);
     add_fill(crossing_, tile, batch.meshes[fills_of(draw.sign)]);
     add_distance_mesh(
-        boundary, tile, {mesh_error, grid_, {Vector::Zero(), Vector(tile.width, tile.height)}},
+        boundary, tile, mesh_error,
         batch.meshes[draw.sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
                                                             : TileMeshId::distances]);
 

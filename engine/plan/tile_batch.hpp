@@ -166,8 +166,7 @@ private:
     /// The entry of nearest_ for a simplified edge, or null; most likely the one before `hint`.
     [[nodiscard]] const NearestEdge* find_nearest(std::uint32_t simplified,
                                                   std::uint32_t hint) const;
-    void add_distance_mesh(const TileBoundary& boundary, const Tile& tile,
-                           const geometry::DistanceMeshOptions& options,
+    void add_distance_mesh(const TileBoundary& boundary, const Tile& tile, double error,
                            std::vector<TileVertex>& mesh);
 
     geometry::SubpixelGrid grid_;
@@ -176,7 +175,8 @@ private:
     std::vector<NearestEdge> nearest_;
     std::vector<TileEdge> nearest_list_;
     NearestEdgeFinder finder_;
-    geometry::Mesh distance_mesh_;             // of one tile
+    geometry::DistanceMesh distance_mesh_;     // of one tile
+    std::vector<geometry::Vector> tangents_;   // by nearest edge
     std::vector<std::uint32_t> watched_;       // tiles of the plan
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its index in the tile batch
     std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block

@@ -31,13 +31,6 @@ void move_to_atlas(const Tile& tile, std::size_t first, geometry::Mesh& mesh) {
     }
 }
 
-void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
-                std::vector<TileVertex>& mesh) {
-    mesh.push_back(
-        {vertex, static_cast<std::uint16_t>(tile.place.x), static_cast<std::uint16_t>(tile.place.y),
-         static_cast<std::uint16_t>(tile.width), static_cast<std::uint16_t>(tile.height)});
-}
-
 void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
                 std::vector<CellGroup>& groups) {
     for (std::uint32_t row = 0; row < draw.height; row += height) {
@@ -46,13 +39,6 @@ void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height,
             groups.push_back(first);
         }
     }
-}
-
-bool is_outside(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle) {
-    const auto [left, right] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
-    const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
-    return right <= 0.0F || high <= 0.0F || left >= static_cast<float>(tile.width) ||
-           low >= static_cast<float>(tile.height);
 }
 
 }  // namespace nearfield::plan

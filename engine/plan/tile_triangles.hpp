@@ -18,14 +18,14 @@ void add_rectangle(const Tile& tile, geometry::Mesh& mesh);
 /// Moves vertices, from `first` on, from cells of a tile to its place in the atlas.
 void move_to_atlas(const Tile& tile, std::size_t first, geometry::Mesh& mesh);
 
-void add_vertex(const Tile& tile, const geometry::MeshVertex& vertex,
-                std::vector<TileVertex>& mesh);
+[[nodiscard]] inline TileVertex in_tile(const Tile& tile, const geometry::MeshVertex& vertex) {
+    return {vertex, static_cast<std::uint16_t>(tile.place.x),
+            static_cast<std::uint16_t>(tile.place.y), static_cast<std::uint16_t>(tile.width),
+            static_cast<std::uint16_t>(tile.height)};
+}
 
 /// Appends groups of width x height cells that cover a tile; `first` describes the low one.
 void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
                 std::vector<CellGroup>& groups);
-
-/// Whether a triangle, in cells of a tile, lies on one side of it.
-[[nodiscard]] bool is_outside(const Tile& tile, std::span<const geometry::MeshVertex, 3> triangle);
 
 }  // namespace nearfield::plan

@@ -7,6 +7,7 @@
 #include <tests/support/scanline.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,8 @@
 namespace nearfield {
 namespace {
 
+using geometry::Box;
+using geometry::DistanceMesh;
 using geometry::DistanceMeshOptions;
 using geometry::Mesh;
 using geometry::Vector;
@@ -32,6 +35,34 @@ struct Drawing {
     Mesh mesh;
 };
 
+Mesh triangles_of(DistanceMesh& mesh) {
+    const float farthest = mesh.place();
+    Mesh triangles;
+    mesh.for_each_triangle([&](const std::array<geometry::MeshVertex, 3>& triangle) {
+        for (const geometry::MeshVertex& vertex : triangle) {
+            EXPECT_LE(vertex.distance, farthest);
+        }
+        triangles.insert(triangles.end(), triangle.begin(), triangle.end());
+    });
+    EXPECT_LE(triangles.size(), 3 * mesh.max_triangles());
+    return triangles;
+}
+
+Mesh tent(const Vector& a, const Vector& b, double reach, const DistanceMeshOptions& options) {
+    DistanceMesh mesh;
+    mesh.begin(options);
+    mesh.add_tent(a, b, geometry::tangent(a, b), {reach, reach}, 0);
+    return triangles_of(mesh);
+}
+
+Mesh cone_sector(const Vector& before, const Vector& v, const Vector& after, double reach,
+                 const DistanceMeshOptions& options) {
+    DistanceMesh mesh;
+    mesh.begin(options);
+    mesh.add_cone_sector(geometry::tangent(before, v), v, geometry::tangent(v, after), reach, 3);
+    return triangles_of(mesh);
+}
+
 // Clips an edge to the part that can be nearest to a sample of the tile, as callers do.
 bool clip_to_neighbourhood(Vector& a, Vector& b, const Tile& tile, double reach) {
     const double margin = reach + 1.0;
@@ -42,6 +73,8 @@ bool clip_to_neighbourhood(Vector& a, Vector& b, const Tile& tile, double reach)
 Drawing draw(const support::Rings& rings, const Tile& tile, double reach,
              const DistanceMeshOptions& options) {
     Drawing drawing;
+    DistanceMesh mesh;
+    mesh.begin(options);
     for (const auto& ring : rings) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Vector& before = ring[(i + ring.size() - 1) % ring.size()];
@@ -53,15 +86,16 @@ Drawing draw(const support::Rings& rings, const Tile& tile, double reach,
             Vector start = v;
             Vector end = after;
             if (clip_to_neighbourhood(start, end, tile, reach)) {
-                geometry::append_tent(start, end, {reach, reach}, id, options, drawing.mesh);
+                mesh.add_tent(start, end, geometry::tangent(start, end), {reach, reach}, id);
             }
             start = end = v;
             if (clip_to_neighbourhood(start, end, tile, reach)) {
-                geometry::append_cone_sector(before, v, after, reach, id + 1, options,
-                                             drawing.mesh);
+                mesh.add_cone_sector(geometry::tangent(before, v), v, geometry::tangent(v, after),
+                                     reach, id + 1);
             }
         }
     }
+    drawing.mesh = triangles_of(mesh);
     return drawing;
 }
 
@@ -189,8 +223,7 @@ TEST(DistanceMesh, TentsAreExactWhereTheirVerticesWereSnappedTo) {
     for (const auto& polygon : support::degenerate_polygons(tile.width, tile.height, 5)) {
         const Vector& a = polygon.rings.front()[0];
         const Vector& b = polygon.rings.front()[1];
-        Mesh mesh;
-        geometry::append_tent(a, b, {16.0, 16.0}, 0, {.error = 0.5, .grid = tile.grid}, mesh);
+        const Mesh mesh = tent(a, b, 16.0, {.error = 0.5, .grid = tile.grid});
         const Vector tangent = (b - a).normalized();
         for (const auto& vertex : mesh) {
             const Vector p(static_cast<double>(vertex.x), static_cast<double>(vertex.y));
@@ -220,31 +253,25 @@ TEST(DistanceMesh, DistanceStaysBetweenZeroAndReachPlusError) {
 
 TEST(DistanceMesh, DegenerateFeatures) {
     const Vector v(3.0, 4.0);
-    Mesh mesh;
-    geometry::append_tent(v, v, {16.0, 16.0}, 0, {}, mesh);
-    EXPECT_TRUE(mesh.empty()) << "an edge of no length has no tent";
-    geometry::append_cone_sector({1.0, 4.0}, v, {7.0, 4.0}, 16.0, 0, {}, mesh);
-    EXPECT_TRUE(mesh.empty()) << "no gap on a straight line";
-    geometry::append_tent(v, {3.0, 5.0}, {16.0, 16.0}, 0, {}, mesh);
-    EXPECT_EQ(mesh.size(), 12U);
+    EXPECT_TRUE(tent(v, v, 16.0, {}).empty()) << "an edge of no length has no tent";
+    EXPECT_TRUE(cone_sector({1.0, 4.0}, v, {7.0, 4.0}, 16.0, {}).empty())
+        << "no gap on a straight line";
+    EXPECT_EQ(tent(v, {3.0, 5.0}, 16.0, {}).size(), 12U);
 
-    mesh.clear();
-    geometry::append_cone_sector({1.0, 4.0}, v, {1.0, 4.0}, 16.0, 0, {}, mesh);
-    for (const auto& vertex : mesh) {
+    const Mesh half = cone_sector({1.0, 4.0}, v, {1.0, 4.0}, 16.0, {});
+    for (const auto& vertex : half) {
         EXPECT_GE(vertex.x, 3.0F) << "the half cone lies beyond the tip";
     }
-    const std::size_t half = mesh.size();
-    geometry::append_cone_sector(v, v, {1.0, 4.0}, 16.0, 0, {}, mesh);
-    EXPECT_NEAR(static_cast<double>(mesh.size()), 3.0 * static_cast<double>(half), 3.0);
+    const Mesh whole = cone_sector(v, v, {1.0, 4.0}, 16.0, {});
+    EXPECT_NEAR(static_cast<double>(whole.size()), 2.0 * static_cast<double>(half.size()), 3.0);
 }
 
 // Triangles cost time on the device: a turn of the boundary uses no more than the error requires.
 TEST(DistanceMesh, UsesNoMoreTrianglesThanTheErrorAsksFor) {
     for (const double reach : {16.0, 256.0}) {
         for (const double error : {0.125, 0.25}) {
-            Mesh mesh;
-            geometry::append_cone_sector({0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, reach, 0,
-                                         {.error = error, .grid = {}}, mesh);
+            const Mesh mesh = cone_sector({0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}, reach,
+                                          {.error = error, .grid = {}});
             const double inscribed = std::numbers::pi / std::acos(reach / (reach + error));
             EXPECT_LE(static_cast<double>(mesh.size()) / 3.0, 1.05 * inscribed + 1.0);
         }
@@ -269,14 +296,12 @@ TEST(DistanceMesh, LeavesOutOfConesWhatIsOutsideABox) {
         const Vector v = any();
         const Vector after = i % 4 == 0 ? v : any();
         const double reach = random.scale(1.0, 200.0);
-        Mesh all;
-        geometry::append_cone_sector(before, v, after, reach, 3, {}, all);
+        const Mesh all = cone_sector(before, v, after, reach, {});
         DistanceMeshOptions options;
         const Vector low = any();
         const Vector size(random.scale(1.0, 60.0), random.scale(1.0, 60.0));
         options.within = {low, low + size};
-        Mesh part;
-        geometry::append_cone_sector(before, v, after, reach, 3, options, part);
+        const Mesh part = cone_sector(before, v, after, reach, options);
         std::size_t kept = 0;
         for (std::size_t t = 0; t < all.size(); t += 3) {
             if (kept < part.size() && same_vertex(all[t + 1], part[kept + 1]) &&
@@ -302,6 +327,39 @@ TEST(DistanceMesh, LeavesOutOfConesWhatIsOutsideABox) {
         ASSERT_EQ(kept, part.size());
     }
     EXPECT_GT(left_out, 1000U);
+}
+
+// Triangles are left out only where no point of the box is in them, also beyond a slanted side.
+TEST(DistanceMesh, LeavesOutOfTentsWhatIsOutsideABox) {
+    test::Random random(18);
+    DistanceMeshOptions options;
+    options.within = {Vector::Zero(), Vector(32.0, 24.0)};
+    std::size_t left_out_beside = 0;
+    for (int i = 0; i < 1000; ++i) {
+        SCOPED_TRACE("seed 18 case " + std::to_string(i));
+        const auto any = [&] {
+            return Vector(random.between(-20.0, 50.0), random.between(-20.0, 50.0));
+        };
+        const Vector a = any();
+        const Vector b = any();
+        const double reach = random.scale(1.0, 40.0);
+        const auto drawn =
+            support::draw_nearest({.width = 32, .height = 24}, tent(a, b, reach, options));
+        const Mesh all = tent(a, b, reach, {});
+        const auto expected = support::draw_nearest({.width = 32, .height = 24}, all);
+        for (std::size_t cell = 0; cell < expected.size(); ++cell) {
+            ASSERT_EQ(drawn[cell].id, expected[cell].id) << cell;
+            ASSERT_EQ(drawn[cell].distance, expected[cell].distance) << cell;
+        }
+        Box around;
+        for (const auto& vertex : all) {
+            around.extend(Vector(vertex.x, vertex.y));
+        }
+        if (around.intersects(options.within) && tent(a, b, reach, options).empty()) {
+            ++left_out_beside;
+        }
+    }
+    EXPECT_GT(left_out_beside, 10U);
 }
 
 }  // namespace
