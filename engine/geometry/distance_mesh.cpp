@@ -42,7 +42,6 @@ void DistanceMesh::begin(const DistanceMeshOptions& options) {
     move_ = options.grid.largest_move();
     reach_ = angle_ = 0.0;
     ids_.clear();
-    pieces_.clear();
 }
 
 // The largest half angle t of a triangle of the cone. The triangle has its apex at the vertex and
@@ -74,11 +73,13 @@ void DistanceMesh::add_piece(const Vector& origin, const Vector& gradient,
                              const std::array<Vector, kernels::piece_corners>& corners,
                              std::uint32_t id) {
     const std::size_t lane = ids_.size() % kernels::pieces_at_once;
-    if (lane == 0) {
+    const std::size_t block = ids_.size() / kernels::pieces_at_once;
+    if (block == pieces_.size()) {
         pieces_.emplace_back();
+        placed_.emplace_back();
     }
     ids_.push_back(id);
-    kernels::Pieces& pieces = pieces_.back();
+    kernels::Pieces& pieces = pieces_[block];
     pieces.origin_x[lane] = origin.x();
     pieces.origin_y[lane] = origin.y();
     pieces.gradient_x[lane] = gradient.x();
@@ -157,8 +158,8 @@ void DistanceMesh::add_cone_sector(const Vector& in, const Vector& v, const Vect
 }
 
 float DistanceMesh::place() {
-    placed_.resize(std::max(placed_.size(), pieces_.size()));
-    return kernels::place_pieces(pieces_, options_.grid, options_.within, placed_.data());
+    return kernels::place_pieces(pieces_.data(), ids_.size(), options_.grid, options_.within,
+                                 placed_.data());
 }
 
 }  // namespace nearfield::geometry

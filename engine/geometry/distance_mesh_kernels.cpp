@@ -1,7 +1,5 @@
 #include <engine/geometry/distance_mesh_kernels.hpp>
 
-#include <algorithm>
-
 // Highway compiles the rest once per instruction set by including this file again.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/geometry/distance_mesh_kernels.cpp"
@@ -115,14 +113,16 @@ HWY_INLINE Narrow place_vector(const Pieces& pieces, std::size_t lane, double st
     return farthest;
 }
 
-float place_pieces(std::span<const Pieces> pieces, double steps, const Box& within,
+float place_pieces(const Pieces* pieces, std::size_t count, double steps, const Box& within,
                    PlacedPieces* placed) {
     const Floats f;
     Narrow farthest = hn::Zero(f);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        for (std::size_t lane = 0; lane < pieces_at_once; lane += hn::Lanes(f)) {
-            farthest = hn::Max(farthest, place_vector(pieces[i], lane, steps, within, placed[i]));
-        }
+    for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
+        const std::size_t block = i / pieces_at_once;
+        const Narrow own =
+            place_vector(pieces[block], i % pieces_at_once, steps, within, placed[block]);
+        // Lanes behind the last piece hold some of an earlier tile.
+        farthest = hn::IfThenElse(hn::FirstN(f, count - i), hn::Max(farthest, own), farthest);
     }
     return hn::GetLane(hn::MaxOfLanes(f, farthest));
 }
@@ -136,9 +136,9 @@ namespace nearfield::geometry::kernels {
 
 HWY_EXPORT(place_pieces);
 
-float place_pieces(std::span<const Pieces> pieces, SubpixelGrid grid, const Box& within,
+float place_pieces(const Pieces* pieces, std::size_t count, SubpixelGrid grid, const Box& within,
                    PlacedPieces* placed) {
-    return HWY_DYNAMIC_DISPATCH(place_pieces)(pieces, grid.steps, within, placed);
+    return HWY_DYNAMIC_DISPATCH(place_pieces)(pieces, count, grid.steps, within, placed);
 }
 
 }  // namespace nearfield::geometry::kernels

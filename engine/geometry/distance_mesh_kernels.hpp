@@ -4,7 +4,6 @@
 #include <engine/geometry/vector.hpp>
 
 #include <cstddef>
-#include <span>
 
 /// \file The vertices of a distance mesh, with SIMD: compiled for several instruction sets, of
 /// which the best that the machine supports is selected at run time. All give the same bits.
@@ -36,8 +35,8 @@ struct PlacedPieces {
     float needed[piece_triangles][pieces_at_once];
 };
 
-/// Places pieces; `placed` has as many elements. Returns the largest distance.
-[[nodiscard]] float place_pieces(std::span<const Pieces> pieces, SubpixelGrid grid,
+/// Places `count` pieces; `placed` has as many elements as `pieces`. Returns the largest distance.
+[[nodiscard]] float place_pieces(const Pieces* pieces, std::size_t count, SubpixelGrid grid,
                                  const Box& within, PlacedPieces* placed);
 
 }  // namespace nearfield::geometry::kernels

@@ -329,6 +329,23 @@ TEST(DistanceMesh, LeavesOutOfConesWhatIsOutsideABox) {
     EXPECT_GT(left_out, 1000U);
 }
 
+TEST(DistanceMesh, KeepsNothingOfTheTileBefore) {
+    DistanceMesh mesh;
+    mesh.begin({});
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        mesh.add_tent({0.0, i + 0.0}, {9.0, i + 1.0}, geometry::tangent({0.0, 0.0}, {9.0, 1.0}),
+                      {200.0, 200.0}, i);
+    }
+    EXPECT_GT(mesh.place(), 199.0F);
+    for (const double reach : {3.0, 5.0}) {
+        mesh.begin({});
+        mesh.add_tent({0.0, 0.0}, {9.0, 0.0}, Vector::UnitX(), {reach, 0.0}, 7);
+        const auto farthest = static_cast<double>(mesh.place());
+        EXPECT_NEAR(farthest, reach, 0.1);
+        EXPECT_EQ(triangles_of(mesh).size(), 6U);
+    }
+}
+
 // Triangles are left out only where no point of the box is in them, also beyond a slanted side.
 TEST(DistanceMesh, LeavesOutOfTentsWhatIsOutsideABox) {
     test::Random random(18);
