@@ -27,12 +27,10 @@ void for_each_edge(const TransformedPolygon& placed, const localize::Chain& chai
 
 }  // namespace
 
-Vector position(const TransformedPolygon& polygon, const BoundaryPoint& point) {
-    Vector a = polygon.vertex(point.edge);
-    if (point.parameter == 0.0) {
-        return a;
-    }
-    return a + point.parameter * (polygon.vertex(polygon.polygon().next(point.edge)) - a);
+void BoundaryPositions::enter(std::uint32_t edge) {
+    edge_ = edge;
+    start_ = polygon_.vertex(edge);
+    way_ = polygon_.vertex(polygon_.polygon().next(edge)) - start_;
 }
 
 void sample_chains(const TransformedPolygon& polygon, const std::vector<localize::Chain>& chains,

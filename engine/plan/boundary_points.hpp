@@ -4,6 +4,7 @@
 #include <engine/localize/overlap.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,9 +16,33 @@ struct BoundaryPoint {
     double parameter = 0.0;  ///< 0: the edge's first vertex; below 1
 };
 
-/// The point in world coordinates.
-[[nodiscard]] geometry::Vector position(const geometry::TransformedPolygon& polygon,
-                                        const BoundaryPoint& point);
+/// Positions of points on a boundary in world coordinates; fastest where consecutive points lie on
+/// the same edge.
+class BoundaryPositions {
+public:
+    explicit BoundaryPositions(const geometry::TransformedPolygon& polygon) : polygon_(polygon) {}
+
+    [[nodiscard]] geometry::Vector operator()(const BoundaryPoint& point) {
+        if (point.edge != edge_) {
+            enter(point.edge);
+        }
+        return point.parameter == 0.0 ? start_ : geometry::Vector(start_ + point.parameter * way_);
+    }
+
+private:
+    void enter(std::uint32_t edge);
+
+    geometry::TransformedPolygon polygon_;
+    std::uint32_t edge_ = std::numeric_limits<std::uint32_t>::max();  // the one that follows
+    geometry::Vector start_ = geometry::Vector::Zero();
+    geometry::Vector way_ = geometry::Vector::Zero();  // to its end
+};
+
+/// The position of a single point.
+[[nodiscard]] inline geometry::Vector position(const geometry::TransformedPolygon& polygon,
+                                               const BoundaryPoint& point) {
+    return BoundaryPositions(polygon)(point);
+}
 
 /// Appends samples along each chain. Inside the box `within`, consecutive samples are at most
 /// `spacing` apart along the boundary; outside the box, samples are unspecified. Long edges are

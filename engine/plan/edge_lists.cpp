@@ -2,8 +2,8 @@
 #include <engine/plan/edge_lists.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -17,6 +17,9 @@ constexpr double deviation_slack = 1.0 / 1024.0;
 
 /// The part of an edge with |x| and |y| at most `extent`, if there is one.
 std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
+    if (std::max(edge.a.cwiseAbs().maxCoeff(), edge.b.cwiseAbs().maxCoeff()) <= extent) {
+        return edge;
+    }
     double from = 0.0;
     double to = 1.0;
     const Vector d = edge.b - edge.a;
@@ -89,13 +92,6 @@ EdgeData EdgeListWriter::describe(const TileEdge& edge) {
     return data;
 }
 
-void EdgeListWriter::push(const EdgeData& edge) {
-    geometry_.push_back({edge.ax, edge.ay});
-    geometry_.push_back({edge.bx, edge.by});
-    geometry_.push_back({std::bit_cast<float>(edge.run), std::bit_cast<float>(edge.run_count)});
-    geometry_.push_back({edge.deviation, std::bit_cast<float>(edge.first_edge)});
-}
-
 EdgeListData EdgeListWriter::write(const std::vector<TileEdge>& edges, double extent) {
     list_.clear();
     SparseCheckpoint<256> checkpoint;
@@ -119,9 +115,10 @@ EdgeListData EdgeListWriter::write_list() {
     EdgeListData result;
     result.count = static_cast<std::uint32_t>(list_.size());
     result.edges = static_cast<std::uint32_t>(geometry_.size());
-    for (const EdgeData& edge : list_) {
-        push(edge);
-    }
+    constexpr std::size_t entries_of_an_edge = sizeof(EdgeData) / sizeof(Entry);
+    geometry_.resize(result.edges + entries_of_an_edge * list_.size());
+    std::memcpy(static_cast<void*>(geometry_.data() + result.edges), list_.data(),
+                sizeof(EdgeData) * list_.size());
     result.clusters = static_cast<std::uint32_t>(geometry_.size());
     for (std::size_t first = 0; first < list_.size(); first += cluster_size) {
         constexpr float infinity = std::numeric_limits<float>::infinity();

@@ -38,7 +38,6 @@ private:
 
     [[nodiscard]] std::uint32_t run_of(const geometry::SimplifiedEdge& edge, std::uint32_t index);
     [[nodiscard]] EdgeData describe(const TileEdge& edge);
-    void push(const EdgeData& edge);
     /// Writes list_.
     EdgeListData write_list();
 

@@ -179,10 +179,31 @@ struct Tangents {
     }
 };
 
+/// Copies some of a vector of edges, from edge i on, to place `pushed`; returns how many.
+HWY_INLINE std::size_t keep(EdgeStack& edges, std::size_t i, const NearEdges& some, Mask kept,
+                            std::size_t pushed) {
+    const Floats d;
+    const Words words;
+    if (hn::AllFalse(d, kept)) {
+        return 0;
+    }
+    // In registers: some processors are many times slower when compressing into memory.
+    const auto store = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
+        hn::StoreU(hn::Compress(numbers, kept), d, edges.number(number) + pushed);
+    };
+    store(EdgeStack::start_x, some.start_x);
+    store(EdgeStack::start_y, some.start_y);
+    store(EdgeStack::along_x, some.along_x);
+    store(EdgeStack::along_y, some.along_y);
+    store(EdgeStack::inverse, some.inverse);
+    hn::StoreU(hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, kept)),
+               words, edges.indices() + pushed);
+    return hn::CountTrue(d, kept);
+}
+
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack) {
     const Floats d;
-    const Words words;
     const Rivals rivals = find_rivals(edges, first, end, node);
     float bounds[places][corners];
     for (std::size_t i = 0; i < rivals.count; ++i) {
@@ -196,21 +217,40 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         for (std::size_t rival = 0; rival < rivals.count; ++rival) {
             near = hn::And(near, tangents.any_within(bounds[rival]));
         }
-        if (hn::AllFalse(d, near)) {
-            continue;
-        }
-        // In registers: some processors are many times slower when compressing into memory.
-        const auto keep = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
-            hn::StoreU(hn::Compress(numbers, near), d, edges.number(number) + pushed);
-        };
-        keep(EdgeStack::start_x, some.start_x);
-        keep(EdgeStack::start_y, some.start_y);
-        keep(EdgeStack::along_x, some.along_x);
-        keep(EdgeStack::along_y, some.along_y);
-        keep(EdgeStack::inverse, some.inverse);
-        hn::StoreU(hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, near)),
-                   words, edges.indices() + pushed);
-        pushed += hn::CountTrue(d, near);
+        pushed += keep(edges, i, some, near, pushed);
+    }
+    edges.resize(pushed);
+}
+
+float measure_squared(const EdgeStack& edges, std::size_t first, std::size_t end, float x, float y,
+                      float* squared) {
+    const Floats d;
+    Vector nearest = hn::Set(d, std::numeric_limits<float>::max());
+    for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+        const NearEdges some = load(edges, i);
+        // Nothing is fused: the same bits on every machine.
+        const Vector to_x = hn::Sub(hn::Set(d, x), some.start_x);
+        const Vector to_y = hn::Sub(hn::Set(d, y), some.start_y);
+        Vector t = hn::Mul(hn::Add(hn::Mul(to_x, some.along_x), hn::Mul(to_y, some.along_y)),
+                           some.inverse);
+        t = hn::Min(hn::Max(t, hn::Zero(d)), hn::Set(d, 1.0F));
+        const Vector away_x = hn::Sub(to_x, hn::Mul(t, some.along_x));
+        const Vector away_y = hn::Sub(to_y, hn::Mul(t, some.along_y));
+        const Vector distance = hn::Add(hn::Mul(away_x, away_x), hn::Mul(away_y, away_y));
+        hn::StoreU(distance, d, squared + i);
+        nearest = hn::IfThenElse(hn::FirstN(d, end - i), hn::Min(nearest, distance), nearest);
+    }
+    return hn::GetLane(hn::MinOfLanes(d, nearest));
+}
+
+void push_within(EdgeStack& edges, std::size_t first, std::size_t end, const float* squared,
+                 float limit) {
+    const Floats d;
+    std::size_t pushed = edges.size();
+    for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
+        const Mask near =
+            hn::And(hn::FirstN(d, end - i), hn::Le(hn::LoadU(d, squared + i), hn::Set(d, limit)));
+        pushed += keep(edges, i, load(edges, i), near, pushed);
     }
     edges.resize(pushed);
 }
@@ -223,11 +263,24 @@ HWY_AFTER_NAMESPACE();
 namespace nearfield::plan {
 
 HWY_EXPORT(push_near);
+HWY_EXPORT(measure_squared);
+HWY_EXPORT(push_within);
 
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack) {
     edges.reserve(end - first);
     HWY_DYNAMIC_DISPATCH(push_near)(edges, first, end, node, slack);
+}
+
+float measure_squared(const EdgeStack& edges, std::size_t first, std::size_t end, float x, float y,
+                      float* squared) {
+    return HWY_DYNAMIC_DISPATCH(measure_squared)(edges, first, end, x, y, squared);
+}
+
+void push_within(EdgeStack& edges, std::size_t first, std::size_t end, const float* squared,
+                 float limit) {
+    edges.reserve(end - first);
+    HWY_DYNAMIC_DISPATCH(push_within)(edges, first, end, squared, limit);
 }
 
 }  // namespace nearfield::plan

@@ -41,4 +41,15 @@ struct EdgeNode {
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack);
 
+/// Writes the squared distances of the edges first, ..., end - 1 from a point to `squared`, by
+/// position on the stack; there is room for one more vector. Returns the smallest. The same bits on
+/// every machine.
+[[nodiscard]] float measure_squared(const EdgeStack& edges, std::size_t first, std::size_t end,
+                                    float x, float y, float* squared);
+
+/// Pushes those of the edges first, ..., end - 1 whose squared distance is at most `limit`, in the
+/// same order.
+void push_within(EdgeStack& edges, std::size_t first, std::size_t end, const float* squared,
+                 float limit);
+
 }  // namespace nearfield::plan

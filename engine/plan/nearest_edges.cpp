@@ -40,8 +40,8 @@ void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double sla
     slack_ = slack + 0.01 + 1e-6 * window;
     const double limit = nearest + 2.0 * (centre.norm() + slack_);
     near_.clear();
-    edges_.clear();
     candidates_.clear();
+    inverse_length_.clear();
     boundary.for_edges_near(centre, limit, [&](std::uint32_t i) {
         const TileEdge edge{boundary.start(i), boundary.end(i), i};
         if (std::sqrt(geometry::nearest_on_segment(centre, edge.a, edge.b).squared_distance) >
@@ -56,12 +56,12 @@ void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double sla
         const Vector d = b - a;
         const double squared = d.squaredNorm();
         const bool is_point = squared < 1e-30;
-        candidates_.push_back(static_cast<std::uint32_t>(near_.size()));
+        candidates_.push(
+            {static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(d.x()),
+             static_cast<float>(d.y()), is_point ? 0.0F : static_cast<float>(1.0 / squared)},
+            static_cast<std::uint32_t>(near_.size()));
         near_.push_back(edge);
-        edges_.push_back({static_cast<float>(a.x()), static_cast<float>(a.y()),
-                          static_cast<float>(d.x()), static_cast<float>(d.y()),
-                          is_point ? 0.0F : static_cast<float>(1.0 / squared),
-                          is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared))});
+        inverse_length_.push_back(is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared)));
     });
 }
 
@@ -82,19 +82,8 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
     const auto x = static_cast<float>(centre.x());
     const auto y = static_cast<float>(centre.y());
 
-    squared_.resize(std::max(squared_.size(), end));
-    float nearest = std::numeric_limits<float>::max();
-    for (std::size_t i = first; i < end; ++i) {
-        const Candidate& edge = edges_[candidates_[i]];
-        const float px = x - edge.ax;
-        const float py = y - edge.ay;
-        const float t = (px * edge.dx + py * edge.dy) * edge.inverse_squared_length;
-        const float clamped = std::min(std::max(t, 0.0F), 1.0F);
-        const float ex = px - clamped * edge.dx;
-        const float ey = py - clamped * edge.dy;
-        squared_[i] = ex * ex + ey * ey;
-        nearest = std::min(nearest, squared_[i]);
-    }
+    squared_.resize(std::max(squared_.size(), candidates_.capacity()));
+    const float nearest = measure_squared(candidates_, first, end, x, y, squared_.data());
     const double distance = std::sqrt(static_cast<double>(nearest));
     const double limit = distance + 2.0 * (half_diagonal + slack_);
     // Far from the boundary, finer blocks gain little.
@@ -102,12 +91,7 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
         reach_out(first, end, x, y, limit, half_diagonal, distance + half_diagonal + slack_);
         return;
     }
-    const auto squared_limit = static_cast<float>(limit * limit);
-    for (std::size_t i = first; i < end; ++i) {
-        if (squared_[i] <= squared_limit) {
-            candidates_.push_back(candidates_[i]);
-        }
-    }
+    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit));
     const std::size_t kept_end = candidates_.size();
     const std::uint32_t half = count / 2;
     for (const std::uint32_t dy : {0U, half}) {
@@ -121,24 +105,21 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
 
 void NearestEdgeFinder::reach_out(std::size_t first, std::size_t end, float x, float y,
                                   double limit, double half_diagonal, double reach) {
-    const auto squared_limit = static_cast<float>(limit * limit);
+    push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit));
     const auto wide = static_cast<float>(half_diagonal + slack_);
-    for (std::size_t i = first; i < end; ++i) {
-        if (squared_[i] > squared_limit) {
-            continue;
-        }
-        const std::uint32_t index = candidates_[i];
-        const Candidate& edge = edges_[index];
+    // Without branches: no processor can predict the side.
+    for (std::size_t i = end; i < candidates_.size(); ++i) {
+        const std::uint32_t index = candidates_.indices()[i];
         // Distance of the centre to the left of the edge's line; an edge of no length has no side.
-        const float left =
-            (edge.dx * (y - edge.ay) - edge.dy * (x - edge.ax)) * edge.inverse_length;
-        if (left > -wide) {
-            reach_left_[index] = std::max(reach_left_[index], reach);
-        }
-        if (left < wide) {
-            reach_right_[index] = std::max(reach_right_[index], reach);
-        }
+        const float left = (candidates_.number(EdgeStack::along_x)[i] *
+                                (y - candidates_.number(EdgeStack::start_y)[i]) -
+                            candidates_.number(EdgeStack::along_y)[i] *
+                                (x - candidates_.number(EdgeStack::start_x)[i])) *
+                           inverse_length_[index];
+        reach_left_[index] = std::max(reach_left_[index], left > -wide ? reach : 0.0);
+        reach_right_[index] = std::max(reach_right_[index], left < wide ? reach : 0.0);
     }
+    candidates_.resize(end);
 }
 
 }  // namespace nearfield::plan

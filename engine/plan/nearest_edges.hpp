@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/plan/edge_stack.hpp>
 #include <engine/plan/needed_blocks.hpp>
 #include <engine/plan/tile_edges.hpp>
 
@@ -31,13 +32,6 @@ public:
               std::vector<NearestEdge>& result);
 
 private:
-    /// An edge, cut to its part near the tile, in floats relative to the tile's centre.
-    struct Candidate {
-        float ax, ay, dx, dy;
-        float inverse_squared_length;
-        float inverse_length;
-    };
-
     void find_candidates(const TileBoundary& boundary, double slack);
     void visit(std::uint32_t column, std::uint32_t row, std::uint32_t count, std::size_t first,
                std::size_t end);
@@ -46,11 +40,13 @@ private:
 
     const NeededBlocks* needed_ = nullptr;
     double slack_ = 0.0;
-    std::vector<TileEdge> near_;    // all that can matter somewhere in the tile, in ring order
-    std::vector<Candidate> edges_;  // the same
-    std::vector<std::uint32_t> candidates_;  // indices of edges_: a stack with one list per level
-    std::vector<float> squared_;  // by place on the stack: squared distance to the centre
-    std::vector<double> reach_left_, reach_right_;  // by near edge
+    std::vector<TileEdge> near_;  // all that can matter somewhere in the tile, in ring order
+    // Edges, cut to their parts near the tile, relative to its centre; indices are into near_.
+    EdgeStack candidates_;               // one list per level
+    std::vector<float> squared_;         // by place on the stack: squared distance to the centre
+    std::vector<float> inverse_length_;  // by near edge; 0 for an edge of no length
+    std::vector<double> reach_left_;     // by near edge
+    std::vector<double> reach_right_;
 };
 
 }  // namespace nearfield::plan

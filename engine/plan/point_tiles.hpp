@@ -24,7 +24,6 @@ public:
 
 private:
     struct PointCell {
-        std::uint32_t grid = 0;
         std::uint64_t column = 0;
         std::uint64_t row = 0;
     };
@@ -37,18 +36,26 @@ private:
             return std::tie(grid, row, column) < std::tie(other.grid, other.row, other.column);
         }
     };
+    /// Consecutive points in the same tile.
+    struct Run {
+        TileKey key;
+        std::size_t first = 0;  // among those kept
+        std::size_t end = 0;
+        PointCell low, high;  // of their cells, both included
+    };
 
-    void find_cells(const geometry::TransformedPolygon& a,
-                    const std::vector<BoundaryPoint>& samples, const geometry::Box& within,
-                    const std::vector<geometry::Box>& boxes, const std::vector<Grid>& grids);
-    void trim_to_points(Plan& plan) const;
-    [[nodiscard]] TileKey tile_of(const PointCell& cell) const {
-        return {cell.grid, cell.row / side_, cell.column / side_};
-    }
+    void find_runs(const geometry::TransformedPolygon& a, const std::vector<BoundaryPoint>& samples,
+                   const geometry::Box& within, const std::vector<geometry::Box>& boxes,
+                   const std::vector<Grid>& grids);
+    void add_to_run(std::uint32_t grid, const PointCell& cell);
+    void add_tiles(const std::vector<Grid>& grids, std::uint32_t query, Plan& plan);
+    /// Shrinks a tile's cells to those of the points in it.
+    static void include(const Run& run, Tile& tile);
 
     std::uint32_t side_;
     std::vector<BoundaryPoint> kept_;  // samples that lie within
     std::vector<PointCell> cells_;     // by kept sample
+    std::vector<Run> runs_;            // of them
     std::vector<TileKey> keys_;        // of the tiles, sorted
 };
 

@@ -298,17 +298,23 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
 
 void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& batch) {
     const PlannedQuery* query = nullptr;
-    std::optional<TransformedPolygon> a;
+    std::optional<BoundaryPositions> position;
+    std::uint32_t index = PlannedPoint::no_tile;  // of the tile below
+    Vector origin = Vector::Zero();
     for (const std::uint32_t i : plan.points_by_batch.of(number)) {
         const PlannedPoint& point = plan.points[i];
         const Tile& tile = plan.tiles[point.tile];
+        if (index != point.tile) {
+            index = point.tile;
+            origin = tile.origin();
+        }
         if (query != &plan.queries[tile.query]) {
             query = &plan.queries[tile.query];
-            a.emplace(*query->a, query->pose_a);
+            position.emplace(TransformedPolygon(*query->a, query->pose_a));
         }
-        const Vector local = (position(*a, point.point) - tile.origin()) / tile.grid.cell;
+        const Vector local = ((*position)(point.point) - origin) / tile.grid.cell;
         batch.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
-                                tile_of_plan_[point.tile], 0});
+                                tile_of_plan_[index], 0});
         batch.point_index.push_back(i);
     }
 }

@@ -14,6 +14,17 @@ namespace {
 /// Restores the machine's instruction sets.
 class PushNear : public testing::Test {
 protected:
+    template <class Check>
+    static void on_every_instruction_set(const Check& check) {
+        const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+        ASSERT_FALSE(targets.empty());
+        for (const std::int64_t target : targets) {
+            SCOPED_TRACE(hwy::TargetName(target));
+            hwy::SetSupportedTargetsForTest(target);
+            hwy::GetChosenTarget().Update(target);
+            check();
+        }
+    }
     void TearDown() override {
         hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -99,12 +110,7 @@ std::size_t check_near(test::Random& random, int count) {
 }
 
 TEST_F(PushNear, KeepsWhatIsNearestSomewhereOnEveryInstructionSet) {
-    const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-    ASSERT_FALSE(targets.empty());
-    for (const std::int64_t target : targets) {
-        SCOPED_TRACE(hwy::TargetName(target));
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(target);
+    on_every_instruction_set([] {
         test::Random random(57);
         std::size_t dropped = 0;
         std::size_t all = 0;
@@ -115,7 +121,59 @@ TEST_F(PushNear, KeepsWhatIsNearestSomewhereOnEveryInstructionSet) {
         }
         EXPECT_GT(dropped, all / 2) << "of " << all;
         EXPECT_LT(dropped, all);
-    }
+    });
+}
+
+/// As measure_squared() does it, one edge at a time.
+float squared_distance(const EdgeStack& edges, std::size_t i, float x, float y) {
+    const float to_x = x - edges.number(EdgeStack::start_x)[i];
+    const float to_y = y - edges.number(EdgeStack::start_y)[i];
+    const float along_x = edges.number(EdgeStack::along_x)[i];
+    const float along_y = edges.number(EdgeStack::along_y)[i];
+    const float t = std::clamp(
+        (to_x * along_x + to_y * along_y) * edges.number(EdgeStack::inverse)[i], 0.0F, 1.0F);
+    const float away_x = to_x - t * along_x;
+    const float away_y = to_y - t * along_y;
+    return away_x * away_x + away_y * away_y;
+}
+
+TEST_F(PushNear, MeasuresAndKeepsWithinALimitBitForBitOnEveryInstructionSet) {
+    on_every_instruction_set([] {
+        test::Random random(58);
+        for (int count = 1; count < 60; ++count) {
+            SCOPED_TRACE(count);
+            EdgeStack stack;
+            push_all(random_edges(random, 3), stack);  // belong to an outer list
+            const std::size_t first = stack.size();
+            push_all(random_edges(random, count), stack);
+            const std::size_t end = stack.size();
+            const auto x = static_cast<float>(random.between(-20.0, 20.0));
+            const auto y = static_cast<float>(random.between(-20.0, 20.0));
+            std::vector<float> squared(stack.capacity());
+            const float least = measure_squared(stack, first, end, x, y, squared.data());
+            std::vector<float> expected;
+            for (std::size_t i = first; i < end; ++i) {
+                expected.push_back(squared_distance(stack, i, x, y));
+                ASSERT_EQ(squared[i], expected.back());
+            }
+            ASSERT_EQ(least, *std::min_element(expected.begin(), expected.end()));
+            // Of which some are exactly that far.
+            const float limit = expected[static_cast<std::size_t>(random.whole(0, count - 1))];
+            push_within(stack, first, end, squared.data(), limit);
+            std::size_t place = end;
+            for (std::size_t i = first; i < end; ++i) {
+                if (squared[i] <= limit) {
+                    ASSERT_LT(place, stack.size());
+                    ASSERT_EQ(stack.indices()[place], stack.indices()[i]);
+                    for (std::size_t number = 0; number < EdgeStack::numbers; ++number) {
+                        ASSERT_EQ(stack.number(number)[place], stack.number(number)[i]);
+                    }
+                    ++place;
+                }
+            }
+            ASSERT_EQ(place, stack.size());
+        }
+    });
 }
 
 TEST_F(PushNear, KeepsBothOfTwoWithinTheSlack) {
