@@ -89,6 +89,15 @@ Vector ConvexPiece::middle() const {
     return sum / static_cast<double>(core_.size());
 }
 
+ConvexPiece::Range ConvexPiece::along(const Vector& direction) const {
+    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Vector& corner : corners_) {
+        const double at = direction.dot(corner);
+        range = {std::min(range.least, at), std::max(range.most, at)};
+    }
+    return range;
+}
+
 geometry::Box ConvexPiece::box() const {
     geometry::Box box;
     for (const Vector& corner : corners_) {

@@ -36,6 +36,12 @@ public:
     /// Returns an interior point of the core.
     [[nodiscard]] geometry::Vector middle() const;
     [[nodiscard]] geometry::Box box() const;
+    /// An interval of coordinates along a unit vector.
+    struct Range {
+        double least;
+        double most;
+    };
+    [[nodiscard]] Range along(const geometry::Vector& direction) const;
 
 private:
     using Corners = std::vector<geometry::Vector>;  // counter-clockwise

@@ -9,18 +9,61 @@ namespace {
 
 // Number of edges of each shape.
 constexpr std::size_t max_edges = 128;
-constexpr std::size_t max_edges_of_small = 16;
+constexpr std::size_t max_edges_of_small = 8;
 constexpr std::uint32_t small = 128;
+
+/// A certificate's strips, but for their middles. The edges have these lengths, and run along these
+/// unit vectors.
+CrossingCertificate strips_of(const Vector& along_a, double length_a, const Vector& along_b,
+                              double length_b) {
+    // A's edge crosses the line of B's edge while B's normal separates its ends, and the other way
+    // round.
+    const double sine = std::abs(geometry::cross(along_a, along_b));
+    CrossingCertificate pair;
+    pair.across_a = {-along_a.y(), along_a.x()};
+    pair.across_b = {-along_b.y(), along_b.x()};
+    pair.half_a = 0.5 * sine * length_b;
+    pair.half_b = 0.5 * sine * length_a;
+    return pair;
+}
+
+void set_middles(const Vector& middle_a, const Vector& middle_b, CrossingCertificate& pair) {
+    const Vector between = middle_b - middle_a;
+    pair.middle_a = pair.across_a.dot(between);
+    pair.middle_b = pair.across_b.dot(between);
+}
+
+Vector middle_of(const simd::TransformedEdges& edges, std::uint32_t edge) {
+    return 0.5 * (edges.start(edge) + edges.end(edge));
+}
 
 }  // namespace
 
+CrossingCertificate crossing_of(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                                const simd::EdgePair& pair) {
+    const Vector along_a = a.end(pair.first) - a.start(pair.first);
+    const Vector along_b = b.end(pair.second) - b.start(pair.second);
+    const double length_a = along_a.norm();
+    const double length_b = along_b.norm();
+    if (!(length_a > 0.0 && length_b > 0.0)) {
+        return {Vector::UnitX(), Vector::UnitY()};
+    }
+    CrossingCertificate crossing =
+        strips_of(along_a / length_a, length_a, along_b / length_b, length_b);
+    set_middles(middle_of(a, pair.first), middle_of(b, pair.second), crossing);
+    return crossing;
+}
+
 void CrossingCertificates::find_longest(const simd::TransformedEdges& edges,
-                                        std::vector<Edge>& longest) {
+                                        const geometry::Box& reach, std::vector<Edge>& longest) {
     longest.clear();
     for (std::uint32_t i = 0; i < edges.count; ++i) {
-        const double length = (edges.end(i) - edges.start(i)).norm();
-        if (length > 0.0) {
-            longest.push_back({i, length});
+        const Vector start = edges.start(i);
+        const Vector end = edges.end(i);
+        const double length = (end - start).norm();
+        if (length > 0.0 &&
+            reach.intersects(geometry::Box(start.cwiseMin(end), start.cwiseMax(end)))) {
+            longest.push_back({i, length, Vector::Zero()});
         }
     }
     const std::size_t count =
@@ -31,43 +74,32 @@ void CrossingCertificates::find_longest(const simd::TransformedEdges& edges,
                           return i.length > j.length || (i.length == j.length && i.index < j.index);
                       });
     longest.resize(count);
+    for (Edge& edge : longest) {
+        edge.along = (edges.end(edge.index) - edges.start(edge.index)) / edge.length;
+    }
 }
 
 void CrossingCertificates::find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                                double least, WorkBudget& work,
+                                double longest, double least, WorkBudget& work,
                                 std::vector<CrossingCertificate>& certificates) {
     certificates.clear();
-    find_longest(a, of_a_);
-    find_longest(b, of_b_);
+    find_longest(a, geometry::grown(b.box, longest), of_a_);
+    find_longest(b, geometry::grown(a.box, longest), of_b_);
     work.add(a.count + b.count + of_a_.size() * of_b_.size());
     for (const Edge& edge_a : of_a_) {
-        const Vector start_a = a.start(edge_a.index);
-        const Vector along_a = (a.end(edge_a.index) - start_a) / edge_a.length;
         if (0.5 * edge_a.length <= least) {
             break;
         }
         for (const Edge& edge_b : of_b_) {
-            const Vector start_b = b.start(edge_b.index);
-            const Vector along_b = (b.end(edge_b.index) - start_b) / edge_b.length;
-            const double sine = std::abs(geometry::cross(along_a, along_b));
-            CrossingCertificate pair;
-            pair.half_a = 0.5 * sine * edge_b.length;
-            pair.half_b = 0.5 * sine * edge_a.length;
             if (0.5 * edge_b.length <= least) {
                 break;
             }
-            if (std::min(pair.half_a, pair.half_b) <= least) {
-                continue;
+            CrossingCertificate pair =
+                strips_of(edge_a.along, edge_a.length, edge_b.along, edge_b.length);
+            if (std::min(pair.half_a, pair.half_b) > least) {
+                set_middles(middle_of(a, edge_a.index), middle_of(b, edge_b.index), pair);
+                certificates.push_back(pair);
             }
-            // A's edge crosses the line of B's edge while B's normal separates its ends, and the
-            // other way round.
-            pair.across_a = {-along_a.y(), along_a.x()};
-            pair.across_b = {-along_b.y(), along_b.x()};
-            const Vector between = 0.5 * (b.start(edge_b.index) + b.end(edge_b.index)) -
-                                   0.5 * (start_a + a.end(edge_a.index));
-            pair.middle_a = pair.across_a.dot(between);
-            pair.middle_b = pair.across_b.dot(between);
-            certificates.push_back(pair);
         }
     }
 }

@@ -34,21 +34,41 @@ struct CrossingCertificate {
         return {std::min(by_a - extent_a, by_b - extent_b),
                 std::min(by_a + extent_a, by_b + extent_b)};
     }
+    /// The part of a rectangle around the centre that is certified, 0 to 1, roughly; 0 or less if
+    /// the centre is not.
+    [[nodiscard]] double part_of(const geometry::Vector& centre,
+                                 const geometry::Vector& half) const {
+        const double by_a = half_a - std::abs(across_a.dot(centre) - middle_a);
+        const double by_b = half_b - std::abs(across_b.dot(centre) - middle_b);
+        if (std::min(by_a, by_b) <= 0.0) {
+            return std::min(by_a, by_b);
+        }
+        return std::min(1.0, by_a / across_a.cwiseAbs().dot(half)) *
+               std::min(1.0, by_b / across_b.cwiseAbs().dot(half));
+    }
 };
+
+/// The certificate of an edge of A and one of B; without any reach if they are parallel.
+[[nodiscard]] CrossingCertificate crossing_of(const simd::TransformedEdges& a,
+                                              const simd::TransformedEdges& b,
+                                              const simd::EdgePair& pair);
 
 /// Finds the certificates of the longest edges of two shapes. Reuses its memory.
 class CrossingCertificates {
 public:
-    /// Writes the certificates that reach farther than `least` for some translation.
-    void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double least,
-              WorkBudget& work, std::vector<CrossingCertificate>& certificates);
+    /// Writes the certificates that reach farther than `least`, for translations up to `longest`.
+    void find(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double longest,
+              double least, WorkBudget& work, std::vector<CrossingCertificate>& certificates);
 
 private:
     struct Edge {
         std::uint32_t index = 0;
         double length = 0.0;
+        geometry::Vector along = geometry::Vector::Zero();  ///< unit vector
     };
-    static void find_longest(const simd::TransformedEdges& edges, std::vector<Edge>& longest);
+    /// Of those that come to a box.
+    static void find_longest(const simd::TransformedEdges& edges, const geometry::Box& reach,
+                             std::vector<Edge>& longest);
 
     std::vector<Edge> of_a_;
     std::vector<Edge> of_b_;

@@ -10,9 +10,8 @@ namespace {
 
 using geometry::Vector;
 
-// One disc for so many edges; if there are many edges, this many discs.
-constexpr std::uint32_t edges_per_disc = 4;
-constexpr std::uint32_t many_edges = 128;
+// One disc for so many edges, but no more than this many discs.
+constexpr std::uint32_t edges_per_disc = 8;
 constexpr std::uint32_t max_discs = 128;
 
 // Number of vertices, or of smaller groups, per group.
@@ -21,8 +20,8 @@ constexpr std::uint32_t group = 8;
 // More than this many are grouped.
 constexpr std::uint32_t most_in_top = 32;
 
-// A disc shrinks until it contains no boundary point; three times usually suffice.
-constexpr int max_shrinks = 12;
+// A disc shrinks until it contains no boundary point, but no more often; what is left counts.
+constexpr int max_shrinks = 3;
 
 void add_largest_disc(const simd::TransformedEdges& edges, std::uint32_t edge, WorkBudget& work,
                       std::vector<OverlapCertificate>& certificates) {
@@ -35,7 +34,7 @@ void add_largest_disc(const simd::TransformedEdges& edges, std::uint32_t edge, W
     }
     const Vector middle = 0.5 * (start + end);
     Vector inward = Vector(-along.y(), along.x()) / length;
-    double radius = 0.5 * edges.box.diagonal().norm();
+    double radius = 0.5 * edges.box.sizes().minCoeff();  // no disc inside is larger
     // A larger step decides the side more reliably, provided nothing lies in between.
     const double probe = 1e-6 * length;
     const Vector left = middle + probe * inward;
@@ -145,21 +144,39 @@ void add_groups(std::uint32_t first, std::vector<OverlapCertificate>& certificat
 
 }  // namespace
 
-void add_certificates(const simd::TransformedEdges& edges, WorkBudget& work,
-                      std::vector<OverlapCertificate>& certificates,
+void add_certificates(const simd::TransformedEdges& edges, const geometry::Box& reach,
+                      WorkBudget& work, std::vector<OverlapCertificate>& certificates,
                       std::vector<std::uint32_t>& top) {
+    const auto middle_is_in_reach = [&](std::uint32_t edge) {
+        return reach.contains(0.5 * (edges.start(edge) + edges.end(edge)));
+    };
+    std::uint32_t in_reach = 0;
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        in_reach += middle_is_in_reach(i) ? 1U : 0U;
+    }
     auto first = static_cast<std::uint32_t>(certificates.size());
-    const std::uint32_t stride =
-        edges.count <= many_edges ? edges_per_disc : (edges.count + max_discs - 1) / max_discs;
-    for (std::uint32_t i = 0; i < edges.count; i += stride) {
-        add_largest_disc(edges, i, work, certificates);
+    const std::uint32_t stride = std::max(edges_per_disc, (in_reach + max_discs - 1) / max_discs);
+    std::uint32_t next = 0;
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        if (middle_is_in_reach(i) && next++ % stride == 0) {
+            add_largest_disc(edges, i, work, certificates);
+        }
     }
     add_groups(first, certificates, top);
     first = static_cast<std::uint32_t>(certificates.size());
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
-        OverlapCertificate vertex;
-        vertex.centre = edges.start(i);
-        certificates.push_back(vertex);
+    const geometry::Polygon& polygon = edges.placed.polygon();
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        std::uint32_t before = polygon.ring_end(ring) - 1;
+        for (std::uint32_t i = polygon.ring_begin(ring); i < polygon.ring_end(ring); ++i) {
+            OverlapCertificate vertex;
+            vertex.centre = edges.start(i);
+            if (reach.contains(vertex.centre)) {
+                vertex.before = edges.start(before) - vertex.centre;
+                vertex.after = edges.end(i) - vertex.centre;
+                certificates.push_back(vertex);
+            }
+            before = i;
+        }
     }
     add_groups(first, certificates, top);
 }

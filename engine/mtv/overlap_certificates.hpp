@@ -21,13 +21,15 @@ struct OverlapCertificate {
     std::uint32_t first = 0;  ///< of a group: its first part, in the array of all certificates
     std::uint32_t parts = 0;  ///< number of consecutive parts; 0 if it is no group
     bool is_disc = false;     ///< or a group of discs; otherwise a vertex or a group of vertices
+    geometry::Vector before = geometry::Vector::Zero();  ///< from a vertex to the one before it
+    geometry::Vector after = geometry::Vector::Zero();   ///< and to the one after it
 };
 
 /// Appends discs that touch the middle of some edges and are as large as fit inside, all vertices,
 /// and groups of eight consecutive ones, of eight such groups, and so on. Lists in `top` those that
-/// contain all.
-void add_certificates(const simd::TransformedEdges& edges, WorkBudget& work,
-                      std::vector<OverlapCertificate>& certificates,
+/// contain all. Leaves out what is at an edge or a vertex outside of `reach`.
+void add_certificates(const simd::TransformedEdges& edges, const geometry::Box& reach,
+                      WorkBudget& work, std::vector<OverlapCertificate>& certificates,
                       std::vector<std::uint32_t>& top);
 
 }  // namespace nearfield::mtv

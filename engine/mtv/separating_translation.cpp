@@ -17,7 +17,15 @@ namespace {
 constexpr int even_directions = 8;
 constexpr std::uint64_t part_of_directions = 16;
 constexpr std::uint64_t work_before_looking = 8;
-constexpr std::uint64_t part_of_tests = 8;
+
+// No more than half of the work goes into tests of cells' middles.
+constexpr std::uint64_t part_of_tests = 2;
+
+// Of so many pairs of edges that cross, the one that certifies most is used.
+constexpr std::size_t max_crossings = 64;
+
+// If a crossing found before certifies more of a cell than this, no other is looked for.
+constexpr double enough_of_rest = 0.05;
 
 // Maximum number of slides of the best translation along a wall, from corner to corner.
 constexpr int max_slides = 16;
@@ -34,7 +42,7 @@ constexpr double max_clearances = 262144.0;  // in the last trial
 
 // Transforming an edge, inserting it into a tree and testing it costs about as much as comparing it
 // with this many others.
-constexpr std::uint64_t work_of_test = 8;
+constexpr std::uint64_t work_of_test = 4;
 
 Vector along(const simd::TransformedEdges& edges, std::uint32_t edge) {
     return edges.end(edge) - edges.start(edge);
@@ -225,12 +233,83 @@ double SeparatingTranslationFinder::nearest_open() {
         }
         if (work_.is_used_up()) {
             open = nearest;  // it may separate the shapes
-        } else if (separates(piece.middle())) {
+        } else if (!is_crossed(piece.middle()) && separates(piece.middle())) {
             go_to_nearest(piece);
             open = nearest;
         }
     }
     return open;
+}
+
+bool SeparatingTranslationFinder::find_crossing(const Vector& shift, CrossingCertificate& best) {
+    checkpoint();
+    const geometry::Box box = cover_.rest().box();
+    const Vector half = 0.5 * box.diagonal();
+    double largest = 0.0;
+    work_.add(crossings_.size() / 4);
+    for (const CrossingCertificate& crossing : crossings_) {
+        const double part = crossing.part_of(shift, half);
+        if (part > largest) {
+            largest = part;
+            best = crossing;
+        }
+    }
+    if (largest > enough_of_rest) {
+        return true;
+    }
+    const std::uint64_t before = work_.used();
+    work_.add(work_of_test * (a_->count + b_->count));
+    std::size_t tried = 0;
+    const double found = largest;
+    static_cast<void>(pairs_.for_each(move_a(shift), *b_, [&](const simd::EdgePair& pair) {
+        const CrossingCertificate crossing = crossing_of(*a_, *b_, pair);
+        const double part = crossing.part_of(shift, half);
+        if (part > largest) {
+            largest = part;
+            best = crossing;
+        }
+        return ++tried < max_crossings && largest < 1.0;
+    }));
+    work_.add(tried);
+    used_for_tests_ += work_.used() - before;
+    if (largest > found) {
+        crossings_.push_back(best);
+    }
+    return largest > 0.0;
+}
+
+bool SeparatingTranslationFinder::is_crossed(const Vector& shift) {
+    work_.add(crossings_.size() / 4);
+    return std::any_of(crossings_.begin(), crossings_.end(),
+                       [&](const CrossingCertificate& crossing) {
+                           return crossing.reach(shift, Vector::Zero()).least > 0.0;
+                       });
+}
+
+bool SeparatingTranslationFinder::settle_by_crossings(const TranslationCell& cell) {
+    CrossingCertificate crossing;
+    while (used_for_tests_ < work_.used() / part_of_tests &&
+           find_crossing(cover_.rest().middle(), crossing)) {
+        if (!cover_.cut_off(crossing)) {
+            return cover_.divide(cell, crossing);
+        }
+        if (cover_.rest().is_empty()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void SeparatingTranslationFinder::test_middle() {
+    if (used_for_tests_ >= work_.used() / part_of_tests) {
+        return;
+    }
+    const std::uint64_t before = work_.used();
+    const bool is_shorter = accept(cover_.rest().middle());
+    used_for_tests_ += work_.used() - before;
+    if (is_shorter) {
+        descend(best_.normalized());
+    }
 }
 
 void SeparatingTranslationFinder::find_lower_bound(double tolerance) {
@@ -240,7 +319,9 @@ void SeparatingTranslationFinder::find_lower_bound(double tolerance) {
     cover_.begin(*a_, *b_, length_, a_->rounding + b_->rounding, clearance_, work_);
     double open = length_;  // length of the shortest that may separate the shapes, so far
     bool has_looked_around = false;
-    std::uint64_t used_for_tests = 0;
+    const bool has_many_edges = !is_small(*a_) || !is_small(*b_);
+    used_for_tests_ = 0;
+    crossings_.clear();
     while (!cover_.is_empty()) {
         checkpoint();
         const TranslationCell square = cover_.take_nearest();
@@ -252,6 +333,9 @@ void SeparatingTranslationFinder::find_lower_bound(double tolerance) {
             look_around();
             has_looked_around = true;
         }
+        if (cover_.overlaps(square) || (has_many_edges && settle_by_crossings(square))) {
+            continue;
+        }
         const CellState word = cover_.ask(square);
         if (word == CellState::overlapping) {
             continue;
@@ -260,13 +344,8 @@ void SeparatingTranslationFinder::find_lower_bound(double tolerance) {
             open = std::min(open, nearest_open());
             continue;
         }
-        if (word == CellState::unknown && used_for_tests < work_.used() / part_of_tests) {
-            const std::uint64_t before = work_.used();
-            const bool is_shorter = accept(cover_.rest().middle());
-            used_for_tests += work_.used() - before;
-            if (is_shorter) {
-                descend(best_.normalized());
-            }
+        if (word == CellState::unknown) {
+            test_middle();
         }
         cover_.cut(square);
     }
@@ -292,6 +371,7 @@ SeparatingTranslation SeparatingTranslationFinder::find(const simd::TransformedE
         return way;
     }
     go_past_box();
+    shifts_.begin(a, b, length_);
     try {
         descend(best_.normalized());
         find_lower_bound(limits.tolerance);

@@ -3,6 +3,7 @@
 #include <engine/mtv/translation_cells.hpp>
 #include <engine/mtv/translations.hpp>
 #include <engine/mtv/work_budget.hpp>
+#include <engine/narrowphase/candidate_edge_pairs.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
@@ -76,6 +77,16 @@ private:
     /// Tests which of the pieces separate the shapes; returns the distance of the nearest, or the
     /// length.
     [[nodiscard]] double nearest_open();
+    /// Writes, of the crossings found so far, and if none certifies a translation, of some edges
+    /// that cross after it, the one that certifies most of the rest of a cell; false if none does.
+    [[nodiscard]] bool find_crossing(const geometry::Vector& shift, CrossingCertificate& best);
+    /// Cuts crossings off a cell that the certificates did not decide; true if nothing is left, or
+    /// what is left was put back.
+    [[nodiscard]] bool settle_by_crossings(const TranslationCell& cell);
+    /// True if a crossing found so far certifies a translation.
+    [[nodiscard]] bool is_crossed(const geometry::Vector& shift);
+    /// Tries the middle of what is left of a cell.
+    void test_middle();
     /// Raises the lower bound, until it is within the tolerance of the length or the work is used
     /// up.
     void find_lower_bound(double tolerance);
@@ -90,8 +101,11 @@ private:
     WorkBudget work_;
     std::uint64_t max_work_ = 0;
     std::uint64_t used_for_directions_ = 0;
+    std::uint64_t used_for_tests_ = 0;
     simd::TransformedInstances moved_;
     narrowphase::OverlapTest overlap_test_;
+    narrowphase::CandidateEdgePairs pairs_;
+    std::vector<CrossingCertificate> crossings_;  // found so far
     TranslationFinder shifts_;
     TranslationSearch cover_;
 };

@@ -29,11 +29,22 @@ constexpr double least_crossing = 0.03;
 // No direction weighs less than this part of both.
 constexpr double least_normal = 0.02;
 
-// Cells overlap by so many margins.
-constexpr double overlap = 2.0;
+// Cells overlap by so many margins: by more than one, so that nothing is in the rim of both; by
+// less than two, less the rounding of lines, so that what lies between a line and a border on it
+// has no core.
+constexpr double overlap = 1.25;
 
 bool is_farther(const TranslationCell& i, const TranslationCell& j) {
     return i.nearest > j.nearest;
+}
+
+/// The unit vectors to the left of all edges.
+void find_normals(const simd::TransformedEdges& edges, std::vector<Vector>& normals) {
+    normals.clear();
+    for (std::uint32_t i = 0; i < edges.count; ++i) {
+        const Vector along = edges.end(i) - edges.start(i);
+        normals.push_back(Vector(-along.y(), along.x()).normalized());
+    }
 }
 
 /// The distance of a rectangle from 0.
@@ -53,10 +64,19 @@ void TranslationSearch::begin(const simd::TransformedEdges& a, const simd::Trans
     edges_.resize(std::max(edges_.size(), simd::padded(std::max(a.count, b.count))));
     certificates_.clear();
     top_.clear();
-    add_certificates(a, work, certificates_, top_);
+    const double reach = longest + 4.0 * margin;
+    add_certificates(a, geometry::grown(b.box, reach), work, certificates_, top_);
     of_a_ = static_cast<std::uint32_t>(certificates_.size());
-    add_certificates(b, work, certificates_, top_);
-    crossing_finder_.find(a, b, least_crossing * longest, work, crossings_);
+    add_certificates(b, geometry::grown(a.box, reach), work, certificates_, top_);
+    crossing_finder_.find(a, b, longest, least_crossing * longest, work, crossings_);
+    if (is_small(a)) {
+        in_reach_of_b_.pick(a, geometry::extent_of(geometry::grown(b.box, reach)));
+    }
+    if (is_small(b)) {
+        in_reach_of_a_.pick(b, geometry::extent_of(geometry::grown(a.box, reach)));
+    }
+    find_normals(a, normals_a_);
+    find_normals(b, normals_b_);
     asked_.clear();
     for (const std::uint32_t certificate : top_) {
         asked_.push_back({certificate, 0, 0.0, std::numeric_limits<double>::infinity(),
@@ -106,7 +126,7 @@ void TranslationSearch::ask_depth(Asked& asked, const Vector& shift) {
     // The side stays the same on a way shorter than the distance.
     bool is_inside = asked.depth > 0.0;
     if (asked.moved + roundings_of_depth * rounding_ >= std::abs(asked.depth)) {
-        is_inside = contains(other, place);
+        is_inside = other.box.contains(place) && contains(other, place);
         work_->add(work_of_search(other.count));
     }
     const double distance = std::sqrt(nearest.squared);
@@ -175,21 +195,23 @@ bool TranslationSearch::overlap_throughout(const TranslationCell& cell, double r
     return false;
 }
 
-CellState TranslationSearch::ask(const TranslationCell& cell) {
+bool TranslationSearch::overlaps(const TranslationCell& cell) {
     const Vector half = cell.half.array() + overlap * margin_;
     const double radius = half.norm() + roundings_of_depth * rounding_;
     // A cell within the margin holds nothing that its neighbours do not hold.
     if (half.maxCoeff() <= (overlap + 1.0) * margin_ || cross_throughout(cell, half) ||
         overlap_throughout(cell, radius)) {
-        return CellState::overlapping;
+        return true;
     }
     rest_.begin(cell.centre, half, margin_);
-    // Where no wall is found, there is none for the parts either, mostly.
-    const List& list = lists_[cell.list];
     in_vain_ = false;
-    if (list.in_vain) {
-        normals_ = list.normals;
-    } else {
+    normals_ = lists_[cell.list].normals;
+    return false;
+}
+
+CellState TranslationSearch::ask(const TranslationCell& cell) {
+    // Where no wall is found, there is none for the parts either, mostly.
+    if (!lists_[cell.list].in_vain) {
         // The deepest certificates usually decide the parts as well.
         const auto first = left_.begin();
         const auto sorted = first + static_cast<std::ptrdiff_t>(std::min(left_.size(), max_sorted));
@@ -216,13 +238,10 @@ CellState TranslationSearch::ask(const TranslationCell& cell) {
     return CellState::unknown;
 }
 
-void TranslationSearch::cut(const TranslationCell& cell) {
+std::uint32_t TranslationSearch::keep_answers(const TranslationCell& cell) {
     const auto list = static_cast<std::uint32_t>(lists_.size());
     lists_.push_back({asked_.size(), 0, crossings_asked_.size(), crossings_left_.size(),
                       cell.centre, in_vain_, normals_});
-    const geometry::Box box = rest_.box();
-    const Vector centre = box.center();
-    Vector half = (0.5 * box.diagonal().array() - overlap * margin_).max(0.0);
     for (const Asked& asked : left_) {
         if (asked.certificate != dropped) {
             asked_.push_back(asked);
@@ -230,6 +249,71 @@ void TranslationSearch::cut(const TranslationCell& cell) {
     }
     lists_.back().count = asked_.size() - lists_.back().first;
     crossings_asked_.insert(crossings_asked_.end(), crossings_left_.begin(), crossings_left_.end());
+    return list;
+}
+
+TranslationSearch::Sides TranslationSearch::sides_of(const CrossingCertificate& crossing) const {
+    const double inside = 0.5 * rounding_;
+    const double half_a = crossing.half_a - inside;
+    const double half_b = crossing.half_b - inside;
+    const ConvexPiece::Range a = rest_.along(crossing.across_a);
+    const ConvexPiece::Range b = rest_.along(crossing.across_b);
+    const bool in_a = a.least >= crossing.middle_a - half_a && a.most <= crossing.middle_a + half_a;
+    const bool in_b = b.least >= crossing.middle_b - half_b && b.most <= crossing.middle_b + half_b;
+    Sides sides;
+    sides.across = in_b ? crossing.across_a : crossing.across_b;
+    const double middle = in_b ? crossing.middle_a : crossing.middle_b;
+    const double half = in_b ? half_a : half_b;
+    const ConvexPiece::Range& range = in_b ? a : b;
+    sides.low = middle - half;
+    sides.high = middle + half;
+    sides.before = range.least < sides.low;
+    sides.beyond = range.most > sides.high;
+    sides.are_whole = (in_a || in_b) && range.least < sides.high && range.most > sides.low;
+    return sides;
+}
+
+bool TranslationSearch::cut_off(const CrossingCertificate& crossing) {
+    const Sides sides = sides_of(crossing);
+    if (!sides.are_whole || (sides.before && sides.beyond)) {
+        return false;
+    }
+    if (!sides.before && !sides.beyond) {
+        rest_.clear();
+    } else if (sides.beyond) {
+        rest_.keep(sides.across, sides.high);
+    } else {
+        rest_.keep(-sides.across, -sides.low);
+    }
+    return true;
+}
+
+bool TranslationSearch::divide(const TranslationCell& cell, const CrossingCertificate& crossing) {
+    const Sides sides = sides_of(crossing);
+    if (!sides.are_whole || !sides.before || !sides.beyond) {
+        return false;
+    }
+    const std::uint32_t list = keep_answers(cell);
+    beyond_.keep_of(rest_, sides.across, sides.high);
+    before_.keep_of(rest_, -sides.across, -sides.low);
+    push_piece(beyond_, cell.nearest, list);
+    push_piece(before_, cell.nearest, list);
+    return true;
+}
+
+void TranslationSearch::push_piece(const ConvexPiece& piece, double nearest, std::uint32_t list) {
+    if (!piece.is_empty()) {
+        const geometry::Box box = piece.box();
+        push({box.center(), (0.5 * box.diagonal().array() - overlap * margin_).max(0.0),
+              std::max(nearest, piece.nearest().norm()), list});
+    }
+}
+
+void TranslationSearch::cut(const TranslationCell& cell) {
+    const std::uint32_t list = keep_answers(cell);
+    const geometry::Box box = rest_.box();
+    const Vector centre = box.center();
+    Vector half = (0.5 * box.diagonal().array() - overlap * margin_).max(0.0);
     const double nearest = std::max(cell.nearest, rest_.nearest().norm());
     if (half.prod() <= small_rest * cell.half.prod()) {
         push({centre, half, nearest, list});

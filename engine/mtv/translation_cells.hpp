@@ -4,6 +4,7 @@
 #include <engine/mtv/crossing_certificates.hpp>
 #include <engine/mtv/overlap_certificates.hpp>
 #include <engine/mtv/work_budget.hpp>
+#include <engine/simd/edge_subset.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstddef>
@@ -35,8 +36,9 @@ enum class CellState : std::uint8_t {
 /// Whether the shapes overlap changes only where a vertex of one crosses an edge of the other. A
 /// certificate deep enough in the other shape decides a cell at once. A vertex with exactly one
 /// edge of the other shape in reach (or two, around a reflex corner) decides the part of the cell
-/// on one side of a line, and that part is cut off. What is left is split along the lines of the
-/// other vertices and edges in reach, if they are few, into pieces that are uniform.
+/// on one side of a line, and that part is cut off; so are, on demand, the translations for which
+/// two given edges cross. What is left is split along the lines of the other vertices and edges in
+/// reach, if they are few, into pieces that are uniform.
 ///
 /// A depth changes no faster than the translation, so a certificate's last answer bounds the next:
 /// each cell asks those that may decide it, most promising first, and passes the answers on.
@@ -53,15 +55,24 @@ public:
 
     [[nodiscard]] bool is_empty() const { return cells_.empty(); }
     [[nodiscard]] TranslationCell take_nearest();
+    /// True if a certificate decides the cell. Otherwise all of it is the rest.
+    [[nodiscard]] bool overlaps(const TranslationCell& cell);
+    /// Cuts off what walls decide of a cell that the certificates did not decide.
     [[nodiscard]] CellState ask(const TranslationCell& cell);
-    /// The rest of the last cell queried. Not empty unless its state was `overlapping`.
+    /// The rest of the last cell queried. Empty if its state was `overlapping`.
     [[nodiscard]] const ConvexPiece& rest() const { return rest_; }
     /// The pieces of the rest, if the state was `uniform`.
     [[nodiscard]] std::span<const ConvexPiece> pieces() const {
         return std::span(pieces_).first(piece_count_);
     }
+    /// Cuts a crossing's translations off the rest of the last cell queried, if what is left is
+    /// convex; true if that is less than before.
+    [[nodiscard]] bool cut_off(const CrossingCertificate& crossing);
     /// Puts back the parts of the last cell queried.
     void cut(const TranslationCell& cell);
+    /// Puts back what two parallel sides of a crossing's translations leave of the rest; false if
+    /// they do not divide it.
+    [[nodiscard]] bool divide(const TranslationCell& cell, const CrossingCertificate& crossing);
 
 private:
     /// Depths are off by less than this many roundings.
@@ -90,9 +101,10 @@ private:
         bool in_vain = false;      ///< walls were looked for in that cell, and none found
         geometry::Vector normals;  ///< as normals_, of that cell
     };
+    /// A line of translations, normal . translation = at, where a vertex comes to an edge.
     struct Line {
-        geometry::Vector start;
         geometry::Vector normal;
+        double at = 0.0;
     };
     /// A rectangle of translations.
     struct Focus {
@@ -100,10 +112,26 @@ private:
         geometry::Vector half;
     };
 
+    /// The translations that a crossing certifies, between two parallel sides.
+    struct Sides {
+        geometry::Vector across;  ///< unit normal of the sides
+        double low = 0.0;         ///< coordinates of the sides along it
+        double high = 0.0;
+        bool before = false;     ///< the rest of the last cell queried has a part before the sides
+        bool beyond = false;     ///< and one beyond
+        bool are_whole = false;  ///< between the sides, all of the rest is certified
+    };
+
+    [[nodiscard]] Sides sides_of(const CrossingCertificate& crossing) const;
     [[nodiscard]] bool is_of_a(std::uint32_t certificate) const { return certificate < of_a_; }
     /// The shape that a certificate is about.
     [[nodiscard]] const simd::TransformedEdges& other_of(std::uint32_t certificate) const {
         return is_of_a(certificate) ? *b_ : *a_;
+    }
+    /// The unit vector to the left of an edge of that shape; 0 if the edge has no length.
+    [[nodiscard]] const geometry::Vector& normal_of(std::uint32_t certificate,
+                                                    std::uint32_t edge) const {
+        return is_of_a(certificate) ? normals_b_[edge] : normals_a_[edge];
     }
     /// The certificate's centre after a translation, in the coordinates of the other shape.
     [[nodiscard]] geometry::Vector place_of(std::uint32_t certificate,
@@ -115,10 +143,15 @@ private:
     [[nodiscard]] bool cross_throughout(const TranslationCell& cell, const geometry::Vector& half);
     /// True if a certificate decides the cell. Fills left_ with those that matter.
     [[nodiscard]] bool overlap_throughout(const TranslationCell& cell, double radius);
+    /// Writes the edges of the other shape that intersect a rectangle to edges_; returns their
+    /// number.
+    [[nodiscard]] std::uint32_t find_edges_in(std::uint32_t certificate,
+                                              const geometry::Vector& centre,
+                                              const geometry::Vector& half);
     /// The box of the rest, a little larger.
     [[nodiscard]] Focus focus_of_rest() const;
-    /// Cuts off the parts of a cell that vertices decide; lists the other vertices in undecided_.
-    /// False if there are too many.
+    /// Cuts off the parts of a cell that vertices decide; lists the lines of the other vertices in
+    /// lines_, and groups in undecided_. False if there are too many.
     [[nodiscard]] bool cut_off_walls(const TranslationCell& cell);
     /// What a vertex decides: nothing in reach and outside; nothing in reach and inside; a part was
     /// cut off; or not known.
@@ -133,8 +166,8 @@ private:
     [[nodiscard]] Wall expand(std::uint32_t index, const TranslationCell& cell, const Focus& focus);
     [[nodiscard]] bool is_inside(const Asked& vertex, const TranslationCell& cell,
                                  const geometry::Vector& shift);
-    /// Adds those of the first edges in edges_.
-    void add_normals(const simd::TransformedEdges& edges, std::uint32_t count);
+    /// Of the first edges in edges_, adds the lines where the vertex may come to them from outside.
+    void add_lines(const Asked& vertex, const Focus& focus, std::uint32_t count);
     /// Cuts off the side of a line through `start` where the vertex is inside.
     void cut_off(const Asked& vertex, const Focus& focus, const geometry::Vector& outwards,
                  const geometry::Vector& start);
@@ -143,6 +176,10 @@ private:
     /// True if the line has something on both sides.
     [[nodiscard]] bool split(const geometry::Vector& direction, double at);
     void add_piece(const ConvexPiece& piece);
+    /// Keeps what certificates answered for the parts of the last cell queried; returns the list.
+    [[nodiscard]] std::uint32_t keep_answers(const TranslationCell& cell);
+    /// Puts back the box of a piece of the last cell queried.
+    void push_piece(const ConvexPiece& piece, double nearest, std::uint32_t list);
     void push(const TranslationCell& cell);
 
     const simd::TransformedEdges* a_ = nullptr;
@@ -153,6 +190,10 @@ private:
     std::vector<OverlapCertificate> certificates_;  // of A, then of B
     std::uint32_t of_a_ = 0;                        // number of A's certificates
     std::vector<std::uint32_t> top_;                // initial list
+    std::vector<geometry::Vector> normals_a_;       // of the edges of A
+    std::vector<geometry::Vector> normals_b_;
+    simd::EdgeSubset in_reach_of_a_;  // edges of B that A comes to; unset if B is not small
+    simd::EdgeSubset in_reach_of_b_;
     CrossingCertificates crossing_finder_;
     std::vector<CrossingCertificate> crossings_;
     std::vector<TranslationCell> cells_;  // a heap
@@ -161,11 +202,10 @@ private:
     std::vector<List> lists_;
     std::vector<Asked> left_;  // relevant certificates of the last cell queried
     std::vector<std::uint32_t> crossings_left_;
-    std::vector<std::uint32_t> undecided_;                 // vertices
     geometry::Vector normals_ = geometry::Vector::Zero();  // of walls in reach, absolute values
-    bool in_vain_ = false;           // as of a list, for the last cell queried
-    bool has_cut_ = false;           // walls of it
-    std::uint32_t has_normals_ = 0;  // of so many vertices
+    std::vector<std::uint32_t> undecided_;                 // groups of vertices
+    bool in_vain_ = false;  // as of a list, for the last cell queried
+    bool has_cut_ = false;  // walls of it
     std::vector<Line> lines_;
     ConvexPiece rest_;                 // of the last cell queried
     std::vector<ConvexPiece> pieces_;  // the first piece_count_ are in use

@@ -9,48 +9,51 @@ namespace {
 
 using geometry::Vector;
 
-// Walls are looked for until so many vertices could not be cut off.
+// Walls are looked for until so many groups of vertices, or the vertices of so many lines, could
+// not be cut off.
 constexpr std::size_t max_undecided = 10;
-
-// Maximum number of lines that split the rest of a cell; if there are more, it is cut.
-constexpr std::size_t max_lines = 6;
+constexpr std::size_t max_listed = 16;
 
 // Groups with a larger spread, in half sides of a cell, are replaced by their parts.
 constexpr double max_spread = 0.5;
 
-// So many edges near each of so many vertices decide in which direction a cell is cut.
-constexpr std::uint32_t max_normals = 24;
-constexpr std::uint32_t max_vertices_of_normals = 4;
+// Maximum number of lines that split the rest of a cell; if there are more, it is cut.
+constexpr std::size_t max_lines = 6;
 
-// Lines whose angle has a smaller sine are parallel.
-constexpr double parallel = 1e-6;
+}  // namespace
 
-/// The unit vector to the left of a direction.
-Vector left_of(const Vector& along) {
-    return Vector(-along.y(), along.x()).normalized();
-}
-
-/// Lists the edges that intersect a rectangle.
-std::uint32_t find_edges_in(const simd::TransformedEdges& edges, const Vector& centre,
-                            const Vector& half, std::uint32_t* found) {
-    const simd::Extent box{centre.x() - half.x(), centre.y() - half.y(), centre.x() + half.x(),
-                           centre.y() + half.y()};
-    const std::uint32_t count = is_small(edges)
-                                    ? simd::kernels::find_edges_in(edges, box, found)
-                                    : simd::kernels::find_edges_in(edges.tree(), box, found);
+std::uint32_t TranslationSearch::find_edges_in(std::uint32_t certificate, const Vector& centre,
+                                               const Vector& half) {
+    const simd::TransformedEdges& other = other_of(certificate);
+    const geometry::Box box(centre - half, centre + half);
+    if (!other.box.intersects(box)) {
+        return 0;
+    }
+    work_->add(work_of_search(other.count));
+    std::uint32_t* const found = edges_.data();
+    std::uint32_t count = 0;
+    if (is_small(other)) {
+        const simd::EdgeSubset& in_reach = is_of_a(certificate) ? in_reach_of_a_ : in_reach_of_b_;
+        if (in_reach.empty()) {
+            return 0;
+        }
+        count = simd::kernels::find_edges_in(in_reach.edges(), geometry::extent_of(box), found);
+        std::transform(found, found + count, found,
+                       [&](std::uint32_t edge) { return in_reach.index(edge); });
+    } else {
+        count = simd::kernels::find_edges_in(other.tree(), geometry::extent_of(box), found);
+    }
     // So far their boxes do.
     return static_cast<std::uint32_t>(
         std::remove_if(found, found + count,
                        [&](std::uint32_t edge) {
-                           const Vector start = edges.start(edge);
-                           const Vector along = edges.end(edge) - start;
+                           const Vector start = other.start(edge);
+                           const Vector along = other.end(edge) - start;
                            return std::abs(geometry::cross(along, centre - start)) >
                                   std::abs(along.x()) * half.y() + std::abs(along.y()) * half.x();
                        }) -
         found);
 }
-
-}  // namespace
 
 TranslationSearch::Focus TranslationSearch::focus_of_rest() const {
     const geometry::Box box = rest_.box();
@@ -73,26 +76,43 @@ bool TranslationSearch::is_inside(const Asked& vertex, const TranslationCell& ce
         return vertex.depth > 0.0;
     }
     const simd::TransformedEdges& other = other_of(vertex.certificate);
+    const Vector place = place_of(vertex.certificate, shift);
+    if (!other.box.contains(place)) {
+        return false;
+    }
     work_->add(work_of_search(other.count));
-    return contains(other, place_of(vertex.certificate, shift));
+    return contains(other, place);
 }
 
-void TranslationSearch::add_normals(const simd::TransformedEdges& edges, std::uint32_t count) {
-    if (has_normals_ == max_vertices_of_normals) {
-        return;
-    }
-    ++has_normals_;
-    lines_.clear();
-    for (std::uint32_t i = 0; i < std::min(count, max_normals); ++i) {
-        const Vector start = edges.start(edges_[i]);
-        const Vector normal = left_of(edges.end(edges_[i]) - start);
-        // Several edges on one line count once: a cut along it is good for all.
+void TranslationSearch::add_lines(const Asked& vertex, const Focus& focus, std::uint32_t count) {
+    const OverlapCertificate& certificate = certificates_[vertex.certificate];
+    const simd::TransformedEdges& other = other_of(vertex.certificate);
+    const Vector place = place_of(vertex.certificate, focus.centre);
+    const double sign = is_of_a(vertex.certificate) ? 1.0 : -1.0;
+    const double radius = focus.half.norm();
+    const double beside = roundings_of_depth * rounding_;
+    for (std::uint32_t i = 0; i < count && lines_.size() <= max_listed; ++i) {
+        const Vector start = other.start(edges_[i]);
+        const Vector& left = normal_of(vertex.certificate, edges_[i]);
+        if (left.isZero(0.0)) {
+            continue;
+        }
+        const double before = left.dot(certificate.before);
+        const double after = left.dot(certificate.after);
+        if (std::min(before, after) < -beside && std::max(before, after) > beside) {
+            continue;  // the boundaries cross on both sides of the line
+        }
+        const Vector normal = sign * left;
+        const double offset = left.dot(start - place);  // of the line from the focus
+        // Lines that differ by less than the rim of a core count once.
         const bool is_new = std::none_of(lines_.begin(), lines_.end(), [&](const Line& line) {
-            return std::abs(geometry::cross(line.normal, normal)) <= parallel &&
-                   std::abs(line.normal.dot(start - line.start)) <= rounding_;
+            const double way = line.at - line.normal.dot(focus.centre);
+            const double same = line.normal.dot(normal) < 0.0 ? -offset : offset;
+            return std::abs(way - same) + std::abs(geometry::cross(line.normal, normal)) * radius <=
+                   rounding_;
         });
         if (is_new) {
-            lines_.push_back({start, normal});
+            lines_.push_back({normal, normal.dot(focus.centre) + offset});
             normals_ += normal.cwiseAbs();
         }
     }
@@ -102,7 +122,7 @@ void TranslationSearch::cut_off_side(const Asked& vertex, const Focus& focus, bo
                                      std::uint32_t edge) {
     const simd::TransformedEdges& other = other_of(vertex.certificate);
     const Vector start = other.start(edge);
-    const Vector left = left_of(other.end(edge) - start);
+    const Vector& left = normal_of(vertex.certificate, edge);
     const bool is_left = left.dot(place_of(vertex.certificate, focus.centre) - start) > 0.0;
     cut_off(vertex, focus, is_left == inside ? Vector(-left) : left, start);
 }
@@ -122,8 +142,8 @@ TranslationSearch::Wall TranslationSearch::cut_off_corner(const Asked& vertex, c
     if (other.end(before) != corner) {
         return Wall::undecided;
     }
-    Vector to_left = left_of(corner - other.start(before));
-    Vector of_next = left_of(other.end(after) - corner);
+    Vector to_left = normal_of(vertex.certificate, before);
+    Vector of_next = normal_of(vertex.certificate, after);
     const double turn = to_left.dot(other.end(after) - corner);
     if (std::abs(turn) <= 0.25 * rounding_ && to_left.dot(of_next) > 0.0) {
         cut_off_side(vertex, focus, inside, before);  // collinear
@@ -148,10 +168,9 @@ TranslationSearch::Wall TranslationSearch::cut_off_wall(const Asked& vertex,
                                                         const Focus& focus) {
     const simd::TransformedEdges& other = other_of(vertex.certificate);
     const Vector place = place_of(vertex.certificate, focus.centre);
-    work_->add(work_of_search(other.count));
-    const std::uint32_t count = find_edges_in(other, place, focus.half, edges_.data());
+    const std::uint32_t count = find_edges_in(vertex.certificate, place, focus.half);
     if (count > 2) {
-        add_normals(other, count);
+        add_lines(vertex, focus, count);
         return Wall::undecided;
     }
     const bool inside = is_inside(vertex, cell, focus.centre);
@@ -163,6 +182,7 @@ TranslationSearch::Wall TranslationSearch::cut_off_wall(const Asked& vertex,
         const double least = roundings_of_depth * rounding_;
         if (geometry::nearest_on_segment(place, other.start(edges_[i]), other.end(edges_[i]))
                 .squared_distance <= least * least) {
+            add_lines(vertex, focus, count);
             return Wall::undecided;
         }
     }
@@ -170,18 +190,20 @@ TranslationSearch::Wall TranslationSearch::cut_off_wall(const Asked& vertex,
         cut_off_side(vertex, focus, inside, edges_[0]);
         return Wall::cut;
     }
-    return cut_off_corner(vertex, focus, inside);
+    const Wall wall = cut_off_corner(vertex, focus, inside);
+    if (wall == Wall::undecided) {
+        add_lines(vertex, focus, count);
+    }
+    return wall;
 }
 
 TranslationSearch::Wall TranslationSearch::expand(std::uint32_t index, const TranslationCell& cell,
                                                   const Focus& focus) {
     const Asked asked = left_[index];
     const double spread = certificates_[asked.certificate].spread;
-    const simd::TransformedEdges& other = other_of(asked.certificate);
-    work_->add(work_of_search(other.count));
-    if (find_edges_in(other, place_of(asked.certificate, focus.centre), focus.half.array() + spread,
-                      edges_.data()) > 0) {
-        if (spread <= max_spread * focus.half.maxCoeff()) {
+    if (find_edges_in(asked.certificate, place_of(asked.certificate, focus.centre),
+                      focus.half.array() + spread) > 0) {
+        if (spread <= max_spread * focus.half.minCoeff()) {
             return Wall::undecided;
         }
         append_parts(asked, left_);
@@ -193,8 +215,8 @@ TranslationSearch::Wall TranslationSearch::expand(std::uint32_t index, const Tra
 
 bool TranslationSearch::cut_off_walls(const TranslationCell& cell) {
     undecided_.clear();
+    lines_.clear();
     normals_.setZero();
-    has_normals_ = 0;
     Focus focus = focus_of_rest();
     bool is_whole = true;
     has_cut_ = false;
@@ -212,8 +234,10 @@ bool TranslationSearch::cut_off_walls(const TranslationCell& cell) {
         if (wall == Wall::none && is_whole) {
             left_[i].certificate = dropped;
         } else if (wall == Wall::undecided) {
-            undecided_.push_back(i);
-            if (undecided_.size() > max_undecided) {
+            if (is_group) {
+                undecided_.push_back(i);
+            }
+            if (undecided_.size() > max_undecided || lines_.size() > max_listed) {
                 return false;
             }
         } else if (wall == Wall::cut && !is_group) {
@@ -230,29 +254,18 @@ bool TranslationSearch::cut_off_walls(const TranslationCell& cell) {
 
 bool TranslationSearch::split_rest() {
     const Focus focus = focus_of_rest();
-    std::size_t lines = 0;
     for (const std::uint32_t i : undecided_) {
-        const std::uint32_t vertex = left_[i].certificate;
-        const OverlapCertificate& certificate = certificates_[vertex];
-        const simd::TransformedEdges& other = other_of(vertex);
-        const Vector place = place_of(vertex, focus.centre);
-        work_->add(work_of_search(other.count));
-        const std::uint32_t count =
-            find_edges_in(other, place, focus.half.array() + certificate.spread, edges_.data());
-        if (certificate.parts > 0 && count > 0) {
+        const std::uint32_t group = left_[i].certificate;
+        if (find_edges_in(group, place_of(group, focus.centre),
+                          focus.half.array() + certificates_[group].spread) > 0) {
             return false;
         }
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const Vector start = other.start(edges_[k]);
-            const Vector along = other.end(edges_[k]) - start;
-            if (along.squaredNorm() > 0.0) {
-                const Vector left = left_of(along);
-                const Vector way = is_of_a(vertex) ? left : Vector(-left);
-                lines += split(way, way.dot(focus.centre) + left.dot(start - place)) ? 1U : 0U;
-                if (lines > max_lines) {
-                    return false;
-                }
-            }
+    }
+    std::size_t splits = 0;
+    for (const Line& line : lines_) {
+        splits += split(line.normal, line.at) ? 1U : 0U;
+        if (splits > max_lines) {
+            return false;
         }
     }
     return true;

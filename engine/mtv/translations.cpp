@@ -17,19 +17,52 @@ constexpr std::uint64_t work_of_interval = 8;
 
 }  // namespace
 
-void TranslationFinder::project(const simd::TransformedEdges& edges, const Vector& direction,
-                                std::vector<Level>& levels) {
+void TranslationFinder::begin(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                              double longest) {
+    const auto list = [](const simd::TransformedEdges& edges, const geometry::Box& reach,
+                         std::vector<std::uint32_t>& in_reach) {
+        in_reach.clear();
+        for (std::uint32_t i = 0; i < edges.count; ++i) {
+            const Vector start = edges.start(i);
+            const Vector end = edges.end(i);
+            if (reach.intersects(geometry::Box(start.cwiseMin(end), start.cwiseMax(end)))) {
+                in_reach.push_back(i);
+            }
+        }
+    };
+    const double reach = longest + 2.0 * (a.rounding + b.rounding);
+    list(a, geometry::grown(b.box, reach), in_reach_of_b_);
+    list(b, geometry::grown(a.box, reach), in_reach_of_a_);
+}
+
+void TranslationFinder::project(const simd::TransformedEdges& edges,
+                                const std::vector<std::uint32_t>& in_reach,
+                                const geometry::Box& other, const Vector& direction, double way,
+                                double rounding, std::vector<Level>& levels) {
+    const Vector across(-direction.y(), direction.x());
+    const Vector centre = other.center();
+    const Vector half = 0.5 * other.diagonal();
+    const double level = across.dot(centre);
+    const double height = across.cwiseAbs().dot(half) + rounding;
+    const double along = direction.dot(centre);
+    const double length = direction.cwiseAbs().dot(half) + rounding;
+    const double first = along - length - std::max(way, 0.0);
+    const double last = along + length - std::min(way, 0.0);
     levels.clear();
-    for (std::uint32_t i = 0; i < edges.count; ++i) {
+    for (const std::uint32_t i : in_reach) {
         const Vector start = edges.start(i);
         const Vector end = edges.end(i);
-        Level level{geometry::cross(direction, start), geometry::cross(direction, end),
-                    direction.dot(start), direction.dot(end), i};
-        if (level.low > level.high) {
-            std::swap(level.low, level.high);
-            std::swap(level.along_low, level.along_high);
+        Level edge{geometry::cross(direction, start), geometry::cross(direction, end),
+                   direction.dot(start), direction.dot(end), i};
+        if (edge.low > edge.high) {
+            std::swap(edge.low, edge.high);
+            std::swap(edge.along_low, edge.along_high);
         }
-        levels.push_back(level);
+        if (edge.low <= level + height && edge.high >= level - height &&
+            std::min(edge.along_low, edge.along_high) <= last &&
+            std::max(edge.along_low, edge.along_high) >= first) {
+            levels.push_back(edge);
+        }
     }
 }
 
@@ -101,10 +134,12 @@ const std::vector<TranslationGap>& TranslationFinder::find(const simd::Transform
                                                            const simd::TransformedEdges& b,
                                                            const Vector& direction, double most,
                                                            WorkBudget& work) {
-    project(a, direction, of_a_);
-    project(b, direction, of_b_);
+    const double rounding = a.rounding + b.rounding;
+    project(a, in_reach_of_b_, b.box, direction, most, rounding, of_a_);
+    project(b, in_reach_of_a_, a.box, direction, -most, rounding, of_b_);
+    work.add(in_reach_of_a_.size() + in_reach_of_b_.size());
     gaps_.clear();
-    if (!add_intervals(most, a.rounding + b.rounding, work)) {
+    if (!add_intervals(most, rounding, work)) {
         return gaps_;
     }
     std::sort(intervals_.begin(), intervals_.end(),

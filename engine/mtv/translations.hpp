@@ -22,8 +22,11 @@ struct TranslationGap {
 /// memory between pairs.
 class TranslationFinder {
 public:
+    /// Prepares for a pair whose translations are no longer than `longest`.
+    void begin(const simd::TransformedEdges& a, const simd::TransformedEdges& b, double longest);
+
     /// Returns the gaps from 0 up to `most`, in ascending order, up to rounding; none if that would
-    /// exceed the work budget. `direction` is a unit vector.
+    /// exceed the work budget. `direction` is a unit vector. A is that of begin(), translated.
     [[nodiscard]] const std::vector<TranslationGap>& find(const simd::TransformedEdges& a,
                                                           const simd::TransformedEdges& b,
                                                           const geometry::Vector& direction,
@@ -50,11 +53,17 @@ private:
         simd::EdgePair edges;
     };
 
-    static void project(const simd::TransformedEdges& edges, const geometry::Vector& direction,
+    /// Leaves out edges that neither come to `other` nor are reached by it on a way of `way` along
+    /// the direction, which is negative for B.
+    static void project(const simd::TransformedEdges& edges,
+                        const std::vector<std::uint32_t>& in_reach, const geometry::Box& other,
+                        const geometry::Vector& direction, double way, double rounding,
                         std::vector<Level>& levels);
     /// Returns false if the work budget is too small.
     [[nodiscard]] bool add_intervals(double most, double rounding, WorkBudget& work);
 
+    std::vector<std::uint32_t> in_reach_of_b_;  // edges of A
+    std::vector<std::uint32_t> in_reach_of_a_;
     std::vector<Level> of_a_;
     std::vector<Level> of_b_;
     std::vector<Interval> intervals_;

@@ -1,10 +1,11 @@
 // Measures the times of separation vectors and the tightness of their bounds, as a table in
-// Markdown: random intersecting pairs of several families, and the outlines of a folder, each
-// against the next.
+// Markdown: the objects of the paper's scenes, random intersecting pairs of several families, and
+// the outlines of a folder, each against the next.
 
 #include <nearfield/nearfield.hpp>
 
 #include <tests/support/outlines.hpp>
+#include <tools/benchmark/paper_scenes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ using test::Random;
 using test::Rings;
 
 constexpr int pairs = 20;
-constexpr int repetitions = 3;
+constexpr int repetitions = 5;
 
 template <class Value>
 Value take(Expected<Value> value) {
@@ -42,13 +43,14 @@ double processor_milliseconds() {
     return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-/// The minimum of a few runs; shapes that do not intersect are skipped.
-void measure(Context& context, const Rings& a, const Rings& b, const Pose& pose, double tolerance,
-             std::vector<Measured>& all) {
+/// The minimum of some runs; shapes that do not intersect are skipped.
+void measure(Context& context, const Rings& a, const Rings& b, const Pose& pose_a,
+             const Pose& pose_b, double tolerance, std::vector<Measured>& all) {
     const ShapeHandle shape_a = take(context.add_shape(a));
     const ShapeHandle shape_b = take(context.add_shape(b));
     Batch batch;
-    const auto handle = batch.add(SeparationVectorQuery{{shape_a, pose}, {shape_b, {}}, tolerance});
+    const auto handle =
+        batch.add(SeparationVectorQuery{{shape_a, pose_a}, {shape_b, pose_b}, tolerance});
     Results results;
     Measured measured{INFINITY, 1.0};
     for (int i = 0; i < repetitions; ++i) {
@@ -63,7 +65,8 @@ void measure(Context& context, const Rings& a, const Rings& b, const Pose& pose,
         throw std::runtime_error(result.status.text());
     }
     if (result.intersects) {
-        measured.ratio = result.lower_bound / result.length;
+        // Shapes that touch have a length of a few roundings, and no bound.
+        measured.ratio = result.length > tolerance ? result.lower_bound / result.length : 1.0;
         all.push_back(measured);
     }
     static_cast<void>(context.remove_shape(shape_a));
@@ -120,10 +123,42 @@ void measure_families(Context& context) {
             const Pose pose{
                 {random.between(-0.7, 0.7), random.between(-0.7, 0.7)},
                 family.turned ? random.between(-3.0, 3.0) : (i % 2 == 0 ? 0.0 : std::numbers::pi)};
-            measure(context, a, b, pose, 1e-3, all);
+            measure(context, a, b, pose, {}, 1e-3, all);
         }
         print(family.name, all);
     }
+}
+
+/// The objects of a scene: the pairs that intersect where they are, and each with the next one,
+/// moved to random poses.
+void measure_scene(Context& context, const std::string& name, const tools::Scene& scene) {
+    constexpr double tolerance = 1e-3;
+    const auto rings_of = [&scene](std::size_t instance) -> const Rings& {
+        return scene.shapes[scene.instances[instance].shape].rings;
+    };
+    std::vector<Measured> in_place;
+    std::vector<Measured> anywhere;
+    Random random(20);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        for (std::size_t k = i + 1; k < scene.instances.size(); ++k) {
+            measure(context, rings_of(i), rings_of(k), scene.instances[i].pose,
+                    scene.instances[k].pose, tolerance, in_place);
+        }
+        const double x = random.between(-0.7, 0.7);
+        const double y = random.between(-0.7, 0.7);
+        measure(context, rings_of(i), rings_of((i + 1) % scene.instances.size()),
+                {{x, y}, random.between(-3.0, 3.0)}, {}, tolerance, anywhere);
+    }
+    print(name + " of the paper", in_place);
+    print(name + ", moved into each other", anywhere);
+}
+
+void measure_paper_scenes(Context& context) {
+    measure_scene(context, "map", benchmark::map_scene(1));
+    measure_scene(context, "gears", benchmark::gears_scene(1));
+    measure_scene(context, "links", benchmark::links_scene(1));
+    measure_scene(context, "cars", benchmark::cars_scene(1));
+    measure_scene(context, "wavy bars", benchmark::wavy_scene(1));
 }
 
 /// Moved so that the centres of the boxes coincide.
@@ -148,7 +183,7 @@ void measure_outlines(Context& context, const std::string& folder) {
                          0.5 * (box_b.min.y + box_b.max.y - box_a.min.y - box_a.max.y)},
                         0.0};
         std::vector<Measured> all;
-        measure(context, a.rings, b.rings, pose, 1e-3 * (box_a.max.x - box_a.min.x), all);
+        measure(context, a.rings, b.rings, pose, {}, 1e-3 * (box_a.max.x - box_a.min.x), all);
         const auto edges = [](const Rings& rings) {
             std::size_t count = 0;
             for (const Ring& ring : rings) {
@@ -168,6 +203,7 @@ int main(int count, char** words) {
         Context context = take(Context::create_headless());
         std::puts("| | ms, median | ms, most | bound to length, median | worst tenth | worst |");
         std::puts("|---|---|---|---|---|---|");
+        measure_paper_scenes(context);
         measure_families(context);
         measure_outlines(context, count > 1 ? words[1] : NEARFIELD_TEST_DATA);
         return 0;

@@ -5,113 +5,16 @@
 
 #include <gtest/gtest.h>
 #include <tests/unit/mtv/exact_difference.hpp>
-#include <tests/unit/support/shape_samples.hpp>
+#include <tests/unit/mtv/lattice_shapes.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <vector>
 
 namespace nearfield::mtv {
 namespace {
 
-using exact::Point;
-using exact::Shape;
-
-constexpr std::uint64_t default_work = 10'000'000;  // SeparationVectorQuery::max_work
-
-std::uint32_t number_of_pairs() {
-    const char* const cases = std::getenv("NEARFIELD_TEST_CASES");
-    return cases == nullptr ? 1'000U : static_cast<std::uint32_t>(std::atoi(cases));
-}
-
-std::vector<Shape> aligned_shapes() {
-    return {
-        {{{10, 10}, {60, 100}, {110, 10}}},
-        {{{0, 0}, {4, 0}, {4, 5}, {3, 5}, {3, 2}, {2, 2}, {2, 5}, {1, 5}, {1, 2}, {0, 2}}},
-        {{{0, 0}, {2, 0}, {2, 2}, {0, 2}}},
-        {{{0, 0}, {6, 0}, {6, 1}, {1, 1}, {1, 6}, {0, 6}}},
-        {{{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}},
-        {{{1, 0},
-          {2, 0},
-          {2, 1},
-          {3, 1},
-          {3, 2},
-          {2, 2},
-          {2, 3},
-          {1, 3},
-          {1, 2},
-          {0, 2},
-          {0, 1},
-          {1, 1}}},
-        {{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {{3, 3}, {6, 3}, {6, 6}, {3, 6}}},
-        {{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {{4, 0}, {6, 0}, {6, 2}, {4, 2}}},
-        {{{0, 0}, {3, 1}, {6, 0}, {5, 3}, {6, 6}, {3, 5}, {0, 6}, {1, 3}}},
-        {{{0, 0},
-          {7, 0},
-          {7, 7},
-          {1, 7},
-          {1, 3},
-          {4, 3},
-          {4, 4},
-          {2, 4},
-          {2, 6},
-          {6, 6},
-          {6, 1},
-          {0, 1}}},
-        {{{0, 0}, {4, 4}, {4, 0}, {0, 4}}},
-    };
-}
-
-/// Vertices in random directions from the origin, on a lattice.
-Shape lattice_star(samples::Random& random) {
-    const std::uint32_t size = 3 + random.below(5);
-    const std::int64_t most = random.below(2) == 0 ? 4 : 20;
-    std::vector<Point> ring;
-    for (std::uint32_t i = 0; i < size; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / size;
-        const double radius = random.between(0.3, 1.0) * static_cast<double>(most);
-        const Point point{std::llround(radius * std::cos(angle)),
-                          std::llround(radius * std::sin(angle))};
-        if (ring.empty() || point.x != ring.back().x || point.y != ring.back().y) {
-            ring.push_back(point);
-        }
-    }
-    while (ring.size() < 3 || (ring[0].x == ring.back().x && ring[0].y == ring.back().y)) {
-        ring.push_back({most, most + static_cast<std::int64_t>(ring.size())});
-    }
-    return {ring};
-}
-
-Shape shifted(Shape shape, const Point& by) {
-    for (std::vector<Point>& ring : shape) {
-        for (Point& point : ring) {
-            point = {point.x + by.x, point.y + by.y};
-        }
-    }
-    return shape;
-}
-
-/// How the lattice lies in the world.
-struct Frame {
-    double scale = 1.0;
-    double angle = 0.0;
-};
-
-samples::Rings scaled(const Shape& shape, double scale) {
-    samples::Rings rings;
-    for (const std::vector<Point>& ring : shape) {
-        Ring& scaled = rings.emplace_back();
-        for (const Point& point : ring) {
-            scaled.push_back(
-                {scale * static_cast<double>(point.x), scale * static_cast<double>(point.y)});
-        }
-    }
-    return rings;
-}
+using namespace exact;
 
 struct Counts {
     int intersect = 0;
@@ -183,7 +86,7 @@ TEST(SelfDifferences, OfShiftsByTheirOwnCoordinates) {
     const std::vector<Shape> aligned = aligned_shapes();
     SeparatingTranslationFinder finder;
     Counts counts;
-    const std::uint32_t pairs = number_of_pairs();
+    const std::uint32_t pairs = number_of_pairs(1'000);
     for (std::uint32_t i = 0; i < pairs; ++i) {
         const Shape shape = i % 2 == 0
                                 ? aligned[random.below(static_cast<std::uint32_t>(aligned.size()))]
