@@ -1,7 +1,8 @@
 #pragma once
 
-#include <engine/narrowphase/boundary.hpp>
+#include <engine/narrowphase/located_points.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstdint>
@@ -19,16 +20,11 @@ public:
                 simd::TransformedInstances& instances, std::span<std::uint32_t> words);
 
 private:
-    void answer(const plan::Plan& plan, const plan::PlannedQuery& query,
+    void answer(const plan::PlannedQuery& query, double rounding_of_a,
                 const simd::TransformedEdges& b, std::span<std::uint32_t> words);
-    [[nodiscard]] bool contains(const simd::TransformedEdges& b, const geometry::Vector& point);
-    [[nodiscard]] narrowphase::NearestPoint nearest(const simd::TransformedEdges& b,
-                                                    const geometry::Vector& point,
-                                                    std::uint32_t first_guess);
-    [[nodiscard]] bool is_unique(const simd::TransformedEdges& b, const geometry::Vector& point,
-                                 const narrowphase::NearestPoint& nearest, double margin);
 
-    narrowphase::Boundary boundary_;  // of B, if it has many edges
+    simd::PointList points_;  // of a part of the query
+    narrowphase::LocatedPoints located_;
 };
 
 }  // namespace nearfield::cpu

@@ -7,51 +7,9 @@
 #include <utility>
 
 namespace nearfield::cpu {
-namespace {
 
 using geometry::Box;
 using geometry::Vector;
-using simd::TransformedEdges;
-
-/// Determines which points lie inside a polygon, for points in order along a line.
-class SidesOfPoints {
-public:
-    /// Points nearer to the boundary than `touching` are not inside.
-    SidesOfPoints(const simd::TransformedEdges& edges, double touching,
-                  narrowphase::RayParities& parities)
-        : edges_(edges), touching_(touching), parities_(parities) {
-        if (!is_small(edges)) {
-            parities.begin(edges.tree());
-        }
-    }
-
-    /// `distance`: from the boundary. Odd: inside.
-    [[nodiscard]] narrowphase::RayParities::Ticket ask(const Vector& point, double distance) {
-        if (distance <= touching_) {
-            return narrowphase::RayParities::even;
-        }
-        // If two points are closer to each other than the sum of their distances to the boundary,
-        // no boundary lies between them.
-        const double clear = distance + distance_ - touching_;
-        if (distance_ == 0.0 || (point - point_).squaredNorm() >= clear * clear) {
-            inside_ = is_small(edges_) ? narrowphase::RayParities::known(contains(edges_, point))
-                                       : parities_.ask(point.x(), point.y());
-        }
-        point_ = point;
-        distance_ = distance;
-        return inside_;
-    }
-
-private:
-    const simd::TransformedEdges& edges_;
-    double touching_;
-    narrowphase::RayParities& parities_;
-    Vector point_ = Vector::Zero();  // the last one that did not touch
-    double distance_ = 0.0;          // 0: none
-    narrowphase::RayParities::Ticket inside_ = narrowphase::RayParities::even;
-};
-
-}  // namespace
 
 void PointContacts::answer(const plan::PlannedQuery& query, simd::TransformedInstances& instances,
                            ContactResult& result) {
@@ -105,18 +63,12 @@ void PointContacts::for_each_contact(const simd::TransformedEdges& a,
     if (points.count == 0) {
         return;
     }
-    nearest_.find(points, b, result.tolerance * plan::uniqueness_margin);
-    const simd::NearestArrays& nearest = nearest_.arrays();
-    SidesOfPoints sides(b, a.rounding + b.rounding, parities_);
+    located_.find(points, b,
+                  {.margin = result.tolerance * plan::uniqueness_margin,
+                   .touching = a.rounding + b.rounding,
+                   .reach = contact_distance});
+    const simd::NearestArrays& nearest = located_.nearest();
     SparseCheckpoint<64> checkpoint;
-    sides_.resize(points.count);
-    for (std::size_t i = 0; i < points.count; ++i) {
-        checkpoint.step();
-        if (nearest.distance[i] <= contact_distance) {
-            sides_[i] = sides.ask({points.x[i], points.y[i]}, nearest.distance[i]);
-        }
-    }
-    parities_.answer();
     for (std::size_t i = 0; i < points.count; ++i) {
         checkpoint.step();
         if (nearest.distance[i] > contact_distance) {
@@ -130,8 +82,8 @@ void PointContacts::for_each_contact(const simd::TransformedEdges& a,
                                                       nearest.parameter[i],
                                                       records::feature_at(b.placed, nearest.edge[i],
                                                                           nearest.parameter[i]),
-                                                      parities_.is_odd(sides_[i]),
-                                                      nearest_.is_unique(i)});
+                                                      located_.is_inside(i),
+                                                      located_.is_unique(i)});
     }
 }
 

@@ -3,14 +3,12 @@
 #include <engine/cpu/near_samples.hpp>
 #include <engine/cpu/transformed_pair.hpp>
 #include <engine/narrowphase/boundary.hpp>
-#include <engine/narrowphase/nearest_points.hpp>
+#include <engine/narrowphase/located_points.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/records/found_contacts.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <nearfield/result.hpp>
-
-#include <vector>
 
 namespace nearfield::cpu {
 
@@ -34,10 +32,8 @@ private:
               double contact_distance, ContactResult& result);
 
     NearSamples samples_;
-    narrowphase::NearestPoints nearest_;                   // to the samples
-    narrowphase::RayParities parities_;                    // at the samples
-    std::vector<narrowphase::RayParities::Ticket> sides_;  // by sample
-    narrowphase::Boundary boundary_;                       // of B
+    narrowphase::LocatedPoints located_;  // the samples
+    narrowphase::Boundary boundary_;      // of B
     records::FoundContacts found_;
     narrowphase::OverlapTest overlap_test_;
 };

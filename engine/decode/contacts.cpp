@@ -13,12 +13,12 @@ template <class Use>
 void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
                    std::span<const std::uint32_t> words, double distance,
                    records::PointResolver& resolver, const Use& use) {
-    resolver.begin(plan, query);
+    resolver.begin(plan, query, words);
     SparseCheckpoint<256> checkpoint;
     for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
         checkpoint.step();
         if ((words[i] & plan::point_resolved) != 0) {
-            const records::ResolvedPoint resolved = resolver.resolve(plan.points[i], words[i]);
+            const records::ResolvedPoint resolved = resolver.resolve(i);
             if (resolved.distance <= distance) {
                 use(plan.points[i], resolved);
             }

@@ -81,7 +81,7 @@ static_assert(sizeof(PointData) == 16);
 inline constexpr std::uint32_t point_inside = 1U << 31U;
 inline constexpr std::uint32_t point_unique = 1U << 30U;
 inline constexpr std::uint32_t point_resolved = 1U << 29U;
-inline constexpr std::uint32_t point_doubtful = 1U << 28U;  ///< searched: the CPU has to decide
+inline constexpr std::uint32_t point_doubtful = 1U << 28U;  ///< the CPU has to decide
 inline constexpr std::uint32_t point_edge_mask = (1U << 28U) - 1U;
 
 /// Details of a resolved point that stays on the device (shaders/details.glsl). They follow the

@@ -1,4 +1,7 @@
+#include <engine/base/interruption.hpp>
 #include <engine/localize/hierarchy.hpp>
+#include <engine/plan/asked_points.hpp>
+#include <engine/plan/error_budget.hpp>
 #include <engine/records/nearest_feature.hpp>
 #include <engine/records/point_resolver.hpp>
 
@@ -18,12 +21,16 @@ constexpr double farthest_in_single_precision = 1024.0;
 
 }  // namespace
 
-void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& query) {
+void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& query,
+                          std::span<const std::uint32_t> words) {
     plan_ = &plan;
     query_ = &query;
+    words_ = words;
     a_.emplace(*query.a, query.pose_a);
     b_.emplace(*query.b, query.pose_b);
     boundary_is_set_ = false;
+    points_.clear();
+    next_ = 0;
     rounding_ = query.on_cpu ? localize::placement_rounding(*a_, a_->box()) +
                                    localize::placement_rounding(*b_, b_->box())
                              : 0.0;
@@ -31,10 +38,49 @@ void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& quer
 
 narrowphase::Boundary& PointResolver::boundary_of_b() {
     if (!boundary_is_set_) {
-        boundary_.set(*b_);
+        instances_.clear();
+        const std::uint32_t index = instances_.place(*b_);
+        instances_.complete(index);
+        boundary_.set(instances_[index]);
         boundary_is_set_ = true;
     }
     return boundary_;
+}
+
+/// Locates the points in doubt from an index on, as many as are located at once.
+void PointResolver::locate_doubtful(std::uint32_t first) {
+    static_cast<void>(boundary_of_b());
+    const simd::TransformedEdges& b = instances_[0];
+    const std::uint32_t end = query_->first_point + query_->point_count;
+    const std::size_t at_once = narrowphase::points_at_once(b.count);
+    points_.clear();
+    next_ = 0;
+    SparseCheckpoint<256> checkpoint;
+    for (std::uint32_t i = first; i < end && points_.size() < at_once; ++i) {
+        checkpoint.step();
+        if ((words_[i] & plan::point_doubtful) != 0) {
+            const Vector point = position(*a_, plan_->points[i].point);
+            points_.reserve(points_.size() + 1);
+            points_.push(point.x(), point.y());
+        }
+    }
+    located_.find(points_.arrays(), b,
+                  {.margin = query_->budget.cell / std::numbers::sqrt2 * plan::uniqueness_margin,
+                   .touching = localize::placement_rounding(*a_, a_->box()) + b.rounding,
+                   .reach = plan::reach_of(*query_)});
+}
+
+PointResolver::Found PointResolver::find_doubtful(std::uint32_t index) {
+    if (next_ == points_.size()) {
+        locate_doubtful(index);
+    }
+    const std::uint32_t i = next_++;
+    const std::uint32_t edge = located_.nearest().edge[i];
+    const Vector point = position(*a_, plan_->points[index].point);
+    const bool is_near = located_.nearest().distance[i] <= plan::reach_of(*query_);
+    return {{edge, nearest_on_edge(*b_, edge, point)},
+            is_near && located_.is_inside(i),
+            located_.is_unique(i)};
 }
 
 /// The nearest point of B for one that the device searched: of the edge that it named and its
@@ -52,17 +98,14 @@ narrowphase::NearestPoint PointResolver::nearest_of_neighbours(const Vector& poi
     return nearest;
 }
 
-PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t word) {
+PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t index) {
+    const std::uint32_t word = words_[index];
+    if ((word & plan::point_doubtful) != 0) {
+        return find_doubtful(index);
+    }
     const std::uint32_t edge = word & plan::point_edge_mask;
     const double tolerance = query_->budget.cell / std::numbers::sqrt2;
     Found found{{edge, {}}, (word & plan::point_inside) != 0, (word & plan::point_unique) != 0};
-    if (query_->searched && (word & plan::point_doubtful) != 0) {
-        found.nearest = boundary_of_b().nearest(point, edge);
-        found.inside = boundary_of_b().contains(point);
-        found.unique =
-            boundary_of_b().is_unique(point, found.nearest, tolerance * plan::uniqueness_margin);
-        return found;
-    }
     if (query_->margin > plan::search_precision * query_->budget.cell) {
         found.nearest = nearest_of_neighbours(point, edge);
         return found;
@@ -86,9 +129,10 @@ double PointResolver::touching(const plan::PlannedPoint& planned) const {
                             : touching_distance(plan_->tiles[planned.tile]);
 }
 
-ResolvedPoint PointResolver::resolve(const plan::PlannedPoint& planned, std::uint32_t word) {
+ResolvedPoint PointResolver::resolve(std::uint32_t index) {
+    const plan::PlannedPoint& planned = plan_->points[index];
     const Vector point = position(*a_, planned.point);
-    const Found found = find(point, word);
+    const Found found = find(point, index);
     const geometry::NearestOnSegment& on_edge = found.nearest.on_edge;
     const double distance = std::sqrt(on_edge.squared_distance);
     return {point,

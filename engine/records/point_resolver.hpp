@@ -1,12 +1,16 @@
 #pragma once
 
 #include <engine/narrowphase/boundary.hpp>
+#include <engine/narrowphase/located_points.hpp>
 #include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/simd/point_list.hpp>
+#include <engine/simd/transformed_edges.hpp>
 #include <nearfield/result.hpp>
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace nearfield::records {
 
@@ -36,11 +40,13 @@ struct ResolvedPoint {
 /// Makes the device's answers for the points of a query, or of one direction of it, exact.
 class PointResolver {
 public:
-    void begin(const plan::Plan& plan, const plan::PlannedQuery& query);
+    /// `words`: what the device wrote, by point of the plan. Plan and words must stay.
+    void begin(const plan::Plan& plan, const plan::PlannedQuery& query,
+               std::span<const std::uint32_t> words);
 
-    /// Resolves the point of A at an index of Plan::points; `word` is non-zero, as written by the
-    /// device.
-    [[nodiscard]] ResolvedPoint resolve(const plan::PlannedPoint& planned, std::uint32_t word);
+    /// Resolves the point of A at an index of Plan::points, whose word is not zero. Indices must
+    /// come in ascending order, and none that is in doubt may be left out.
+    [[nodiscard]] ResolvedPoint resolve(std::uint32_t index);
 
     [[nodiscard]] const geometry::TransformedPolygon& a() const { return *a_; }
     [[nodiscard]] const geometry::TransformedPolygon& b() const { return *b_; }
@@ -54,18 +60,25 @@ private:
         bool inside = false;
         bool unique = true;
     };
-    [[nodiscard]] Found find(const geometry::Vector& point, std::uint32_t word);
+    [[nodiscard]] Found find(const geometry::Vector& point, std::uint32_t index);
+    [[nodiscard]] Found find_doubtful(std::uint32_t index);
+    void locate_doubtful(std::uint32_t first);
     [[nodiscard]] narrowphase::NearestPoint nearest_of_neighbours(const geometry::Vector& point,
                                                                   std::uint32_t edge) const;
     [[nodiscard]] double touching(const plan::PlannedPoint& planned) const;
 
     const plan::Plan* plan_ = nullptr;
     const plan::PlannedQuery* query_ = nullptr;
+    std::span<const std::uint32_t> words_;
     std::optional<geometry::TransformedPolygon> a_;
     std::optional<geometry::TransformedPolygon> b_;
+    simd::TransformedInstances instances_;  // B, if it is needed
     narrowphase::Boundary boundary_;
     bool boundary_is_set_ = false;
-    double rounding_ = 0.0;  // of the points and the boundary; only for queries on the CPU
+    simd::PointList points_;  // that the device left in doubt, some of them
+    narrowphase::LocatedPoints located_;
+    std::uint32_t next_ = 0;  // of those
+    double rounding_ = 0.0;   // of the points and the boundary; only for queries on the CPU
 };
 
 }  // namespace nearfield::records

@@ -49,14 +49,13 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
     }
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     const double touching = result.tolerance * plan::touching_depth;
-    resolver_.begin(asked.plan, planned);
+    resolver_.begin(asked.plan, planned, asked.words);
     for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
          ++i) {
         if ((asked.words[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
             continue;
         }
-        const records::ResolvedPoint resolved =
-            resolver_.resolve(asked.plan.points[i], asked.words[i]);
+        const records::ResolvedPoint resolved = resolver_.resolve(i);
         if (!resolved.inside || resolved.distance <= touching) {
             continue;
         }
