@@ -110,7 +110,8 @@ struct Shape {
     uint chunks;
     uint levels;
     uint edges;  // first unit: one per edge, eight per chunk
-    uint infos;  // first word: of each chunk, its first edge << 4 | its number of edges
+    uint infos;  // first word: of each chunk, its first edge << 4 | its number of edges; then, of
+                 // each place along the rings, its chunk
     uint first_boxes;  // first word: of each level, its first unit
 };
 
@@ -121,6 +122,11 @@ Shape shape_at(uint unit) {
 
 vec4 box_of_shape(uint unit) {
     return floats_at(unit + 1u);
+}
+
+// The chunk at a place along the rings of the shape.
+uint chunk_along_rings(Shape shape, uint place) {
+    return word_at(shape.infos + 4u * ((shape.chunks + 3u) / 4u) + place);
 }
 
 // The end of the slots of a chunk's edges.
@@ -183,8 +189,9 @@ struct Walk {
 // The steps of one walk, each of which takes up to nine turns of loops. Some drivers end the loops of
 // an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
 // of three walks each, and the threads that run in step with it may take the longest of each. What a
-// longer walk would find is left to the CPU.
-const uint max_steps = 500u;
+// longer walk would find is left to the CPU, which takes less time than long walks where boxes do
+// not tell the edges apart.
+const uint max_steps = 256u;
 
 // The boxes of a walk's group.
 struct Group {

@@ -102,7 +102,8 @@ Item item_of(uint index) {
         mask &= mask - 1u;
     }
     uint direction = direction_of(low);
-    uint chunk = low - unit_at(push.directions + 4u * direction + 1u).w;
+    uvec4 shapes = unit_at(push.directions + 4u * direction + 1u);
+    uint chunk = chunk_along_rings(shape_at(shapes.x), low - shapes.w);
     return Item(direction, chunk_size * chunk + findLSB(mask));
 }
 

@@ -23,8 +23,8 @@ vec4 transformed(Direction direction, vec4 box) {
 
 uint edges_of(uint item) {
     Direction direction = direction_at(direction_of(item));
-    uint chunk = item - direction.first_item;
     Shape a = shape_at(direction.shape_a);
+    uint chunk = chunk_along_rings(a, item - direction.first_item);
     float grow = direction.reach + 2.0 * direction.margin;
     vec4 near = box_of_shape(direction.shape_b) + vec4(-grow, -grow, grow, grow);
     if (!overlap(transformed(direction, floats_at(word_at(a.first_boxes) + chunk)), near)) {

@@ -153,7 +153,7 @@ Nearest find_nearest(Points p, Shape b, vec4 limit, inout bool too_long) {
     uint considered = descend_to_nearest(p, b, nearest);
     Walk walk = start_walk(b);
     bool enters = true;
-    for (uint i = 0u; i < max_steps; ++i) {
+    for (uint i = 0u; i < max_steps && !too_long; ++i) {
         if (enters) {
             enter(walk, p, b, sqrt(largest(nearest.squared)));
         }
@@ -212,7 +212,7 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction dir
     float reach = largest(near) + max(direction.rival, direction.doubt);
     Walk walk = start_walk(b);
     bool enters = true;
-    for (uint i = 0u; i < max_steps; ++i) {
+    for (uint i = 0u; i < max_steps && !too_long; ++i) {
         if (enters) {
             enter(walk, p, b, reach);
         }

@@ -2,6 +2,7 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
+#include <engine/plan/asked_points.hpp>
 #include <engine/plan/compute_batch_builder.hpp>
 #include <engine/plan/overlap_boundary.hpp>
 #include <engine/plan/tile_batch.hpp>
@@ -78,12 +79,17 @@ EdgeListData ComputeBuilder::add_crossing(const TileBoundary& boundary, const Ti
     return batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
 }
 
-void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
+bool ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
                                      SimplifiedShapes& shapes, TileData& data, TileBatch& batch) {
     const TileBoundary boundary = boundary_of(query, tile, shapes);
     const double simplification = query.budget.simplification / tile.grid.cell;
-    batch.lists.begin_tile(boundary);
+    crossing_.clear();
+    crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
     finder_.find(boundary, tile.needed, simplification + margin_in_cells, nearest_);
+    if (is_left_to_cpu(query, crossing_.size() + nearest_.size())) {
+        return false;
+    }
+    batch.lists.begin_tile(boundary);
     nearest_list_.clear();
     double largest_reach = 0.0;
     for (const NearestEdge& nearest : nearest_) {
@@ -92,9 +98,10 @@ void ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
     }
     data.nearest = batch.lists.write(nearest_list_,
                                      std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
-    data.crossing = add_crossing(boundary, tile, simplification, batch);
+    data.crossing = batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
     data.margin = static_cast<float>(margin_in_cells);
     data.outside = query.outside ? 1 : 0;
+    return true;
 }
 
 void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork& work) const {

@@ -22,9 +22,10 @@ class ComputeBuilder {
 public:
     explicit ComputeBuilder(geometry::SubpixelGrid grid) : grid_(grid) {}
 
-    /// Adds the edge lists of a tile of boundary points.
-    void add_points_tile(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes,
-                         TileData& data, TileBatch& batch);
+    /// Adds the edge lists of a tile of boundary points; false, with nothing added, if the tile is
+    /// left to the CPU.
+    [[nodiscard]] bool add_points_tile(const PlannedQuery& query, const Tile& tile,
+                                       SimplifiedShapes& shapes, TileData& data, TileBatch& batch);
     /// Adds the mask of a field tile, and its blocks with their edge lists. `draw` says where in
     /// the read-back the requested outputs go.
     void add_field_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,

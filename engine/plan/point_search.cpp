@@ -1,5 +1,6 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
+#include <engine/plan/asked_points.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/point_search.hpp>
@@ -41,17 +42,25 @@ std::uint32_t units_for(std::size_t words) {
     return static_cast<std::uint32_t>((words + 3) / 4);
 }
 
-std::uint32_t chunks_of(const Polygon& polygon) {
-    std::uint32_t chunks = 0;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        chunks += (polygon.ring_end(ring) - polygon.ring_begin(ring) + chunk_size - 1) / chunk_size;
-    }
-    return chunks;
+std::uint32_t chunks_of(const Polygon& polygon, std::uint32_t ring) {
+    return (polygon.ring_end(ring) - polygon.ring_begin(ring) + chunk_size - 1) / chunk_size;
 }
 
-double reach_of(const PlannedQuery& query) {
-    const auto* const contacts = std::get_if<ContactQuery>(query.query);
-    return contacts == nullptr ? 0.0 : contacts->contact_distance;
+/// Moves bits 0, 1, ... 15 to bits 0, 2, ... 30.
+std::uint32_t spread_bits(std::uint32_t bits) {
+    bits = (bits | bits << 8U) & 0x00ff00ffU;
+    bits = (bits | bits << 4U) & 0x0f0f0f0fU;
+    bits = (bits | bits << 2U) & 0x33333333U;
+    return (bits | bits << 1U) & 0x55555555U;
+}
+
+/// The place on a Morton curve of a point whose coordinates are at most `extent`.
+std::uint32_t on_morton_curve(const Vector& point, double extent) {
+    const auto cell_of = [extent](double coordinate) {
+        const double part = extent > 0.0 ? 0.5 + 0.5 * coordinate / extent : 0.0;
+        return static_cast<std::uint32_t>(std::clamp(65536.0 * part, 0.0, 65535.0));
+    };
+    return spread_bits(cell_of(point.x())) | spread_bits(cell_of(point.y())) << 1U;
 }
 
 bool asks_for_vertices(const PlannedQuery& query) {
@@ -84,7 +93,7 @@ SearchDirectionData direction_of(const PlannedQuery& query, const SearchedQuery&
     data.offset = {static_cast<float>(offset.x()), static_cast<float>(offset.y())};
     const double extent = (query.a->radius() + query.b->radius()) / unit + offset.norm();
     const double cell = query.budget.cell / unit;
-    data.reach = rounded_up(reach_of(query) / unit);
+    data.reach = query.outside ? rounded_up(reach_of(query) / unit) : 0.0F;
     data.margin = rounded_up(std::ldexp(extent, -20));
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
     data.outside = query.outside ? 1.0F : 0.0F;
@@ -202,10 +211,32 @@ std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
     return entry.first;
 }
 
-/// A header, the boxes of all levels, the edges, and the numbers of the edges of each chunk. The
-/// places in the header are relative to its own.
+/// Sorts the rings; where they are few their own order is as good.
+void PointSearchBuilder::order_rings(const Polygon& polygon) {
+    constexpr std::uint32_t few_rings = 32;
+    rings_.clear();
+    std::uint32_t chunk = 0;
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        const Vector& start = polygon.vertices()[polygon.ring_begin(ring)];
+        rings_.push_back({on_morton_curve(start, polygon.radius()), ring, chunk});
+        chunk += chunks_of(polygon, ring);
+    }
+    if (polygon.ring_count() >= few_rings) {
+        std::sort(rings_.begin(), rings_.end(), [](const OrderedRing& i, const OrderedRing& j) {
+            return i.on_curve != j.on_curve ? i.on_curve < j.on_curve : i.ring < j.ring;
+        });
+    }
+}
+
+/// A header, the boxes of all levels, the edges, the numbers of the edges of each chunk, and where
+/// the chunks are that follow each other along the rings. The places in the header are relative to
+/// its own.
 void PointSearchBuilder::make_shape(const Polygon& polygon) {
-    const std::uint32_t chunks = chunks_of(polygon);
+    order_rings(polygon);
+    std::uint32_t chunks = 0;
+    for (const OrderedRing& ring : rings_) {
+        chunks += chunks_of(polygon, ring.ring);
+    }
     made_.resize(header_units);
     std::uint32_t levels = 0;
     std::uint32_t end = header_units;
@@ -220,7 +251,7 @@ void PointSearchBuilder::make_shape(const Polygon& polygon) {
     const std::uint32_t edges = end;
     const std::uint32_t infos = edges + chunk_size * chunks;
     made_[0] = {chunks, levels, edges, 4 * infos};
-    made_.resize(infos + units_for(chunks));
+    made_.resize(infos + 2 * units_for(chunks));
     boxes_.assign(chunks, empty_box);
     add_chunks(polygon, edges, infos);
     for (std::uint32_t level = 0; level < levels; ++level) {
@@ -240,12 +271,15 @@ void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,
         const Vector place = vertices[vertex] / unit;
         return {static_cast<float>(place.x()), static_cast<float>(place.y())};
     };
+    const std::uint32_t places = infos + units_for(boxes_.size());
     std::uint32_t chunk = 0;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const std::uint32_t begin = polygon.ring_begin(ring);
-        const std::uint32_t end = polygon.ring_end(ring);
-        for (std::uint32_t edge = begin; edge < end; ++chunk) {
+    for (const OrderedRing& ring : rings_) {
+        const std::uint32_t begin = polygon.ring_begin(ring.ring);
+        const std::uint32_t end = polygon.ring_end(ring.ring);
+        std::uint32_t along = ring.first_chunk;
+        for (std::uint32_t edge = begin; edge < end; ++chunk, ++along) {
             const std::uint32_t count = std::min(end - edge, chunk_size);
+            made_[places + along / 4][along % 4] = chunk;
             made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
             for (std::uint32_t i = 0; i < count; ++i, ++edge) {
                 const auto a = end_of(edge);

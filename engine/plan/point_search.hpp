@@ -18,7 +18,8 @@ namespace nearfield::plan {
 ///
 /// A shape is given in its own frame, relative to its centre, in units of a power of two near its
 /// radius, in chunks of edges that are consecutive on one ring: a box per chunk, and levels of
-/// boxes above, until at most one group is left.
+/// boxes above, until at most one group is left. Many rings, which may come in any order, are in
+/// Morton order.
 
 /// Sixteen bytes of the search's input.
 using SearchUnit = std::array<std::uint32_t, 4>;
@@ -117,6 +118,7 @@ private:
     void drop_unused();
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
     void make_shape(const geometry::Polygon& polygon);
+    void order_rings(const geometry::Polygon& polygon);
     void add_chunks(const geometry::Polygon& polygon, std::uint32_t edges, std::uint32_t infos);
     void add_level(std::uint32_t first);
     void make_parts(const geometry::Polygon& polygon, double spacing);
@@ -126,6 +128,13 @@ private:
     std::vector<SearchUnit> units_;
     std::vector<SearchUnit> made_;  // of one shape
     std::vector<std::array<float, 4>> boxes_;
+    /// Of a ring: its place on a Morton curve, its number, its first chunk along the rings.
+    struct OrderedRing {
+        std::uint32_t on_curve;
+        std::uint32_t ring;
+        std::uint32_t first_chunk;
+    };
+    std::vector<OrderedRing> rings_;
     std::uint64_t revision_ = 0;
     std::uint64_t batch_ = 0;
     std::size_t units_in_use_ = 0;  // by the present batch

@@ -2,6 +2,7 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/geometry/clip.hpp>
 #include <engine/geometry/fill_mesh.hpp>
+#include <engine/plan/asked_points.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/plan/tile_triangles.hpp>
 
@@ -75,6 +76,7 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     select_watched(plan, number);
     tile_of_plan_.resize(plan.tiles.size());
     first_block_.resize(plan.tiles.size());
+    left_to_cpu_.clear();
     for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
         checkpoint();
         const Tile& tile = plan.tiles[i];
@@ -87,6 +89,7 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
         tile_of_plan_[i] = draw.tile;
         first_block_[i] = static_cast<std::uint32_t>(batch.compute.feature_blocks.size());
         batch.tile_index.push_back(i);
+        left_to_cpu_.push_back(false);
         batch.resident =
             batch.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
         TileData& data = batch.tiles.emplace_back();
@@ -119,7 +122,8 @@ void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& t
                                         TileBatch& batch) {
     switch (tile.kind) {
         case TileKind::points:
-            compute_.add_points_tile(query, tile, shapes_, batch.tiles[draw.tile], batch);
+            left_to_cpu_[draw.tile] =
+                !compute_.add_points_tile(query, tile, shapes_, batch.tiles[draw.tile], batch);
             break;
         case TileKind::field:
             nearest_.clear();
@@ -261,6 +265,11 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     crossing_.clear();
     crossing_edges(boundary, tile.width, tile.height, simplification, crossing_);
     finder_.find(boundary, tile.needed, simplification + mesh_error, nearest_);
+    if (tile.kind == TileKind::points &&
+        is_left_to_cpu(query, crossing_.size() + nearest_.size())) {
+        left_to_cpu_[draw.tile] = true;
+        return;
+    }
     nearest_list_.clear();
     double largest_reach = 0.0;
     for (const NearestEdge& nearest : nearest_) {
@@ -303,6 +312,9 @@ void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBa
     Vector origin = Vector::Zero();
     for (const std::uint32_t i : plan.points_by_batch.of(number)) {
         const PlannedPoint& point = plan.points[i];
+        if (left_to_cpu_[tile_of_plan_[point.tile]]) {
+            continue;
+        }
         const Tile& tile = plan.tiles[point.tile];
         if (index != point.tile) {
             index = point.tile;

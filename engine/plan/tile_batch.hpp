@@ -179,6 +179,7 @@ private:
     std::vector<geometry::Vector> tangents_;   // by nearest edge
     std::vector<std::uint32_t> watched_;       // tiles of the plan
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its index in the tile batch
+    std::vector<bool> left_to_cpu_;            // by tile of the tile batch: so are its points
     std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block
     ComputeBuilder compute_;
 };

@@ -12,7 +12,8 @@ using plan::Tile;
 }  // namespace
 
 void ResultDecoder::begin_batch(const plan::Plan& plan) {
-    words_.resize(plan.points.size());
+    // Points that no tile batch answers are left to the CPU.
+    words_.assign(plan.points.size(), plan::point_resolved | plan::point_doubtful);
     samples_.clear();
     fields_.begin_batch(plan);
 }

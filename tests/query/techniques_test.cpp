@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace nearfield::test {
 namespace {
@@ -185,6 +186,64 @@ TEST_F(Techniques, AgreeOnDegeneratePolygons) {
         const Pair pair{shapes[i], shapes[(i + 5) % shapes.size()], {}, {{1.3, -0.7}, 0.1}, 0.7};
         check(pair);
         check_dense(pair);
+    }
+}
+
+/// Regular pentagons inside each other: boxes do not tell their edges apart.
+Rings nested_pentagons(int rings) {
+    Rings all;
+    for (int i = 0; i < rings; ++i) {
+        all.push_back(scaled_and_moved(regular(5), 1.0 - 0.95 * i / rings, {}).front());
+    }
+    return all;
+}
+
+// So many edges in a tile that it is left to the CPU, and so many boxes around each point that the
+// device's walks give up.
+TEST_F(Techniques, AgreeOnCrowds) {
+    const NamedRings pentagons{"pentagons", nested_pentagons(260)};
+    check({pentagons, pentagons, {}, {}, 0.1});
+    check({pentagons, pentagons, {{0.3, 0.2}, 0.4}, {{-100.0, 3.0}, 2.0}, 0.1});
+    NamedRings specks{"specks", {}};
+    Random random(seed);
+    for (int i = 0; i < 400; ++i) {
+        specks.rings.push_back(
+            scaled_and_moved(regular(4), 0.001,
+                             {random.between(-0.1, 0.1), random.between(-0.1, 0.1)})
+                .front());
+    }
+    check({pentagons, specks, {}, {}, 0.1});
+}
+
+TEST_F(Techniques, AgreeOnSpikes) {
+    NamedRings spikes{"spikes", {{}}};
+    for (int i = 0; i < 1200; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / 1200;
+        const double radius = i % 2 == 0 ? 0.3 : 1.0;
+        spikes.rings.front().push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    check({spikes, spikes, {}, {{0.3, 0.2}, 0.0}, 0.1});
+}
+
+// All points touch, so the device leaves all to the CPU, which locates some tens of thousands at
+// once.
+TEST_F(Techniques, AgreeOnMorePointsThanAreLocatedAtOnce) {
+    const NamedRings pentagons{"pentagons", nested_pentagons(300)};
+    const Pair pair{pentagons, pentagons, {}, {}, 0.009};
+    const PlacedPair cpu(context(), pair, Technique::cpu);
+    const ContactResult exact = run_alone(context(), cpu.contacts(1e-3));
+    EXPECT_GT(exact.records.size(), 140000U);
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        SCOPED_TRACE(to_string(technique));
+        const PlacedPair device(context(), pair, technique);
+        const ContactResult found = run_alone(context(), device.contacts(1e-3));
+        ASSERT_EQ(found.records.size(), exact.records.size());
+        Report report("contacts");
+        for (std::size_t i = 0; i < exact.records.size(); ++i) {
+            report.require(found.records[i].distance == exact.records[i].distance &&
+                               found.records[i].point == exact.records[i].point,
+                           "contact ", i);
+        }
     }
 }
 

@@ -52,6 +52,7 @@ protected:
         ContactQuery contacts;
         contacts.contact_distance = distance;
         query_ = contacts;
+        plan_.queries.front().outside = true;
     }
 
     [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units.size(); }
@@ -69,8 +70,11 @@ protected:
             EXPECT_EQ(as_float(words[0]), std::ldexp(static_cast<float>(place.x()), exponent));
             EXPECT_EQ(as_float(words[1]), std::ldexp(static_cast<float>(place.y()), exponent));
         };
+        const std::uint32_t places = infos + 4 * ((chunks + 3) / 4);
         std::uint32_t edge = 0;
-        for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        for (std::uint32_t place = 0; place < chunks; ++place) {
+            const std::uint32_t chunk = word(places + place);
+            ASSERT_LT(chunk, chunks);
             const std::uint32_t info = word(infos + chunk);
             ASSERT_EQ(info >> 4U, edge);
             for (std::uint32_t i = 0; i < (info & 15U); ++i, ++edge) {
@@ -94,6 +98,17 @@ protected:
         for (std::uint32_t i = 0; i < boxes; ++i) {
             expect_holds(unit(first + 1), unit(first_box(first, levels - 1) + i));
         }
+    }
+
+    /// The mean width of the boxes of a level.
+    [[nodiscard]] double mean_width(std::uint32_t first, std::uint32_t level,
+                                    std::uint32_t boxes) const {
+        double sum = 0.0;
+        for (std::uint32_t i = 0; i < boxes; ++i) {
+            const SearchUnit& box = unit(first_box(first, level) + i);
+            sum += static_cast<double>(as_float(box[2]) - as_float(box[0]));
+        }
+        return sum / boxes;
     }
 
 private:
@@ -159,6 +174,21 @@ TEST_F(PointSearchInput, ForgetsShapesThatAreNoLongerUsed) {
     }
     // A shape of 100 edges takes less than 100 units for edges and boxes, and 50 for its samples.
     EXPECT_LT(largest, 4096U + 5 * 4 * 150);
+}
+
+TEST_F(PointSearchInput, HasNearbyRingsInOneBoxWhateverTheirOrder) {
+    Random random(23);
+    Rings islands;
+    for (int i = 0; i < 512; ++i) {
+        const Vector2 low{random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
+        islands.push_back(test::rectangle(low, {low.x + 0.01, low.y + 0.01}).front());
+    }
+    build(test::star(random, 20, 0.3), islands);
+    const std::uint32_t shape = search().directions.front().shape_b;
+    check(shape, b_);
+    // Eight islands take an eighth of the whole width, or a quarter; eight at random most of it.
+    EXPECT_LT(mean_width(shape, 1, 64), 0.6);
+    EXPECT_LT(mean_width(shape, 2, 8), 1.2);
 }
 
 TEST_F(PointSearchInput, ReachesTheContactDistance) {
