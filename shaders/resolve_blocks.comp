@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 
 // The signed distance at every cell of a field (section 2.2.2 of the paper), from the segments that
 // can be nearest in the cell's block. Eight threads per block, two columns per thread: each segment
@@ -66,6 +67,22 @@ void consider(vec2 from_middle, vec2 way, float half_length, inout Column column
     column.rows_12 = min(column.rows_12, squared_distance(along, across, half_length));
 }
 
+// Updates two columns, the first of which begins at a cell.
+void consider_segment(uint index, vec2 cell, inout Column left, inout Column right) {
+    vec4 segment = segments[index];
+    float squared = dot(segment.zw, segment.zw);
+    float inverse = squared > 0.0 ? inversesqrt(squared) : 0.0;
+    // For a segment of length 0 any direction is valid.
+    vec2 way = squared > 0.0 ? segment.zw * inverse : vec2(1.0, 0.0);
+    vec2 from_middle = cell - segment.xy;
+    consider(from_middle, way, squared * inverse, left);
+    consider(from_middle + vec2(columns_apart, 0.0), way, squared * inverse, right);
+}
+
+// Some drivers end a loop after 65,535 turns, without notice: engine/plan/compute_batch_builder.cpp
+// limits the list.
+const uint segments_per_turn = 4u;
+
 struct Block {
     uint first_segment;
     uint end_segment;
@@ -115,15 +132,12 @@ void main() {
     Column left = nothing_near;
     Column right = nothing_near;
     vec2 cell = vec2(float(x) + 0.5, 0.5);
-    for (uint i = block.first_segment; i < block.end_segment; ++i) {
-        vec4 segment = segments[i];
-        float squared = dot(segment.zw, segment.zw);
-        float inverse = squared > 0.0 ? inversesqrt(squared) : 0.0;
-        // For a segment of length 0 any direction is valid.
-        vec2 way = squared > 0.0 ? segment.zw * inverse : vec2(1.0, 0.0);
-        vec2 from_middle = cell - segment.xy;
-        consider(from_middle, way, squared * inverse, left);
-        consider(from_middle + vec2(columns_apart, 0.0), way, squared * inverse, right);
+    for (uint i = block.first_segment; i < block.end_segment; i += segments_per_turn) {
+        [[unroll]] for (uint k = 0u; k < segments_per_turn; ++k) {
+            if (i + k < block.end_segment) {
+                consider_segment(i + k, cell, left, right);
+            }
+        }
     }
     write_rows(block, 0u, x, left.rows_0, right.rows_0);
     write_rows(block, 4u, x, left.rows_4, right.rows_4);

@@ -8,6 +8,10 @@
 namespace nearfield::geometry {
 namespace {
 
+/// Edges of a run at most: what reads a run one edge after the other takes a bounded time. Some
+/// drivers end the loops of a shader after 65,535 turns, without notice.
+constexpr std::uint32_t max_run = 256;
+
 // Why it suffices to measure the vertices. Let S be the straight segment from the first to the last
 // vertex of a run, and every vertex of the run within e of S.
 // - The distance to a convex set is a convex function, so along each edge of the run it is at most
@@ -178,7 +182,7 @@ public:
         const RingSimplifier simplifier(view_, deviation_, longest_run_, polygon_.radius());
         for (std::uint32_t start = first; start < end;) {
             // No run takes all edges: a ring keeps two.
-            const std::uint32_t most = std::min(end - start, view_.size() - 1);
+            const std::uint32_t most = std::min({end - start, view_.size() - 1, max_run});
             std::uint32_t count = simplifier.longest_from(start, most);
             const double measured = simplifier.measure(start, count);
             append(start, start + count, measured);

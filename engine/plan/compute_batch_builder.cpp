@@ -33,6 +33,21 @@ std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
     return static_cast<std::int32_t>(coordinate * grid.steps);
 }
 
+/// Edges in the list of a block at most. Some drivers end the loops of a shader after 65,535 turns,
+/// without notice; resolve_blocks.comp looks at four edges in a turn.
+constexpr std::uint32_t max_block_segments = 4 * 65000;
+
+void require_few(std::uint32_t segments) {
+    if (segments > max_block_segments) {
+        throw StatusException(
+            {StatusCode::too_large,
+             std::to_string(segments) +
+                 " edges can be nearest in one block of cells of a distance field; technique "
+                 "compute has room for " +
+                 std::to_string(max_block_segments)});
+    }
+}
+
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;
     return {shapes.get(*query.b, query.budget.simplification, longest_tile_run * cell),
@@ -148,6 +163,7 @@ void ComputeBuilder::add_blocks(const TileBoundary& boundary, const Tile& tile,
         block.first_segment = static_cast<std::uint32_t>(work.segments.size());
         block_edges_.append(index++, work.segments);
         block.segments = static_cast<std::uint32_t>(work.segments.size()) - block.first_segment;
+        require_few(block.segments);
         block.size = place.width | place.height << 16U;
         block.tile_width = tile.width;
         block.value = first_value + place.row * tile.width + place.column;
