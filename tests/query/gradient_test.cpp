@@ -86,6 +86,9 @@ TEST_F(Gradients, CentralDifferencesHoldAndBlendingAgrees) {
         const auto blended = run_alone(context(), query);
         check_differences(field.oracle(), differences);
         check_blended(differences, blended);
+        // Two errors over two cells.
+        EXPECT_DOUBLE_EQ(differences.gradient_error_bound,
+                         differences.error_bound / differences.cell);
         query.technique = Technique::cpu;
         EXPECT_EQ(run_alone(context(), query).status.code(), StatusCode::invalid_query);
         query.gradient = GradientMethod::central_differences;

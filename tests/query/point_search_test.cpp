@@ -319,6 +319,27 @@ TEST_F(PointSearch, IsDividedWhereItMayFindMuch) {
     EXPECT_EQ(all_numbers(results), six);
 }
 
+// B has boxes on five levels: three of the highest level, all of which come near a small star.
+TEST_F(PointSearch, HoldsForTensOfThousandsOfEdges) {
+    constexpr std::size_t edges = 70000;
+    Ring gear;
+    for (std::size_t i = 0; i < edges; ++i) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / edges;
+        const double radius = i % 2 == 0 ? 1.0 : 1.0 + 1e-4;
+        gear.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    Random random(seed + 6000);
+    const Pair pair{
+        {"star", scaled_and_moved(star(random, 30, 0.6), 1.1, {})}, {"gear", {gear}}, {}, {}, 0.01};
+    const PlacedPair placed(context(), pair, Technique::compute);
+    PenetrationQuery query = placed.penetration();
+    const PenetrationResult found = run_alone(context(), query);
+    query.technique = Technique::cpu;
+    const PenetrationResult expected = run_alone(context(), query);
+    check_agreement({placed, query}, found, by_technique_of(found, expected));
+    EXPECT_GT(found.count, 100U);
+}
+
 // What is kept of shapes that change, grow and shrink never shows.
 TEST_F(PointSearch, KeepsNothingOfFormerShapes) {
     Random random(seed + 2);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace nearfield::test {
 namespace {
@@ -296,6 +297,33 @@ TEST_F(Reconstruction, HoldsAcrossTilesAndRounds) {
         points.erase(points.begin(), points.end() - 2);
         query.points = points;
         check_points(shape.oracle(), query, run_alone(*small, query));
+    }
+}
+
+/// Beside a long wall, two points that lie alike between their cells. A thousand away, single
+/// precision adds to the bound of the cells, and as much to that of the point.
+TEST_F(Reconstruction, FarPointsAreAsExactAsTheirCells) {
+    const PlacedShape shape(context(), rectangle({-1, -500}, {0, 500}), {});
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        SCOPED_TRACE(to_string(technique));
+        const auto bounds_at = [&](double away) {
+            const std::array<Vector2, 1> points{{{away + 0.53, 0.02}}};
+            DistanceFieldQuery query;
+            query.b = shape.instance();
+            query.tolerance = 0.1;
+            query.rectangle = {{away, -1}, {away + 1, 1}};
+            query.technique = technique;
+            query.points = points;
+            query.values = false;
+            const auto result = run_alone(context(), query);
+            EXPECT_TRUE(result.status.ok()) << result.status.text();
+            return std::pair(result.error_bound, result.points.at(0).error_bound);
+        };
+        const auto [near_cells, near_point] = bounds_at(10.0);
+        const auto [far_cells, far_point] = bounds_at(1000.0);
+        EXPECT_GT(far_cells - near_cells, 1e-3);
+        // A value is rounded by up to 4e-5.
+        EXPECT_NEAR(far_point - near_point, far_cells - near_cells, 4e-4);
     }
 }
 

@@ -204,6 +204,20 @@ TEST_F(ResidentLayout, IsKnownBeforeTheFirstFrame) {
     EXPECT_TRUE(made().collect(*ticket, results).ok());
 }
 
+TEST_F(ResidentLayout, RecordsThatMoveSaySo) {
+    std::uint64_t revision = 0;
+    for (const double tolerance : {0.03, 0.01, 0.003}) {
+        PenetrationQuery query{{shape_, {{0.1, 0.0}, 0.4}}, {other_, {}}, tolerance};
+        query.resident = true;
+        Resident::ask(made(), query, [&](const ResidentRecords& records) {
+            EXPECT_EQ(records.slot.index, 0U);
+            // Room for half as much again is not enough for three times as many points.
+            EXPECT_NE(records.slot.revision, revision) << tolerance;
+            revision = records.slot.revision;
+        });
+    }
+}
+
 /// The greatest distance between two vertices.
 double diameter(const Rings& rings) {
     double greatest = 0.0;

@@ -34,10 +34,14 @@ public:
         };
         state() = {};
         test_support::Lies lies;
+        lies.memory = [](VkPhysicalDeviceMemoryProperties& properties) {
+            state().types = properties;
+        };
         lies.entry_points = {
-            {"vkCreateBuffer", erased(&create)}, {"vkBindBufferMemory", erased(&bind)},
-            {"vkMapMemory", erased(&map)},       {"vkUpdateDescriptorSets", erased(&update)},
-            {"vkQueueSubmit", erased(&submit)},  {"vkWaitForFences", erased(&wait)}};
+            {"vkCreateBuffer", erased(&create)},     {"vkBindBufferMemory", erased(&bind)},
+            {"vkAllocateMemory", erased(&allocate)}, {"vkFreeMemory", erased(&free)},
+            {"vkMapMemory", erased(&map)},           {"vkUpdateDescriptorSets", erased(&update)},
+            {"vkQueueSubmit", erased(&submit)},      {"vkWaitForFences", erased(&wait)}};
         return lies;
     }
 
@@ -62,9 +66,10 @@ private:
     };
     struct State {
         std::map<VkBuffer, Place> places;
-        std::map<VkDeviceMemory, const std::byte*> mapped;  ///< its first byte
-        std::vector<Range> ranges;                          ///< of the coming submission
-        std::vector<Guard> guards;                          ///< of that which is running
+        VkPhysicalDeviceMemoryProperties types{};
+        std::map<VkDeviceMemory, std::byte*> mapped;  ///< its first byte
+        std::vector<Range> ranges;                    ///< of the coming submission
+        std::vector<Guard> guards;                    ///< of that which is running
         int submissions = 0;
         int watched = 0;
         int overwritten = 0;
@@ -87,14 +92,33 @@ private:
         return driver<PFN_vkBindBufferMemory>("vkBindBufferMemory")(device, buffer, memory, offset);
     }
 
-    static VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset,
-                                   VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
-        const VkResult result =
-            driver<PFN_vkMapMemory>("vkMapMemory")(device, memory, offset, size, flags, data);
-        if (result == VK_SUCCESS) {
-            state().mapped[memory] = static_cast<const std::byte*>(*data) - offset;
+    /// All memory that the host can see is mapped, also what the library leaves to the device.
+    static VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                        const VkAllocationCallbacks* allocator,
+                                        VkDeviceMemory* memory) {
+        VkResult result =
+            driver<PFN_vkAllocateMemory>("vkAllocateMemory")(device, info, allocator, memory);
+        const VkMemoryType& type = state().types.memoryTypes[info->memoryTypeIndex];
+        if (result == VK_SUCCESS &&
+            (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
+            void* data = nullptr;
+            result =
+                driver<PFN_vkMapMemory>("vkMapMemory")(device, *memory, 0, VK_WHOLE_SIZE, 0, &data);
+            state().mapped[*memory] = static_cast<std::byte*>(data);
         }
         return result;
+    }
+
+    static void VKAPI_CALL free(VkDevice device, VkDeviceMemory memory,
+                                const VkAllocationCallbacks* allocator) {
+        state().mapped.erase(memory);
+        driver<PFN_vkFreeMemory>("vkFreeMemory")(device, memory, allocator);
+    }
+
+    static VkResult VKAPI_CALL map(VkDevice /*device*/, VkDeviceMemory memory, VkDeviceSize offset,
+                                   VkDeviceSize /*size*/, VkMemoryMapFlags /*flags*/, void** data) {
+        *data = state().mapped.at(memory) + offset;
+        return VK_SUCCESS;
     }
 
     static void VKAPI_CALL update(VkDevice device, std::uint32_t count,
@@ -248,16 +272,58 @@ TEST_F(Room, OfSamplesOfMasks) {
     expect_nothing_behind();
 }
 
+/// A square within another one: about 10,000 points along its boundary, each of them a record.
+template <class Query>
+Query square_inside(Context& context) {
+    const ShapeHandle a = added(context, rectangle({0, 0}, {1, 1}));
+    const ShapeHandle b = added(context, rectangle({-1, -1}, {2, 2}));
+    return {{a, {}}, {b, {}}, 4e-4};
+}
+
 TEST_F(Room, OfFoundPoints) {
     const auto query = [](Context& context) {
-        const ShapeHandle a = added(context, rectangle({0, 0}, {1, 1}));
-        const ShapeHandle b = added(context, rectangle({-1, -1}, {2, 2}));
-        PenetrationQuery searched{{a, {}}, {b, {}}, 4e-4};  // about 10,000 points, all in B
+        auto searched = square_inside<PenetrationQuery>(context);
         searched.technique = Technique::compute;
         return searched;
     };
     EXPECT_GT(run(query), 1);
     EXPECT_EQ(run(query), 1);
+    expect_nothing_behind();
+}
+
+TEST_F(Room, OfResidentRecords) {
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        SCOPED_TRACE(static_cast<int>(technique));
+        run([&](Context& context) {
+            auto query = square_inside<PenetrationQuery>(context);
+            query.technique = technique;
+            query.resident = true;
+            return query;
+        });
+        run([&](Context& context) {
+            auto query = square_inside<ContactQuery>(context);
+            query.contact_distance = 2.0;  // of both boundaries
+            query.technique = technique;
+            query.resident = true;
+            return query;
+        });
+    }
+    expect_nothing_behind();
+}
+
+TEST_F(Room, OfResidentSamples) {
+    for (const Technique technique : {Technique::raster, Technique::compute}) {
+        for (const bool stored : {true, false}) {
+            SCOPED_TRACE(static_cast<int>(technique));
+            SCOPED_TRACE(stored);
+            run([&](Context& context) {
+                IntersectionQuery query = squares(context, technique);
+                query.resident = true;
+                query.resident_samples = stored;
+                return query;
+            });
+        }
+    }
     expect_nothing_behind();
 }
 

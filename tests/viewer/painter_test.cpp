@@ -87,12 +87,15 @@ TEST_F(Painter, AFillHasNoSeams) {
 
 TEST_F(Painter, DrawsLinesDotsAndCells) {
     const std::vector<Vector2> zigzag{{20.0, 30.0}, {200.0, 60.0}, {60.0, 120.0}, {210.0, 200.0}};
+    const Ring outline{{20.0, 90.0}, {40.0, 130.0}, {15.0, 160.0}};
     tools::Canvas canvas(side, side, tools::palette::panel);
     canvas.stroke_open(std::span(&zigzag, 1), {ink, 9.0});
+    canvas.stroke(std::span(&outline, 1), {ink, 9.0});
     canvas.dot({60.5, 190.0}, 17.0, ink);
     canvas.fill(Rectangle{{100.0, 210.0}, {160.0, 230.0}}, ink);
     tools::Drawing drawing;
     drawing.line(zigzag, ink, 9.0);
+    drawing.line(outline, ink, 9.0, true);
     drawing.dot({60.5, 190.0}, 17.0, ink);
     drawing.cells({{{100.0, 210.0}, {160.0, 230.0}}, 3, 1, {ink, ink, ink}});
     expect_alike(paint(drawing), canvas, "lines");

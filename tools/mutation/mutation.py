@@ -161,8 +161,6 @@ class Worker:
         """The test of a group that fails with the mistake that is in place; SURVIVED if there is
         none, BAD if it is no program. `former`: looks only at the suite that noticed it before."""
         if said := self.place.make([self.suites.target(stage)], self.jobs, BUILD_LIMIT):
-            if "[-Werror=" in said:
-                return "a warning of the compiler"
             if not self.stopping.is_set():
                 print(said[-2000:], flush=True)
             return BAD

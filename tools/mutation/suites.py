@@ -23,6 +23,7 @@ GROUPS = {
     "hash": (r"hash\.", "test_hash"),
     "simulation": (r"simulation\.", "test_simulation"),
     "painter": (r"viewer\.Painter$", "test_painter"),
+    "drag": (r"viewer\.Drag$", "test_drag"),
     "viewer": (r"viewer\.Window$", "test_viewer"),
     "cli": (None, "test_program"),
 }
@@ -53,7 +54,7 @@ USED_BY = {
     "drawing": ("cli",),
     "simulation": ("simulation", "cli"),
     "rendering": ("painter", "cli"),
-    "viewer": ("viewer",),
+    "viewer": ("drag", "viewer"),
     "benchmark": ("cli",),
 }
 

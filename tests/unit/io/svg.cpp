@@ -175,6 +175,11 @@ TEST(ToolsSvg, EveryElementWithYTurnedAround) {
                                   .close()
                                   .transform(flip);
     expect_same(svg("<rect width='10' height='6' rx='2' ry='9'/>"), rounded, "rect");
+    // One radius applies to both axes.
+    for (const char* const one : {"rx='1'", "ry='1'"}) {
+        EXPECT_EQ(rings(svg("<rect width='10' height='6' " + std::string(one) + "/>")),
+                  rings(svg("<rect width='10' height='6' rx='1' ry='1'/>")));
+    }
 }
 
 TEST(ToolsSvg, TransformsNestAndGoFromRightToLeft) {

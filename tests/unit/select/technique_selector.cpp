@@ -101,6 +101,27 @@ TEST_F(ChooserTest, PaysForASubmissionOnlyWhereItIsWorthIt) {
     EXPECT_EQ(technique_of(choose(costs(), {payer, penetration(0.5)})[1]), Technique::raster);
 }
 
+TEST_F(ChooserTest, EquallyFastTechniquesAreTakenInTheirOrder) {
+    CostModel costs = ChooserTest::costs();
+    costs.raster.submission = costs.compute.submission = 0.0;
+    const WorkCost fast{1.0, 0.0, 0.0};
+    const WorkCost slow{1000.0, 0.0, 0.0};
+    costs.cpu.points = costs.cpu.intersection = costs.cpu.field = slow;
+    costs.raster.points = costs.compute.intersection = slow;
+    costs.raster.intersection = costs.compute.points = fast;
+    costs.raster.field = costs.compute.field = fast;
+    // One query is faster by compute and one by raster, so both are used; the third one is as fast
+    // by either.
+    IntersectionQuery overlap;
+    overlap.a.shape = {0, 0};
+    overlap.b = {{1, 0}, {{0.4, 0.1}, 0.3}};
+    overlap.tolerance = 0.01;
+    const std::vector<AnyQuery> chosen = choose(costs, {penetration(0.01), overlap, field(0.01)});
+    EXPECT_EQ(technique_of(chosen[0]), Technique::compute);
+    EXPECT_EQ(technique_of(chosen[1]), Technique::raster);
+    EXPECT_EQ(technique_of(chosen[2]), Technique::raster);
+}
+
 TEST_F(ChooserTest, AsksNoTechniqueForWhatItHasNoAnswerTo) {
     DistanceFieldQuery blended = field(0.1);
     blended.gradients = true;
