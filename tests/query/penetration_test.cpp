@@ -3,6 +3,7 @@
 #include <tests/query/corpus.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nearfield::test {
@@ -47,20 +48,50 @@ TEST_F(Penetration, DoesNotOutliveItsBatch) {
     const std::vector<Ring> square{{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
     const ShapeHandle a = *context().add_shape(square);
     const ShapeHandle b = *context().add_shape(square);
-    PenetrationQuery there{{a, {}}, {b, {{5.0, 0.0}}}, 0.01};
-    there.technique = Technique::cpu;
-    EXPECT_EQ(run_alone(context(), there).count, 0U);
-    there.b.pose.translation.x = 0.5;
-    PenetrationQuery back = there;
-    std::swap(back.a, back.b);
+    PenetrationQuery there{{a, {}}, {b, {{0.5, 0.0}}}, 0.01};
+    PenetrationQuery back{there.b, there.a, 0.01};
     there.technique = Technique::raster;
+    back.technique = Technique::cpu;
     Batch batch;
     batch.add(there);
     const auto handle = batch.add(back);
     Results results;
+    // Once before, so that a smaller batch leaves the queries of this one where they are.
+    ASSERT_TRUE(context().run(batch, results).ok());
+    PenetrationQuery apart{{a, {}}, {b, {{5.0, 0.0}}}, 0.01};
+    apart.technique = Technique::cpu;
+    EXPECT_EQ(run_alone(context(), apart).count, 0U);
     ASSERT_TRUE(context().run(batch, results).ok());
     EXPECT_TRUE(results[handle].intersects);
     EXPECT_GT(results[handle].count, 0U);
+}
+
+/// Along all four sides of a square within another one the depth is 1.
+TEST_F(Penetration, OfEquallyDeepPointsTheFirstIsTheDeepest) {
+    const ShapeHandle a = *context().add_shape(rectangle({0, 0}, {1, 1}));
+    const ShapeHandle b = *context().add_shape(rectangle({-1, -1}, {2, 2}));
+    for (const Technique technique : {Technique::raster, Technique::compute, Technique::cpu}) {
+        for (const PenetrationPoints points :
+             {PenetrationPoints::boundary, PenetrationPoints::vertices}) {
+            SCOPED_TRACE(to_string(technique));
+            PenetrationQuery query{{a, {}}, {b, {}}, 0.0625};
+            query.technique = technique;
+            query.points = points;
+            const PenetrationResult result = run_alone(context(), query);
+            ASSERT_GT(result.count, 3U);
+            const auto deepest =
+                std::max_element(result.records.begin(), result.records.end(),
+                                 [](const PenetrationRecord& one, const PenetrationRecord& other) {
+                                     return one.depth < other.depth;
+                                 });
+            EXPECT_EQ(std::count_if(result.records.begin(), result.records.end(),
+                                    [&](const PenetrationRecord& record) {
+                                        return record.depth == deepest->depth;
+                                    }),
+                      result.count);
+            EXPECT_EQ(result.deepest.point, deepest->point);
+        }
+    }
 }
 
 TEST_F(Penetration, HoldsForLongCoasts) {

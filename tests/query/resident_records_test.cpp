@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -112,6 +113,7 @@ void check_summary(const ResidentRecords& resident, const RecordsContents& conte
     std::uint32_t deepest = 0;
     Vector2 low = contents.records[0].own_point;
     Vector2 high = low;
+    std::set<std::uint32_t> places;
     for (std::uint32_t i = 0; i < summary.count; ++i) {
         const RecordContents& record = contents.records[i];
         if (record.depth() > contents.records[deepest].depth()) {
@@ -120,6 +122,7 @@ void check_summary(const ResidentRecords& resident, const RecordsContents& conte
         low = {std::min(low.x, record.own_point.x), std::min(low.y, record.own_point.y)};
         high = {std::max(high.x, record.own_point.x), std::max(high.y, record.own_point.y)};
         EXPECT_LT(record.place, summary.capacity);
+        EXPECT_TRUE(places.insert(record.place).second) << "place " << record.place << " twice";
     }
     EXPECT_EQ(summary.deepest, deepest);
     EXPECT_EQ(static_cast<double>(summary.depth), contents.records[deepest].depth());

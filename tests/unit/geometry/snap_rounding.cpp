@@ -126,6 +126,13 @@ TEST(SnapRounding, EdgesMeetAtEndsAlone) {
     }
 }
 
+TEST(SnapRounding, ACrossingBetweenCellsIsInTheUpperRightOne) {
+    // Two triangles without area, whose long sides cross where four cells meet.
+    const std::vector<Ring> rings{{{-2, -2}, {3, 3}, {-2, -2}}, {{-2, 3}, {3, -2}, {-2, 3}}};
+    EXPECT_EQ(snap_round(rings, 100).cells,
+              (std::vector<Cell>{{-2, -2}, {-2, 3}, {1, 1}, {3, -2}, {3, 3}}));
+}
+
 TEST(SnapRounding, CrossingsCount) {
     const std::vector<Ring> rings{{{0, 0}, {100, 100}, {100, 0}, {0, 100}}};
     EXPECT_EQ(snap_round(rings, 5).cells.size(), 5U);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tools/io/summary.hpp>
 
+#include <numbers>
 #include <sstream>
 #include <string>
 
@@ -50,6 +51,17 @@ TEST(ToolsSummary, OnlyAPairThatIsOneOfSeveralSaysSo) {
     EXPECT_TRUE(ends_with(
         line_of(QueryType::closest_point, one_apart<ClosestPointResult>(true), "point of B"),
         "vertex 7"));
+}
+
+TEST(ToolsSummary, PosesAreInDegrees) {
+    TimeOfImpactResult result;
+    result.state = ImpactState::hit;
+    result.pose_a = {{1.0, 2.0}, std::numbers::pi / 2.0};
+    result.pose_b = {{3.0, 4.0}, -std::numbers::pi};
+    EXPECT_TRUE(
+        ends_with(line_of(QueryType::time_of_impact, result, "pose of A then"), ", 90 degrees"));
+    EXPECT_TRUE(
+        ends_with(line_of(QueryType::time_of_impact, result, "pose of B then"), ", -180 degrees"));
 }
 
 TEST(ToolsSummary, OnlyADeepestPointWithSeveralWaysOutSaysSo) {
