@@ -91,9 +91,9 @@ void write_clearance_json(std::ostream& stream, const ClearanceReport& report) {
 void write_clearance_summary(std::ostream& stream, const ClearanceReport& report) {
     const benchmark::Spread times = query_times(report);
     const ClearanceFrame& last = report.frames.back();
-    const auto overlapping = static_cast<std::size_t>(
+    const auto blocked = static_cast<std::size_t>(
         std::count_if(report.frames.begin(), report.frames.end(),
-                      [](const ClearanceFrame& frame) { return frame.clearance.distance <= 0.0; }));
+                      [](const ClearanceFrame& frame) { return frame.free_paths == 0; }));
     stream << "scene             " << report.scene.name() << ", technique "
            << to_string(Technique::cpu) << '\n'
            << "objects, lines    " << report.scene.obstacles().size() << ", "
@@ -105,7 +105,7 @@ void write_clearance_summary(std::ostream& stream, const ClearanceReport& report
            << short_number(times.lower_quartile) << " - " << short_number(times.upper_quartile)
            << ")\n"
            << "clearance         " << short_number(least_clearance(report)) << " at least; "
-           << overlapping << " frames with overlap\n"
+           << blocked << " frames without a free path\n"
            << "last frame        " << short_number(last.clearance.distance) << ", "
            << last.free_paths << " paths free\n";
 }
