@@ -27,6 +27,7 @@ test_packages+=(
 )
 bench_packages=(
     libgeos-dev libboost-dev libcgal-dev libpolyclipping-dev libopencv-core-dev libopencv-imgproc-dev
+    libbox2d-dev
 )
 bits_packages=(clang g++-aarch64-linux-gnu qemu-user)
 

@@ -17,14 +17,18 @@ struct WorldShape {
     Pose pose;
 };
 
-/// What a row asks, and of which world. Only one kind of input is given.
-struct WorldProblem {
-    std::string name;
-    std::vector<WorldShape> shapes;
-    std::vector<Ring> item;  ///< the shape at the poses
-    std::vector<Pose> poses;
+/// What a row asks about. Only one kind is given.
+struct WorldInputs {
+    std::vector<Pose> poses;  ///< of an item
     std::vector<Vector2> points;
     std::vector<Segment> segments;
+};
+
+/// What a row asks, and of which world.
+struct WorldProblem : WorldInputs {
+    std::string name;
+    std::vector<WorldShape> shapes;
+    std::vector<Ring> item;       ///< the shape at the poses
     bool asks_distances = false;  ///< of the poses: the least distances, not only whether it is 0
 };
 
@@ -39,6 +43,9 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
     /// The functions that answer a problem; empty if it cannot.
     [[nodiscard]] virtual std::string how(const WorldProblem& problem) const = 0;
+    /// How far the library's rounding displaces coordinates, if it computes in float; else 0. Its
+    /// answers are compared with nearfield's answers to inputs displaced that far.
+    [[nodiscard]] virtual double rounding() const { return 0.0; }
     /// Builds the index.
     virtual void build(const WorldProblem& problem) = 0;
     /// One number per pose (distance, or 0 and 1 for apart and intersecting), point (distance from
@@ -48,6 +55,7 @@ public:
 
 [[nodiscard]] std::unique_ptr<WorldPeer> make_geos_world();
 [[nodiscard]] std::unique_ptr<WorldPeer> make_cgal_world();
+[[nodiscard]] std::unique_ptr<WorldPeer> make_box2d_world();
 
 /// A point of a shape at a pose, in world coordinates.
 [[nodiscard]] Vector2 at_pose(const Vector2& point, const Pose& pose);
