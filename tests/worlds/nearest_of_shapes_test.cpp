@@ -165,6 +165,25 @@ TEST_F(NearestSquares, AreInOrderOfDistanceThenOfAdding) {
     EXPECT_EQ(nearest[0].nearest.x, 4.0);
 }
 
+/// However a search comes to them: the instance added first is left of the shape, or right of it.
+TEST(NearestOfTwoSquares, AreInOrderOfAddingOnEitherSide) {
+    for (const bool is_left_first : {true, false}) {
+        const Placement left{"left", rectangle({0, 0}, {4, 4}), {}};
+        const Placement right{"right", rectangle({0, 0}, {4, 4}), {{10.0, 0.0}}};
+        Scene scene(is_left_first ? std::vector{left, right} : std::vector{right, left});
+        ShapeNearestQuery query{scene.add_shape(rectangle({0, 0}, {1, 1}))};
+        const Pose between{{6.5, 1.0}};
+        for (query.count = 1; query.count <= 2; ++query.count) {
+            std::vector<Clearance> nearest(query.count);
+            ASSERT_TRUE(scene.world().find_nearest(query, {&between, 1}, nearest).ok());
+            for (std::size_t k = 0; k < nearest.size(); ++k) {
+                EXPECT_EQ(nearest[k].distance, 2.5);
+                EXPECT_EQ(nearest[k].instance, scene.handle(k)) << is_left_first << query.count;
+            }
+        }
+    }
+}
+
 TEST_F(NearestSquares, BeyondTheLargestDistanceAreNone) {
     for (const double max_distance : {2.0, 2.9, 3.0}) {
         const std::vector<Clearance> nearest = find({item_, {}, 5, max_distance}, {{6.0, 1.0}});
