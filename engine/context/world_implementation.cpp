@@ -1,4 +1,5 @@
 #include <engine/base/interruption.hpp>
+#include <engine/base/prefetch.hpp>
 #include <engine/base/unknown_shape.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
@@ -13,9 +14,8 @@ using geometry::number;
 
 /// The number of poses, points or segments that a job takes at a time: neighbours help each other.
 constexpr std::size_t part = 128;
-/// Points are answered in order of their place, this many at a time: neighbours need the same
-/// boxes.
-constexpr std::size_t sorted_at_a_time = std::size_t{1} << 18U;
+/// Places are sorted this many at a time.
+constexpr std::size_t sorted_at_a_time = std::size_t{1} << 17U;
 
 /// `inputs`: the number of poses or points; `hits`: of entries in the caller's memory.
 void require_room_for_nearest(std::uint32_t count, const char* what, std::size_t inputs,
@@ -144,6 +144,31 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
     });
 }
 
+template <class Place, class Result, class Begin, class Answer>
+void World::Implementation::divide_places(std::size_t count, const Place& place,
+                                          const Result& result, const Begin& begin,
+                                          const Answer& answer) {
+    constexpr std::size_t ahead = 8;
+    expect_answers(count);
+    for (std::size_t block = 0; block < count; block += sorted_at_a_time) {
+        const std::size_t size = std::min(sorted_at_a_time, count - block);
+        const auto order = hilbert_order_.sort(
+            size, [&](std::size_t i) -> const Vector2& { return place(block + i); });
+        jobs_.divide(size, part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+            begin(scratch_[job]);
+            for (std::size_t i = first; i < end; ++i) {
+                checkpoint();
+                // Places that are close are not close in memory.
+                const std::size_t later = block + order[std::min(i + ahead, size - 1)];
+                prefetch(&place(later));
+                prefetch(&result(later));
+                answer(scratch_[job], block + order[i]);
+            }
+            finish_answers(end - first);
+        });
+    }
+}
+
 void World::Implementation::find_nearest(const NearestQuery& query, std::span<const Vector2> points,
                                          std::span<NearestHit> hits) {
     require_room_for_nearest(query.count, "points", points.size(), hits.size());
@@ -153,22 +178,13 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
     }
     require_points("find_nearest", points);
     prepare(query.filter, "find_nearest");
-    expect_answers(points.size());
-    for (std::size_t block = 0; block < points.size(); block += sorted_at_a_time) {
-        const auto some = points.subspan(block, std::min(sorted_at_a_time, points.size() - block));
-        const auto order = hilbert_order_.sort(some);
-        const auto answer = [&](std::uint32_t job, std::size_t first, std::size_t end) {
-            world::NearestQueries& queries = scratch_[job].nearest;
-            queries.begin(instances_, query);
-            for (std::size_t i = first; i < end; ++i) {
-                checkpoint();
-                const std::size_t point = order[i].second;
-                queries.find(some[point], hits.subspan((block + point) * query.count, query.count));
-            }
-            finish_answers(end - first);
-        };
-        jobs_.divide(some.size(), part, answer);
-    }
+    divide_places(
+        points.size(), [&](std::size_t i) -> const Vector2& { return points[i]; },
+        [&](std::size_t i) -> const NearestHit& { return hits[i * query.count]; },
+        [&](Job& job) { job.nearest.begin(instances_, query); },
+        [&](Job& job, std::size_t i) {
+            job.nearest.find(points[i], hits.subspan(i * query.count, query.count));
+        });
 }
 
 void World::Implementation::find_nearest(const ShapeNearestQuery& query,
@@ -197,16 +213,11 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
     require_lengths("cast_rays", "segments", segments.size(), hits.size());
     require_segments("cast_rays", segments);
     prepare(filter, "cast_rays");
-    expect_answers(segments.size());
-    jobs_.divide(segments.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::RayQueries& queries = scratch_[job].rays;
-        queries.begin(instances_, filter);
-        for (std::size_t i = first; i < end; ++i) {
-            checkpoint();
-            hits[i] = queries.first(segments[i]);
-        }
-        finish_answers(end - first);
-    });
+    divide_places(
+        segments.size(), [&](std::size_t i) -> const Vector2& { return segments[i].from; },
+        [&](std::size_t i) -> const RayHit& { return hits[i]; },
+        [&](Job& job) { job.rays.begin(instances_, filter); },
+        [&](Job& job, std::size_t i) { hits[i] = job.rays.first(segments[i]); });
 }
 
 std::uint64_t World::Implementation::bytes() const {

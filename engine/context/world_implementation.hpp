@@ -97,6 +97,12 @@ private:
     /// The same for a query, whose filter has to be one of this world.
     void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
+    /// Answers each of `count` questions about places in an order in which neighbours need the same
+    /// boxes: calls begin(job), and answer(job, i) for question i. `place(i)` is where it is, and
+    /// `result(i)` what the answer overwrites.
+    template <class Place, class Result, class Begin, class Answer>
+    void divide_places(std::size_t count, const Place& place, const Result& result,
+                       const Begin& begin, const Answer& answer);
     /// Writes one list per entry; `find(job, i, found)` appends the instances of entry i, in any
     /// order.
     template <class Find>

@@ -24,7 +24,15 @@ bool beside(const Vector& a, const Vector& b, const Vector& c, const Vector& d, 
     const double reach = margin * along.lpNorm<1>();
     const double side_c = cross(along, c - a);
     const double side_d = cross(along, d - a);
-    return (side_c > reach && side_d > reach) || (side_c < -reach && side_d < -reach);
+    // Without branches: which side it is cannot be predicted.
+    return std::min(side_c, side_d) > reach || std::max(side_c, side_d) < -reach;
+}
+
+/// False if a point is certainly more than `margin`, which covers rounding, from the line through
+/// two others.
+bool may_be_near(const Vector& p, const Vector& from, const Vector& to, double margin) {
+    const Vector along = to - from;
+    return std::abs(cross(along, p - from)) <= 4.0 * margin * along.lpNorm<1>();
 }
 
 }  // namespace
@@ -56,7 +64,7 @@ std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vect
         return std::nullopt;
     }
     const double reach = margin * margin;
-    if (nearest_on_segment(a, c, d).squared_distance <= reach) {
+    if (may_be_near(a, c, d, margin) && nearest_on_segment(a, c, d).squared_distance <= reach) {
         return 0.0;
     }
     // Either an end of cd touches ab, or the other end of ab touches cd, or they cross.
@@ -69,7 +77,7 @@ std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vect
             take(end.parameter);
         }
     }
-    if (nearest_on_segment(b, c, d).squared_distance <= reach) {
+    if (may_be_near(b, c, d, margin) && nearest_on_segment(b, c, d).squared_distance <= reach) {
         take(1.0);
     }
     if (segments_intersect(a, b, c, d)) {

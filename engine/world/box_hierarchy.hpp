@@ -3,6 +3,7 @@
 #include <engine/geometry/vector.hpp>
 #include <engine/simd/ordered_search.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -115,9 +116,10 @@ private:
                const Bound& bound, const Use& use) const {
         simd::BoxKeys keys;
         measure(levels_[level][number], keys);
+        const double most = std::min(bound(), largest_key);
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < fan_out; ++i) {
-            left |= (keys[i] <= bound() && keys[i] < largest_key ? 1U : 0U) << i;
+            left |= (keys[i] <= most ? 1U : 0U) << i;
         }
         while (left != 0) {
             auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -137,7 +139,7 @@ private:
         }
     }
 
-    /// Keys from this on are those of boxes that hold nothing.
+    /// Keys above this are those of boxes that hold nothing.
     static constexpr double largest_key = 1e300;
 
     void build();

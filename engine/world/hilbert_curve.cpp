@@ -1,61 +1,57 @@
 #include <engine/world/hilbert_curve.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace nearfield::world {
 namespace {
 
-constexpr double cells = 65535.0;
-
-double cells_per_unit(double low, double high) {
-    return high > low ? cells / (high - low) : 0.0;
+double cells_per_unit(double low, double high, std::uint32_t cells) {
+    return high > low ? (cells - 1) / (high - low) : 0.0;
 }
 
-std::uint32_t cell_of(double from_low, double cells_per_unit) {
-    return static_cast<std::uint32_t>(std::clamp(from_low * cells_per_unit, 0.0, cells));
+std::uint32_t cell_of(double from_low, double cells_per_unit, std::uint32_t cells) {
+    return static_cast<std::uint32_t>(
+        std::clamp(from_low * cells_per_unit, 0.0, static_cast<double>(cells - 1)));
 }
 
 }  // namespace
 
-HilbertCurve::HilbertCurve(const geometry::Extent& box)
+HilbertCurve::HilbertCurve(const geometry::Extent& box, std::uint32_t halvings)
     : box_(box),
-      cells_per_x_(cells_per_unit(box.low_x, box.high_x)),
-      cells_per_y_(cells_per_unit(box.low_y, box.high_y)) {}
+      cells_(1U << halvings),
+      cells_per_x_(cells_per_unit(box.low_x, box.high_x, cells_)),
+      cells_per_y_(cells_per_unit(box.low_y, box.high_y, cells_)) {}
 
 std::uint32_t HilbertCurve::at(double x, double y) const {
-    std::uint32_t column = cell_of(x - box_.low_x, cells_per_x_);
-    std::uint32_t row = cell_of(y - box_.low_y, cells_per_y_);
+    std::uint32_t column = cell_of(x - box_.low_x, cells_per_x_, cells_);
+    std::uint32_t row = cell_of(y - box_.low_y, cells_per_y_, cells_);
     std::uint32_t position = 0;
-    for (std::uint32_t side = 1U << 15U; side > 0; side /= 2) {
+    for (std::uint32_t side = cells_ / 2; side > 0; side /= 2) {
         const std::uint32_t right = (column & side) != 0 ? 1 : 0;
         const std::uint32_t upper = (row & side) != 0 ? 1 : 0;
         position += side * side * ((3 * right) ^ upper);
-        if (upper == 0) {
-            if (right == 1) {
-                column = ~column;
-                row = ~row;
-            }
-            std::swap(column, row);
-        }
+        // Without branches, which nobody could predict. In the lower half the curve is turned, and
+        // on its right mirrored too.
+        const std::uint32_t turned = upper - 1U;
+        const std::uint32_t mirrored = turned & (0U - right);
+        const std::uint32_t swapped = (column ^ row) & turned;
+        column ^= mirrored ^ swapped;
+        row ^= mirrored ^ swapped;
     }
     return position;
 }
 
-std::span<const std::pair<std::uint32_t, std::uint32_t>> HilbertOrder::sort(
-    std::span<const Vector2> points) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    geometry::Extent box{infinity, infinity, -infinity, -infinity};
-    for (const Vector2& point : points) {
-        box = {std::min(box.low_x, point.x), std::min(box.low_y, point.y),
-               std::max(box.high_x, point.x), std::max(box.high_y, point.y)};
+std::span<const std::uint32_t> HilbertOrder::sort_positions() {
+    begins_.assign((1U << (2 * halvings)) + 1, 0);
+    for (const std::uint32_t position : positions_) {
+        ++begins_[position + 1];
     }
-    const HilbertCurve curve(box);
-    order_.clear();
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        order_.emplace_back(curve.at(points[i].x, points[i].y), i);
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+    order_.resize(positions_.size());
+    for (std::uint32_t i = 0; i < positions_.size(); ++i) {
+        order_[begins_[positions_[i]]++] = i;
     }
-    std::sort(order_.begin(), order_.end());
     return order_;
 }
 

@@ -1,38 +1,65 @@
 #pragma once
 
 #include <engine/geometry/vertex_kernels.hpp>
+#include <nearfield/shape.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace nearfield::world {
 
-/// A Hilbert curve through 2^16 x 2^16 cells of a box: places that are close on it are close in the
-/// plane.
+/// A Hilbert curve through the cells of a box: places that are close on it are close in the plane.
 class HilbertCurve {
 public:
-    explicit HilbertCurve(const geometry::Extent& box);
+    /// The box is divided `halvings` times along each axis; at most 16 times.
+    explicit HilbertCurve(const geometry::Extent& box, std::uint32_t halvings = 16);
 
     /// The position on the curve of the cell that holds a point of the box.
     [[nodiscard]] std::uint32_t at(double x, double y) const;
 
 private:
     geometry::Extent box_;
+    std::uint32_t cells_;
     double cells_per_x_;
     double cells_per_y_;
 };
 
-/// Sorts points so that neighbours follow each other. Keeps its memory.
+/// Sorts places so that neighbours follow each other. Keeps its memory.
 class HilbertOrder {
 public:
-    /// The numbers of the points, in order along a curve. Valid until the next call.
-    [[nodiscard]] std::span<const std::pair<std::uint32_t, std::uint32_t>> sort(
-        std::span<const Vector2> points);
+    /// The numbers of the places at(0), ..., at(count - 1), in order along a curve. Valid until the
+    /// next call.
+    template <class At>
+    [[nodiscard]] std::span<const std::uint32_t> sort(std::size_t count, const At& at) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        geometry::Extent box{infinity, infinity, -infinity, -infinity};
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vector2& place = at(i);
+            box = {std::min(box.low_x, place.x), std::min(box.low_y, place.y),
+                   std::max(box.high_x, place.x), std::max(box.high_y, place.y)};
+        }
+        const HilbertCurve curve(box, halvings);
+        positions_.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vector2& place = at(i);
+            positions_.push_back(curve.at(place.x, place.y));
+        }
+        return sort_positions();
+    }
 
 private:
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> order_;  // position on the curve, number
+    // So few that places are counted by cell instead of being compared.
+    static constexpr std::uint32_t halvings = 8;
+
+    [[nodiscard]] std::span<const std::uint32_t> sort_positions();
+
+    std::vector<std::uint32_t> positions_;  // on the curve
+    std::vector<std::uint32_t> begins_;     // of the places in each cell, in the order
+    std::vector<std::uint32_t> order_;
 };
 
 }  // namespace nearfield::world

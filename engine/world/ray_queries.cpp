@@ -13,7 +13,12 @@ namespace {
 
 /// True if an edge joins two vertices at the same place. It has no normal, and the edges beside it
 /// are hit wherever it would be.
-bool is_repeated_vertex(const geometry::Polygon& polygon, std::uint32_t edge) {
+bool is_repeated_vertex(const simd::TransformedEdges& edges, std::uint32_t edge) {
+    // Far from the origin others, too, may have no length left; those are rare.
+    if (edges.start(edge) != edges.end(edge)) {
+        return false;
+    }
+    const geometry::Polygon& polygon = edges.placed.polygon();
     return polygon.vertices()[edge] == polygon.vertices()[polygon.next(edge)];
 }
 
@@ -48,7 +53,7 @@ void RayQueries::search_edges_of(std::uint32_t index) {
         const std::optional<double> parameter =
             geometry::first_meeting(of.all.from_, of.all.to_, of.edges.start(edge),
                                     of.edges.end(edge), of.edges.rounding + of.all.rounding_);
-        if (parameter && !is_repeated_vertex(of.all.instances_->polygon(of.index), edge)) {
+        if (parameter && !is_repeated_vertex(of.edges, edge)) {
             of.all.take({*parameter, of.all.instances_->number(of.index), of.index, edge});
         }
         return of.bound();

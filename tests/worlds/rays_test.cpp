@@ -218,6 +218,23 @@ TEST(WorldRaysOnSquares, HitWholeNumbersExactly) {
     EXPECT_EQ(two[1].instance, InstanceHandle());
 }
 
+TEST(WorldRaysInBlocks, KeepTheirOrder) {
+    // More than are sorted at a time.
+    Scene scene({{"square", rectangle({0, 0}, {1, 1}), {}}});
+    Random random(3);
+    std::vector<Segment> segments(140'000);
+    for (Segment& segment : segments) {
+        const double x = random.between(0.0, 1.0);
+        segment = {{x, 2.0}, {x, random.between(-2.0, 0.5)}};
+    }
+    std::vector<RayHit> hits(segments.size());
+    ASSERT_TRUE(scene.world().cast_rays(segments, hits).ok());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        ASSERT_NEAR(hits[i].point.x, segments[i].from.x, 1e-12) << i;
+        ASSERT_NEAR(hits[i].parameter, 1.0 / (2.0 - segments[i].to.y), 1e-12) << i;
+    }
+}
+
 TEST(WorldRaysOnRepeatedVertices, HaveANormal) {
     // The edge of lowest index at the corner (0, 0) has no length.
     Scene scene({{"square", {{{0, 0}, {0, 0}, {1, 0}, {1, 1}, {0, 1}}}, {}}});

@@ -65,13 +65,13 @@ WorldProblem paths() {
 
 WorldProblem many_polygons() {
     WorldProblem problem;
-    problem.name = "100,000 polygons of 50 vertices: the nearest of 100,000 points";
+    problem.name = "100,000 polygons of 50 vertices: the nearest of 1,000,000 points";
     Random random(47);
     for (int i = 0; i < 100'000; ++i) {
         problem.shapes.push_back(
             {{benchmark::star(random, 50)}, anywhere(random, {0.0, 0.0}, {1000.0, 1000.0})});
     }
-    for (int i = 0; i < 100'000; ++i) {
+    for (int i = 0; i < 1'000'000; ++i) {
         problem.points.push_back(anywhere(random, {0.0, 0.0}, {1000.0, 1000.0}).translation);
     }
     return problem;
@@ -79,7 +79,7 @@ WorldProblem many_polygons() {
 
 WorldProblem rays() {
     WorldProblem problem;
-    problem.name = "map x100, 71,900 edges: the first hit of 100,000 rays";
+    problem.name = "map x100, 71,900 edges: the first hit of 1,000,000 rays";
     const tools::Scene scene = benchmark::map_scene(100);
     Vector2 low{1e300, 1e300};
     Vector2 high{-1e300, -1e300};
@@ -94,7 +94,7 @@ WorldProblem rays() {
         }
     }
     Random random(53);
-    for (int i = 0; i < 100'000; ++i) {
+    for (int i = 0; i < 1'000'000; ++i) {
         problem.segments.push_back(
             {anywhere(random, low, high).translation, anywhere(random, low, high).translation});
     }
