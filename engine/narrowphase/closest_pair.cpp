@@ -1,5 +1,6 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/narrowphase/closest_pair.hpp>
+#include <engine/simd/ordered_search.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +74,27 @@ ClosestPair ClosestPairFinder::find(const simd::TransformedEdges& a,
         margin = 0.0;
         least = keep_near(least, 2.0 * rounding, std::numeric_limits<std::size_t>::max());
     }
+    return pick(least, margin);
+}
+
+ClosestPair ClosestPairFinder::find_of_few(const simd::TransformedEdges& a,
+                                           const simd::TransformedEdges& b,
+                                           const simd::AabbTree& tree_b, double at_most) {
+    a_ = &a;
+    b_ = &b;
+    const auto keep = [](void* user, const simd::VertexAndEdge& found) {
+        static_cast<std::vector<simd::VertexAndEdge>*>(user)->push_back(found);
+        return true;
+    };
+    near_.clear();
+    return pick(
+        simd::kernels::for_closest_to_few(a, geometry::extent_of(a.box), tree_b, at_most * at_most,
+                                          2.0 * (a.rounding + b.rounding), {keep, &near_}),
+        0.0);
+}
+
+ClosestPair ClosestPairFinder::pick(double least, double margin) {
+    const double rounding = a_->rounding + b_->rounding;
     const double loose = square_longer(least, 2.0 * rounding + margin);
     std::erase_if(near_,
                   [loose](const simd::VertexAndEdge& found) { return found.squared > loose; });

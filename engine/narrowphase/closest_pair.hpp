@@ -36,6 +36,11 @@ public:
     ClosestPair find(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
                      double at_most, double margin);
 
+    /// The same for a shape A of at most simd::max_few_edges edges, whose boxes are not needed, and
+    /// a shape B with its tree; not to be followed by is_unique().
+    ClosestPair find_of_few(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
+                            const simd::AabbTree& tree_b, double at_most);
+
     /// For the pair returned by the last find(): false if two other boundary points have a distance
     /// at most `margin` above the pair's, and the one on A, or either one, is more than `apart`
     /// away from the pair's own. The edges must be those of find().
@@ -49,6 +54,8 @@ private:
     [[nodiscard]] std::uint32_t first_vertex() const;
     /// An upper bound from some vertices and edges near them; at most the one that is known.
     [[nodiscard]] double squared_bound(double known) const;
+    /// The closest of those kept, which are within `margin` and the rounding of the least distance.
+    [[nodiscard]] ClosestPair pick(double least, double margin);
     /// Keeps the pairs within `margin` of the closest, and some more; stops once there are more
     /// than `max_pairs`. Returns the square of the least distance so far.
     [[nodiscard]] double keep_near(double most, double margin, std::size_t max_pairs);

@@ -4,6 +4,7 @@
 #include <engine/simd/aabb_tree.hpp>
 
 #include <bit>
+#include <cmath>
 
 // An include guard per instruction set, as Highway prescribes.
 #if defined(NEARFIELD_EXACT_BOX_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -73,6 +74,29 @@ HWY_INLINE EdgesAlong edges_along(const EdgeArrays& edges, std::size_t i) {
     along.inverse_length = hn::Div(hn::Set(Tag(), 1.0), squared);
     return along;
 }
+
+/// The least distance so far, plus a margin.
+class LeastBound {
+public:
+    HWY_INLINE LeastBound(double most, double margin) : margin_(margin), least_(most) {
+        Take(most);
+    }
+
+    [[nodiscard]] HWY_INLINE double squared() const { return squared_; }
+    [[nodiscard]] HWY_INLINE double least() const { return least_; }
+    HWY_INLINE void Take(double squared) {
+        if (squared <= least_) {
+            least_ = squared;
+            const double length = std::sqrt(squared) + margin_;
+            squared_ = length * length;
+        }
+    }
+
+private:
+    double margin_;
+    double least_;
+    double squared_ = 0.0;
+};
 
 /// Calls `use(box)` for each lowest-level box that is entered along with all boxes above it, until
 /// it returns false; `open(level, first)` returns a mask of the boxes to enter among eight.

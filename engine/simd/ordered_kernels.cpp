@@ -58,7 +58,7 @@ HWY_INLINE Lanes entries(const LanesOfExtent& boxes, const PathLanes& path, Lane
 /// Searches a tree, box by box in ascending order of a key. `Aim` measures and handles:
 ///   Lanes Keys(boxes)               the keys of boxes; infinity excludes one
 ///   double bound()                  boxes with a larger key are not entered
-///   void Use(edges)                 the edges of a lowest box
+///   void Use(box)                   a lowest box
 template <class Aim>
 class OrderedSearch {
 public:
@@ -70,31 +70,50 @@ private:
     void Visit(std::uint32_t level, std::uint32_t first) {
         const Tag tag;
         double keys[fan_out];
+        // Boxes that hold nothing have an infinite key, and a bound may be infinite.
+        const Lanes most = hn::Set(tag, std::min(aim_.bound(), std::numeric_limits<double>::max()));
         std::uint32_t left = 0;
+        Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < fan_out; i += hn::Lanes(tag)) {
             const Lanes own = aim_.Keys(boxes_at(tree_.level(level), first + i));
             hn::StoreU(own, tag, keys + i);
-            // Boxes that hold nothing have an infinite key, and a bound may be infinite.
-            const Lanes most =
-                hn::Set(tag, std::min(aim_.bound(), std::numeric_limits<double>::max()));
             left |= bits_of(hn::Le(own, most)) << i;
+            least = hn::Min(least, own);
         }
-        while (left != 0) {
-            auto nearest = static_cast<std::uint32_t>(std::countr_zero(left));
+        if (left == 0) {
+            return;
+        }
+        // The nearest without branches: which box it is cannot be predicted.
+        const Lanes nearest_key = hn::Set(tag, min_lane(least));
+        std::uint32_t nearest = first_of(bits_of_eight(
+            [&](std::size_t i) HWY_ATTR { return hn::Eq(hn::LoadU(tag, keys + i), nearest_key); }));
+        for (;;) {
+            Enter(level, first + nearest);
+            left &= ~(1U << nearest);
+            if (left == 0) {
+                return;
+            }
+            nearest = first_of(left);
             for (std::uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
-                const auto other = static_cast<std::uint32_t>(std::countr_zero(others));
+                const std::uint32_t other = first_of(others);
                 nearest = keys[other] < keys[nearest] ? other : nearest;
             }
             if (keys[nearest] > aim_.bound()) {
                 return;
             }
-            left &= ~(1U << nearest);
-            if (level > 0) {
-                Visit(level - 1, fan_out * (first + nearest));
-            } else {
-                aim_.Use(tree_.edges_of(first + nearest));
-            }
         }
+    }
+
+    HWY_INLINE void Enter(std::uint32_t level, std::uint32_t box) {
+        if (level > 0) {
+            Visit(level - 1, fan_out * box);
+        } else {
+            aim_.Use(box);
+        }
+    }
+
+    static HWY_INLINE std::uint32_t first_of(std::uint32_t bits) {
+        return static_cast<std::uint32_t>(std::countr_zero(bits));
     }
 
     const AabbTree& tree_;
@@ -104,9 +123,9 @@ private:
 /// The edges along a path.
 class AlongPath {
 public:
-    HWY_INLINE AlongPath(const EdgeArrays& edges, const Path& path, double margin, double bound,
+    HWY_INLINE AlongPath(const AabbTree& tree, const Path& path, double margin, double bound,
                          const BoundedEdgeSink& sink)
-        : edges_(edges),
+        : tree_(tree),
           lanes_(path),
           // Twice the margin, because the values that boxes are compared by are rounded too.
           margin_(hn::Set(Tag(), 2.0 * margin)),
@@ -119,9 +138,10 @@ public:
         return entries(boxes, lanes_, margin_);
     }
     [[nodiscard]] HWY_INLINE double bound() const { return bound_; }
-    HWY_INLINE void Use(const EdgeRange& range) {
+    HWY_INLINE void Use(std::uint32_t box) {
+        const EdgeRange range = tree_.edges_of(box);
         std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
-            return may_meet(path_, 0, EdgeLanes(edges_, range.first + i), own_margin_);
+            return may_meet(path_, 0, EdgeLanes(tree_.edges(), range.first + i), own_margin_);
         });
         for (found &= bits_of_range(range); found != 0; found &= found - 1) {
             bound_ = sink_.use(sink_.user,
@@ -130,7 +150,7 @@ public:
     }
 
 private:
-    const EdgeArrays& edges_;
+    const AabbTree& tree_;
     PathLanes lanes_;
     Lanes margin_;
     EdgeArrays path_;
@@ -142,20 +162,21 @@ private:
 /// The edges near a point.
 class NearPoint {
 public:
-    HWY_INLINE NearPoint(const EdgeArrays& edges, double x, double y, double bound,
+    HWY_INLINE NearPoint(const AabbTree& tree, double x, double y, double bound,
                          const BoundedEdgeSink& sink)
-        : edges_(edges), point_(lanes_of({x, y, x, y})), sink_(sink), bound_(bound) {}
+        : tree_(tree), point_(lanes_of({x, y, x, y})), sink_(sink), bound_(bound) {}
 
     [[nodiscard]] HWY_INLINE Lanes Keys(const LanesOfExtent& boxes) const {
         return squared_between(boxes, point_);
     }
     [[nodiscard]] HWY_INLINE double bound() const { return bound_; }
-    HWY_INLINE void Use(const EdgeRange& range) {
+    HWY_INLINE void Use(std::uint32_t box) {
         const Tag tag;
+        const EdgeRange range = tree_.edges_of(box);
         std::uint32_t found = bits_of_eight([&](std::size_t i) HWY_ATTR {
-            return hn::Le(
-                squared_distances(edges_along(edges_, range.first + i), point_.low_x, point_.low_y),
-                hn::Set(tag, bound_));
+            return hn::Le(squared_distances(edges_along(tree_.edges(), range.first + i),
+                                            point_.low_x, point_.low_y),
+                          hn::Set(tag, bound_));
         });
         for (found &= bits_of_range(range); found != 0; found &= found - 1) {
             bound_ = sink_.use(sink_.user,
@@ -164,22 +185,125 @@ public:
     }
 
 private:
-    const EdgeArrays& edges_;
+    const AabbTree& tree_;
     LanesOfExtent point_;
     const BoundedEdgeSink& sink_;
     double bound_;
 };
 
+/// Vertices and edges near a shape of few edges, which is tested as a whole against each box.
+class NearFew {
+    static_assert(max_few_edges <= 32, "one bit per vertex");
+
+public:
+    HWY_INLINE NearFew(const EdgeArrays& few, const Extent& box, const AabbTree& tree, double most,
+                       double margin, const VertexAndEdgeSink& sink)
+        : few_(few), box_(lanes_of(box)), tree_(tree), bound_(most, margin), sink_(sink) {}
+
+    [[nodiscard]] HWY_INLINE Lanes Keys(const LanesOfExtent& boxes) const {
+        return squared_between(boxes, box_);
+    }
+    [[nodiscard]] HWY_INLINE double bound() const { return go_on_ ? bound_.squared() : -1.0; }
+    [[nodiscard]] HWY_INLINE double least() const { return bound_.least(); }
+    HWY_INLINE void Use(std::uint32_t box) {
+        const EdgeRange range = tree_.edges_of(box);
+        FindNearVertices(lanes_of(box_at(tree_.level(0), box)), range);
+        FindNearEdges(range);
+    }
+
+private:
+    /// Tests the vertices of the few against the edges of a box.
+    HWY_INLINE void FindNearVertices(const LanesOfExtent& box, const EdgeRange& range) {
+        const Tag tag;
+        std::uint32_t near = 0;
+        for (std::uint32_t i = 0; i < few_.count; i += static_cast<std::uint32_t>(hn::Lanes(tag))) {
+            const Lanes x = hn::LoadU(tag, few_.start_x + i);
+            const Lanes y = hn::LoadU(tag, few_.start_y + i);
+            near |= bits_of(hn::Le(squared_between(box, {x, y, x, y}), hn::Set(tag, bound()))) << i;
+        }
+        near &= bits_of_range({0, few_.count});
+        if (near == 0) {
+            return;
+        }
+        for (std::size_t i = range.first; i < range.end; i += hn::Lanes(tag)) {
+            const EdgesAlong along = edges_along(tree_.edges(), i);
+            for (std::uint32_t left = near; left != 0; left &= left - 1) {
+                const auto vertex = static_cast<std::uint32_t>(std::countr_zero(left));
+                Take(squared_distances(along, hn::Set(tag, few_.start_x[vertex]),
+                                       hn::Set(tag, few_.start_y[vertex])),
+                     static_cast<std::uint32_t>(i), range.end, vertex, true);
+            }
+        }
+    }
+
+    /// Tests the vertices where the edges of a box start against the edges of the few.
+    HWY_INLINE void FindNearEdges(const EdgeRange& range) {
+        const Tag tag;
+        const EdgeArrays& edges = tree_.edges();
+        std::uint32_t near = bits_of_eight([&](std::size_t i) HWY_ATTR {
+            const Lanes x = hn::LoadU(tag, edges.start_x + range.first + i);
+            const Lanes y = hn::LoadU(tag, edges.start_y + range.first + i);
+            return hn::Le(squared_between(box_, {x, y, x, y}), hn::Set(tag, bound()));
+        });
+        for (near &= bits_of_range(range); near != 0; near &= near - 1) {
+            const std::uint32_t vertex =
+                range.first + static_cast<std::uint32_t>(std::countr_zero(near));
+            const Lanes x = hn::Set(tag, edges.start_x[vertex]);
+            const Lanes y = hn::Set(tag, edges.start_y[vertex]);
+            for (std::size_t i = 0; i < few_.count; i += hn::Lanes(tag)) {
+                EdgesAlong along(few_, i);
+                along.inverse_length = hn::LoadU(tag, few_.inverse_length + i);
+                Take(squared_distances(along, x, y), static_cast<std::uint32_t>(i), few_.count,
+                     vertex, false);
+            }
+        }
+    }
+
+    /// Passes on the edges of those from `first` on, and before `end`, that are near a vertex.
+    HWY_INLINE void Take(Lanes squared, std::uint32_t first, std::uint32_t end,
+                         std::uint32_t vertex, bool vertex_of_first) {
+        const Tag tag;
+        std::uint32_t found = bits_of(hn::Le(squared, hn::Set(tag, bound())));
+        if (found == 0) {
+            return;
+        }
+        double distances[max_lanes];
+        hn::StoreU(squared, tag, distances);
+        for (; found != 0; found &= found - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
+            if (first + lane < end && distances[lane] <= bound()) {
+                bound_.Take(distances[lane]);
+                go_on_ =
+                    sink_.use(sink_.user, {vertex, first + lane, vertex_of_first, distances[lane]});
+            }
+        }
+    }
+
+    const EdgeArrays& few_;
+    LanesOfExtent box_;
+    const AabbTree& tree_;
+    LeastBound bound_;
+    const VertexAndEdgeSink& sink_;
+    bool go_on_ = true;
+};
+
 void ForEdgesAlong(const AabbTree& tree, const Path& path, double margin, double bound,
                    const BoundedEdgeSink& sink) {
-    AlongPath aim(tree.edges(), path, margin, bound, sink);
+    AlongPath aim(tree, path, margin, bound, sink);
     OrderedSearch<AlongPath>(tree, aim).Run();
 }
 
 void ForEdgesNear(const AabbTree& tree, double x, double y, double bound,
                   const BoundedEdgeSink& sink) {
-    NearPoint aim(tree.edges(), x, y, bound, sink);
+    NearPoint aim(tree, x, y, bound, sink);
     OrderedSearch<NearPoint>(tree, aim).Run();
+}
+
+double ForClosestToFew(const EdgeArrays& few, const Extent& box, const AabbTree& tree, double most,
+                       double margin, const VertexAndEdgeSink& sink) {
+    NearFew aim(few, box, tree, most, margin, sink);
+    OrderedSearch<NearFew>(tree, aim).Run();
+    return aim.least();
 }
 
 void MeasureBoxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
@@ -217,6 +341,7 @@ namespace nearfield::simd::kernels {
 
 HWY_EXPORT(ForEdgesAlong);
 HWY_EXPORT(ForEdgesNear);
+HWY_EXPORT(ForClosestToFew);
 HWY_EXPORT(MeasureBoxes);
 HWY_EXPORT(EnterBoxes);
 HWY_EXPORT(JoinBoxes);
@@ -229,6 +354,11 @@ void for_edges_along(const AabbTree& tree, const Path& path, double margin, doub
 void for_edges_near(const AabbTree& tree, double x, double y, double bound,
                     const BoundedEdgeSink& sink) {
     HWY_DYNAMIC_DISPATCH(ForEdgesNear)(tree, x, y, bound, sink);
+}
+
+double for_closest_to_few(const EdgeArrays& few, const Extent& box, const AabbTree& tree,
+                          double most, double margin, const VertexAndEdgeSink& sink) {
+    return HWY_DYNAMIC_DISPATCH(ForClosestToFew)(few, box, tree, most, margin, sink);
 }
 
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,

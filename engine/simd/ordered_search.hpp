@@ -24,6 +24,9 @@ struct BoundedEdgeSink {
     void* user = nullptr;
 };
 
+/// Up to this many edges are tested together against each box of a tree.
+inline constexpr std::uint32_t max_few_edges = 32;
+
 /// One number for each of eight boxes.
 using BoxKeys = std::array<double, AabbTree::fan_out>;
 
@@ -38,6 +41,12 @@ void for_edges_along(const AabbTree& tree, const Path& path, double margin, doub
 /// rounding; begins with `bound`.
 void for_edges_near(const AabbTree& tree, double x, double y, double bound,
                     const BoundedEdgeSink& sink);
+
+/// As for_closest(), for a shape of at most max_few_edges edges, with inverse lengths, instead of a
+/// first tree; `box`: its bounding box. The order is from the nearest box on, so the bound falls
+/// quickly.
+double for_closest_to_few(const EdgeArrays& few, const Extent& box, const AabbTree& tree,
+                          double most, double margin, const VertexAndEdgeSink& sink);
 
 /// Writes the squared distances of eight boxes from a box.
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,

@@ -227,8 +227,8 @@ std::uint32_t TransformedInstances::place(const TransformedPolygon& placed) {
 
 void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pose) {
     const Polygon& polygon = placed.polygon();
-    Entry& entry = entries_.emplace_back(
-        Entry{pose, polygon.revision(), nullptr, true, nowhere, nowhere, 0, 0, {{}, placed, {}}});
+    Entry& entry = entries_.emplace_back(Entry{
+        pose, polygon.revision(), nullptr, true, nowhere, nowhere, 0, 0, false, {{}, placed, {}}});
     TransformedEdges& edges = entry.edges;
     edges.count = polygon.size();
     if (is_small(edges)) {
@@ -243,13 +243,34 @@ void TransformedInstances::add(const TransformedPolygon& placed, const Pose& pos
         spare_.pop_back();
         edges.box = placed.box();
     }
-    edges.rounding = localize::placement_rounding(placed, edges.box);
-    edges.magnitude = geometry::largest_magnitude(placed, pose, edges.box);
+    write_magnitudes(pose, edges);
+}
+
+void TransformedInstances::write_magnitudes(const Pose& pose, TransformedEdges& edges) {
+    edges.rounding = localize::placement_rounding(edges.placed, edges.box);
+    edges.magnitude = geometry::largest_magnitude(edges.placed, pose, edges.box);
+}
+
+bool TransformedInstances::move(std::uint32_t index, const TransformedPolygon& placed) {
+    if (index >= entries_.size()) {
+        return false;
+    }
+    Entry& entry = entries_[index];
+    const bool has_arrays = entry.first != nowhere;  // unless memory ran out
+    if (!is(entry, placed.polygon(), {}) || !is_small(entry.edges) || !has_arrays ||
+        is_in_pieces(placed.polygon())) {
+        return false;
+    }
+    entry.edges.placed = placed;
+    entry.edges.box = write_arrays(entry);
+    write_magnitudes({}, entry.edges);
+    entry.is_complete = false;
+    return true;
 }
 
 void TransformedInstances::complete(std::uint32_t index) {
     Entry& entry = entries_[index];
-    if (entry.first_boxes != nowhere) {
+    if (entry.is_complete) {
         return;
     }
     const std::uint32_t count = entry.edges.count;
@@ -265,8 +286,10 @@ void TransformedInstances::complete(std::uint32_t index) {
         rings = morton_order_.find(polygon, entry.edges, entry.edges.box);
         lowest = cut_into_pieces(entry, rings);
     }
-    entry.first_boxes = grow(entry, AabbTree::room(lowest) / max_lanes);
-    find_arrays(entry);
+    if (entry.first_boxes == nowhere) {
+        entry.first_boxes = grow(entry, AabbTree::room(lowest) / max_lanes);
+        find_arrays(entry);
+    }
     double* const boxes = memory_of(entry).coordinates[entry.first_boxes].values;
     if (is_in_pieces(polygon)) {
         write_ring_starts(polygon, entry.edges, rings, padded(lowest), boxes);
@@ -274,6 +297,7 @@ void TransformedInstances::complete(std::uint32_t index) {
         write_ring_starts(polygon, entry.edges, boxes);
     }
     kernels::find_boxes(entry.edges, entry.edges.pieces, boxes);
+    entry.is_complete = true;
 }
 
 std::size_t TransformedInstances::bytes() const {

@@ -69,6 +69,9 @@ public:
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon, const Pose& pose);
     /// The same for an instance that the other place() will not find again.
     [[nodiscard]] std::uint32_t place(const geometry::TransformedPolygon& placed);
+    /// Puts an instance that the other place() added at another pose. Returns false, and does
+    /// nothing, unless it has this polygon, as it was then, with few edges in few rings.
+    [[nodiscard]] bool move(std::uint32_t index, const geometry::TransformedPolygon& placed);
     /// Transforms all edges and builds the boxes over them.
     void complete(std::uint32_t index);
     /// Host memory, in bytes.
@@ -102,6 +105,7 @@ private:
         std::size_t first_boxes;      // `nowhere`, like the arrays, until they exist
         std::size_t first_piece;      // of its pieces, if any
         std::size_t end_piece;
+        bool is_complete;
         TransformedEdges edges;
     };
     [[nodiscard]] std::size_t slot_of(const geometry::Polygon& polygon, const Pose& pose) const;
@@ -113,6 +117,7 @@ private:
     [[nodiscard]] std::uint32_t cut_into_pieces(Entry& entry, std::span<const std::uint32_t> rings);
     /// Writes the arrays of an entry, whose space is allocated; returns its bounding box.
     [[nodiscard]] geometry::Box write_arrays(Entry& entry);
+    static void write_magnitudes(const Pose& pose, TransformedEdges& edges);
     void rehash();
     void fill_slots();
     [[nodiscard]] Memory& memory_of(Entry& entry) { return entry.own ? *entry.own : shared_; }

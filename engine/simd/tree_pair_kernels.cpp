@@ -2,7 +2,6 @@
 #include <engine/simd/aabb_tree.hpp>
 
 #include <bit>
-#include <cmath>
 
 // Highway compiles the rest once per instruction set by including this file again.
 #undef HWY_TARGET_INCLUDE
@@ -212,29 +211,6 @@ private:
     const AabbTree& b_;
     Bound& bound_;
     const VertexAndEdgeSink& sink_;
-};
-
-/// The least distance so far, plus a margin.
-class LeastBound {
-public:
-    HWY_INLINE LeastBound(double most, double margin) : margin_(margin), least_(most) {
-        Take(most);
-    }
-
-    [[nodiscard]] HWY_INLINE double squared() const { return squared_; }
-    [[nodiscard]] HWY_INLINE double least() const { return least_; }
-    HWY_INLINE void Take(double squared) {
-        if (squared <= least_) {
-            least_ = squared;
-            const double length = std::sqrt(squared) + margin_;
-            squared_ = length * length;
-        }
-    }
-
-private:
-    double margin_;
-    double least_;
-    double squared_ = 0.0;
 };
 
 class FixedBound {

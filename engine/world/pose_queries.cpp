@@ -1,5 +1,6 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/localize/hierarchy.hpp>
+#include <engine/simd/ordered_search.hpp>
 #include <engine/world/pose_queries.hpp>
 
 #include <algorithm>
@@ -18,6 +19,12 @@ double with_slack(double length, double rounding) {
     return length + rounding + 4.0 * std::numeric_limits<double>::epsilon() * length;
 }
 
+/// True if a box is where a deep vertex leaves no room for the other boundary.
+bool is_around(const DeepVertex& deep, const geometry::Box& box, double rounding) {
+    const Vector farthest = (box.max() - deep.vertex).cwiseMax(deep.vertex - box.min());
+    return with_slack(farthest.norm(), 4.0 * rounding) < deep.depth;
+}
+
 }  // namespace
 
 void PoseQueries::begin(const Instances& instances, const geometry::Polygon& shape,
@@ -25,17 +32,24 @@ void PoseQueries::begin(const Instances& instances, const geometry::Polygon& sha
     instances_ = &instances;
     shape_ = &shape;
     filter_ = filter;
-    guess_ = BoxHierarchy::nowhere;
+    guess_ = {};
 }
 
 void PoseQueries::place(const Pose& pose) {
-    shape_edges_.clear();
-    static_cast<void>(shape_edges_.place(TransformedPolygon(*shape_, pose)));
+    const TransformedPolygon placed(*shape_, pose);
+    if (!shape_edges_.move(0, placed)) {
+        shape_edges_.clear();
+        static_cast<void>(shape_edges_.place(placed));
+    }
 }
 
 const simd::TransformedEdges& PoseQueries::complete_edges() {
     shape_edges_.complete(0);
     return edges();
+}
+
+const simd::TransformedEdges& PoseQueries::searched_edges() {
+    return edges().count <= simd::max_few_edges ? edges() : complete_edges();
 }
 
 geometry::Box PoseQueries::search_box() const {
@@ -55,19 +69,45 @@ bool PoseQueries::intersects(std::uint32_t index) {
 bool PoseQueries::intersects(const Pose& pose) {
     place(pose);
     // What was hit before is likely to be hit again.
-    if (guess_ != BoxHierarchy::nowhere && intersects(guess_)) {
+    if (guess_.instance != BoxHierarchy::nowhere && intersects(guess_.instance)) {
         return true;
     }
     candidates_.clear();
     instances_->boxes().for_meeting(search_box(), [this](std::uint32_t index) {
-        if (index != guess_ && instances_->passes(index, filter_)) {
+        if (index != guess_.instance && instances_->passes(index, filter_)) {
             candidates_.push_back(index);
         }
     });
     const auto hit = std::find_if(candidates_.begin(), candidates_.end(),
                                   [this](std::uint32_t index) { return intersects(index); });
-    guess_ = hit == candidates_.end() ? BoxHierarchy::nowhere : *hit;
-    return guess_ != BoxHierarchy::nowhere;
+    guess_.instance = hit == candidates_.end() ? BoxHierarchy::nowhere : *hit;
+    return guess_.instance != BoxHierarchy::nowhere;
+}
+
+bool PoseQueries::intersects_guess() {
+    const TransformedPolygon& placed = edges().placed;
+    const double turned = (Vector(placed.rotation().col(0)) - guess_.axis).norm();
+    const double moved = (placed.translation() - guess_.centre).norm() + turned * shape_->radius();
+    const double slack =
+        8.0 * (edges().rounding + guess_.rounding + instances_->rounding(guess_.instance)) +
+        8.0 * std::numeric_limits<double>::epsilon() * std::abs(guess_.distance);
+    // Had the boundaries met in between, or the deep vertex got out, something would have moved
+    // that far.
+    return std::abs(guess_.distance) > with_slack(moved, slack) ? guess_.distance < 0.0
+                                                                : intersects(guess_.instance);
+}
+
+double PoseQueries::distance_of_guess() {
+    const simd::TransformedEdges& own = searched_edges();
+    const simd::TransformedEdges& other = instances_->edges(guess_.instance);
+    const auto squared = [](const simd::TransformedEdges& of_vertex, std::uint32_t vertex,
+                            const simd::TransformedEdges& of_edge, std::uint32_t edge) {
+        return geometry::nearest_on_segment(of_vertex.start(vertex), of_edge.start(edge),
+                                            of_edge.end(edge))
+            .squared_distance;
+    };
+    return std::sqrt(std::min(squared(own, guess_.vertex, other, guess_.edge),
+                              squared(other, guess_.edge, own, guess_.vertex)));
 }
 
 void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
@@ -86,15 +126,20 @@ bool PoseQueries::replaces(double distance, std::uint32_t index) const {
 }
 
 void PoseQueries::write_depth(std::uint32_t index) {
-    const simd::TransformedEdges& other = instances_->edges(index);
-    const simd::AabbTree own_tree = complete_edges().tree();
-    const EdgesInTree own{edges(), own_tree};
-    const EdgesInTree others{other, instances_->tree(index)};
-    const bool is_guess = index == guess_;
-    const auto of_shape =
-        deepest_vertex_.find(own, others, is_guess ? guess_vertex_ : BoxHierarchy::nowhere);
-    const auto of_other =
-        deepest_vertex_.find(others, own, is_guess ? guess_edge_ : BoxHierarchy::nowhere);
+    const EdgesInTree others{instances_->edges(index), &instances_->tree(index)};
+    const bool is_guess = index == guess_.instance;
+    std::optional<simd::AabbTree> own_tree;
+    if (edges().count > simd::max_few_edges) {
+        own_tree = complete_edges().tree();
+    }
+    const auto of_shape = deepest_vertex_.find({edges(), own_tree ? &*own_tree : nullptr}, others,
+                                               is_guess ? guess_.deep : VertexGuess());
+    std::optional<DeepVertex> of_other;
+    if (!of_shape || !is_around(*of_shape, edges().box, edges().rounding + others.edges.rounding)) {
+        own_tree = complete_edges().tree();
+        const VertexGuess guess{is_guess ? guess_.edge : BoxHierarchy::nowhere};
+        of_other = deepest_vertex_.find(others, {edges(), &*own_tree}, guess);
+    }
     const double depth_of_shape = of_shape ? of_shape->depth : 0.0;
     const double depth_of_other = of_other ? of_other->depth : 0.0;
     const double depth = std::max(depth_of_shape, depth_of_other);
@@ -104,6 +149,7 @@ void PoseQueries::write_depth(std::uint32_t index) {
     nearest_ = index;
     nearest_vertex_ = of_shape ? of_shape->index : 0;
     nearest_edge_ = of_other ? of_other->index : 0;
+    nearest_deep_ = of_shape ? VertexGuess{of_shape->index, of_shape->edge} : VertexGuess();
     best_ = {};
     best_.distance = 0.0 - depth;
     best_.error_bound = edges().rounding + instances_->rounding(index) + shape_->deviation() +
@@ -124,16 +170,15 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     const simd::TransformedEdges& other = instances_->edges(index);
     const double rounding = edges().rounding + other.rounding;
     double known = std::min(best_.distance, max_clearance);
-    if (index == guess_) {
+    if (index == guess_.instance) {
         // What was nearest at the pose before is still near.
-        const geometry::Vector vertex = complete_edges().start(guess_vertex_);
-        known =
-            std::min(known, std::sqrt(geometry::nearest_on_segment(vertex, other.start(guess_edge_),
-                                                                   other.end(guess_edge_))
-                                          .squared_distance));
+        known = std::min(known, distance_of_guess());
     }
     const double at_most = with_slack(known, 4.0 * rounding);
-    const narrowphase::ClosestPair pair = closest_pair_.find(complete_edges(), other, at_most, 0.0);
+    const narrowphase::ClosestPair pair =
+        edges().count <= simd::max_few_edges
+            ? closest_pair_.find_of_few(edges(), other, instances_->tree(index), at_most)
+            : closest_pair_.find(complete_edges(), other, at_most, 0.0);
     const double distance = std::sqrt(pair.squared_distance);
     if (distance > max_clearance || !replaces(distance, index)) {
         return;
@@ -150,8 +195,8 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
         distance > 0.0 ? to_public((pair.point_b - pair.point_a) / distance) : Vector2();
 }
 
-void PoseQueries::measure(std::uint32_t index, const ClearanceQuery& query) {
-    if (!intersects(index)) {
+void PoseQueries::measure(std::uint32_t index, bool intersects, const ClearanceQuery& query) {
+    if (!intersects) {
         if (!(best_.distance < 0.0)) {
             write_distance(index, query.max_clearance);
         }
@@ -168,9 +213,9 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     place(pose);
     best_ = {};
     nearest_ = BoxHierarchy::nowhere;
-    const std::uint32_t guess = guess_;
+    const std::uint32_t guess = guess_.instance;
     if (guess != BoxHierarchy::nowhere) {
-        measure(guess, query);
+        measure(guess, intersects_guess(), query);
     }
     const double rounding = edges().rounding + instances_->max_rounding();
     const auto bound = [&] {
@@ -180,12 +225,12 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     };
     instances_->boxes().for_near(edges().box, bound, [&](std::uint32_t index, double) {
         if (index != guess && instances_->passes(index, filter_)) {
-            measure(index, query);
+            measure(index, intersects(index), query);
         }
     });
-    guess_ = nearest_;
-    guess_vertex_ = nearest_vertex_;
-    guess_edge_ = nearest_edge_;
+    const TransformedPolygon& placed = edges().placed;
+    guess_ = {nearest_,       nearest_vertex_,          nearest_edge_,        nearest_deep_,
+              best_.distance, placed.rotation().col(0), placed.translation(), edges().rounding};
     if (nearest_ == BoxHierarchy::nowhere || best_.distance <= query.min_clearance) {
         best_ = {};
         best_.distance =

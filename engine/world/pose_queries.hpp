@@ -29,15 +29,36 @@ public:
     void find_nearest(const Pose& pose, double max_distance, std::span<Clearance> nearest);
 
 private:
+    /// What is known of the pose before, a first bound for the next one.
+    struct Guess {
+        std::uint32_t instance = UINT32_MAX;  // that was nearest, or intersected
+        // Edges of the shape and the instance near the places where they were closest.
+        std::uint32_t vertex = 0;
+        std::uint32_t edge = 0;
+        VertexGuess deep;  // of the shape
+        // From the instance; minus the depth of a vertex; 0: unknown.
+        double distance = 0.0;
+        geometry::Vector axis = geometry::Vector::Zero();  // of the shape, in the world
+        geometry::Vector centre = geometry::Vector::Zero();
+        double rounding = 0.0;  // of the shape's vertices
+    };
+
     /// Puts the shape at a pose.
     void place(const Pose& pose);
     /// The shape's edges at the pose, with or without the boxes over them.
     [[nodiscard]] const simd::TransformedEdges& edges() const { return shape_edges_[0]; }
     [[nodiscard]] const simd::TransformedEdges& complete_edges();
+    /// The shape's edges, complete unless they are few enough to do without.
+    [[nodiscard]] const simd::TransformedEdges& searched_edges();
     [[nodiscard]] geometry::Box search_box() const;
     [[nodiscard]] bool intersects(std::uint32_t index);
+    /// The same for the instance of the guess, quickly if the shape has moved less than it was
+    /// distant or deep.
+    [[nodiscard]] bool intersects_guess();
+    /// An upper bound on the distance from the instance of the guess.
+    [[nodiscard]] double distance_of_guess();
     /// Takes an instance into account if it is nearer, or deeper, than the best so far.
-    void measure(std::uint32_t index, const ClearanceQuery& query);
+    void measure(std::uint32_t index, bool intersects, const ClearanceQuery& query);
     [[nodiscard]] bool replaces(double distance, std::uint32_t index) const;
     void write_depth(std::uint32_t index);
     void write_distance(std::uint32_t index, double max_clearance);
@@ -54,10 +75,8 @@ private:
     std::uint32_t nearest_ = UINT32_MAX;
     std::uint32_t nearest_vertex_ = 0;
     std::uint32_t nearest_edge_ = 0;
-    // Those of the pose before.
-    std::uint32_t guess_ = UINT32_MAX;
-    std::uint32_t guess_vertex_ = 0;
-    std::uint32_t guess_edge_ = 0;
+    VertexGuess nearest_deep_;
+    Guess guess_;
     std::vector<std::uint32_t> candidates_;
 };
 

@@ -253,7 +253,71 @@ TEST_P(WorldPoses, AreAnsweredAsByABatchAndByTheBruteForce) {
     }
 }
 
+/// Paths through a box, in short steps: what is known of one pose helps with the next.
+std::vector<Pose> paths_through(Random& random, const Scene& scene, const Rectangle& box) {
+    std::vector<Pose> poses;
+    for (int path = 0; path < 4; ++path) {
+        Pose pose{any_point(random, scene, box), random.between(-7.0, 7.0)};
+        const double step = random.scale(1e-3, 0.1) * (box.max.x - box.min.x);
+        const double turn = random.whole(0, 1) * random.between(-0.3, 0.3);
+        const auto is_usable = [](double coordinate) {
+            return std::abs(coordinate) <= largest_coordinate;
+        };
+        for (int i = 0; i < 30 && is_usable(pose.translation.x) && is_usable(pose.translation.y);
+             ++i) {
+            poses.push_back(pose);
+            pose.translation.x += step * std::cos(pose.angle);
+            pose.translation.y += step * std::sin(pose.angle);
+            pose.angle += turn;
+        }
+    }
+    return poses;
+}
+
+void check_paths(Scene& scene, std::uint64_t seed) {
+    Random random(seed + 1);
+    ClearanceQuery query{any_asked(random, scene).shape, any_filter(random, scene)};
+    if (random.whole(0, 3) == 0) {
+        query.min_clearance = random.whole(0, 1) == 0 ? 0.0 : -random.scale(1e-3, 1.0);
+    }
+    const std::vector<Pose> poses = paths_through(random, scene, box_of(scene.placements()));
+    std::vector<Clearance> on_paths(poses.size());
+    ASSERT_TRUE(scene.world().find_clearances(query, poses, on_paths).ok());
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        Clearance alone;
+        ASSERT_TRUE(scene.world().find_clearances(query, {&poses[i], 1}, {&alone, 1}).ok());
+        EXPECT_TRUE(equal(on_paths[i], alone))
+            << "pose " << i << ": " << on_paths[i].distance << " instead of " << alone.distance;
+    }
+}
+
+TEST_P(WorldPoses, AreAnsweredOnPathsAsAlone) {
+    const auto kind = static_cast<SceneKind>(GetParam());
+    const int first = first_world_case();
+    for (int number = first; number < first + world_cases(20); ++number) {
+        const std::uint64_t seed = 1000U * static_cast<std::uint64_t>(number) + 47U;
+        SCOPED_TRACE(std::string(to_string(kind)) + ", seed " + std::to_string(seed));
+        Scene scene(make_scene(kind, seed));
+        check_paths(scene, seed);
+        if (HasFatalFailure() || HasNonfatalFailure()) {
+            return;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldPoses, testing::Range(0, scene_kinds));
+
+TEST(WorldClearances, OfATurnIntoAWall) {
+    // A bar that turns about its centre, which does not move, comes out of the free into the wall.
+    Scene scene({{"wall", rectangle({2.0, -50.0}, {4.0, 50.0}), {}}});
+    const ShapeHandle bar = scene.add_shape(rectangle({-3.0, -0.5}, {3.0, 0.5}));
+    const double quarter = std::acos(0.0);
+    const std::vector<Pose> poses{{{0.0, 0.0}, quarter}, {{0.0, 0.0}, 0.0}};
+    std::vector<Clearance> clearances(2);
+    ASSERT_TRUE(scene.world().find_clearances({bar}, poses, clearances).ok());
+    EXPECT_NEAR(clearances[0].distance, 1.5, 1e-12);
+    EXPECT_NEAR(clearances[1].distance, -1.0, 1e-12);
+}
 
 TEST(WorldClearances, OfSquaresAreWholeNumbers) {
     Scene scene({{"square", rectangle({0, 0}, {4, 4}), {}},
