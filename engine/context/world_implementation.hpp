@@ -98,11 +98,11 @@ private:
     void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
     /// Answers each of `count` questions about places in an order in which neighbours need the same
-    /// boxes: calls begin(job), and answer(job, i) for question i. `place(i)` is where it is, and
-    /// `result(i)` what the answer overwrites.
+    /// boxes, sorting `at_a_time` of them: calls begin(job), and answer(job, i) for question i.
+    /// `place(i)` is where it is, and `result(i)` what the answer overwrites.
     template <class Place, class Result, class Begin, class Answer>
-    void divide_places(std::size_t count, const Place& place, const Result& result,
-                       const Begin& begin, const Answer& answer);
+    void divide_places(std::size_t count, std::size_t at_a_time, const Place& place,
+                       const Result& result, const Begin& begin, const Answer& answer);
     /// Writes one list per entry; `find(job, i, found)` appends the instances of entry i, in any
     /// order.
     template <class Find>

@@ -100,14 +100,14 @@ bool PoseQueries::intersects_guess() {
 double PoseQueries::distance_of_guess() {
     const simd::TransformedEdges& own = searched_edges();
     const simd::TransformedEdges& other = instances_->edges(guess_.instance);
-    const auto squared = [](const simd::TransformedEdges& of_vertex, std::uint32_t vertex,
-                            const simd::TransformedEdges& of_edge, std::uint32_t edge) {
-        return geometry::nearest_on_segment(of_vertex.start(vertex), of_edge.start(edge),
-                                            of_edge.end(edge))
-            .squared_distance;
+    const auto from = [](const simd::TransformedEdges& of_vertex, std::uint32_t vertex,
+                         const simd::TransformedEdges& of_edge, std::uint32_t edge) {
+        return std::sqrt(geometry::nearest_on_segment(of_vertex.start(vertex), of_edge.start(edge),
+                                                      of_edge.end(edge))
+                             .squared_distance);
     };
-    return std::sqrt(std::min(squared(own, guess_.vertex, other, guess_.edge),
-                              squared(other, guess_.edge, own, guess_.vertex)));
+    return guess_.vertex_of_shape ? from(own, guess_.vertex, other, guess_.edge)
+                                  : from(other, guess_.edge, own, guess_.vertex);
 }
 
 void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
@@ -186,6 +186,7 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     nearest_ = index;
     nearest_vertex_ = pair.edge_a;
     nearest_edge_ = pair.edge_b;
+    nearest_is_vertex_of_shape_ = pair.parameter_a == 0.0;
     best_.distance = distance;
     best_.error_bound = rounding + shape_->deviation() + instances_->deviation(index) +
                         8.0 * std::numeric_limits<double>::epsilon() * distance;
@@ -229,8 +230,15 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
         }
     });
     const TransformedPolygon& placed = edges().placed;
-    guess_ = {nearest_,       nearest_vertex_,          nearest_edge_,        nearest_deep_,
-              best_.distance, placed.rotation().col(0), placed.translation(), edges().rounding};
+    guess_ = {nearest_,
+              nearest_vertex_,
+              nearest_edge_,
+              nearest_is_vertex_of_shape_,
+              nearest_deep_,
+              best_.distance,
+              placed.rotation().col(0),
+              placed.translation(),
+              edges().rounding};
     if (nearest_ == BoxHierarchy::nowhere || best_.distance <= query.min_clearance) {
         best_ = {};
         best_.distance =

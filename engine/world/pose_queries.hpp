@@ -35,7 +35,8 @@ private:
         // Edges of the shape and the instance near the places where they were closest.
         std::uint32_t vertex = 0;
         std::uint32_t edge = 0;
-        VertexGuess deep;  // of the shape
+        bool vertex_of_shape = true;  // where the edge starts; otherwise one of the instance
+        VertexGuess deep;             // of the shape
         // From the instance; minus the depth of a vertex; 0: unknown.
         double distance = 0.0;
         geometry::Vector axis = geometry::Vector::Zero();  // of the shape, in the world
@@ -75,6 +76,7 @@ private:
     std::uint32_t nearest_ = UINT32_MAX;
     std::uint32_t nearest_vertex_ = 0;
     std::uint32_t nearest_edge_ = 0;
+    bool nearest_is_vertex_of_shape_ = true;
     VertexGuess nearest_deep_;
     Guess guess_;
     std::vector<std::uint32_t> candidates_;
