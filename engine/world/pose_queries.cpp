@@ -252,7 +252,7 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
 void PoseQueries::find_nearest(const Pose& pose, double max_distance,
                                std::span<Clearance> nearest) {
     place(pose);
-    guess_ = BoxHierarchy::nowhere;
+    guess_ = {};
     std::size_t count = 0;
     // What is farther away comes after all that are wanted.
     const auto farthest = [&] {
@@ -276,7 +276,7 @@ void PoseQueries::find_nearest(const Pose& pose, double max_distance,
         }
         best_ = {};
         nearest_ = BoxHierarchy::nowhere;
-        measure(index, {.max_clearance = farthest()});
+        measure(index, intersects(index), {.max_clearance = farthest()});
         best_.instance = instances_->handle(index);
         const bool is_full = count == nearest.size();
         if (nearest_ == BoxHierarchy::nowhere ||
