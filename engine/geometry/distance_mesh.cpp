@@ -76,7 +76,6 @@ void DistanceMesh::add_piece(const Vector& origin, const Vector& gradient,
     const std::size_t block = ids_.size() / kernels::pieces_at_once;
     if (block == pieces_.size()) {
         pieces_.emplace_back();
-        placed_.emplace_back();
     }
     ids_.push_back(id);
     kernels::Pieces& pieces = pieces_[block];
@@ -158,6 +157,7 @@ void DistanceMesh::add_cone_sector(const Vector& in, const Vector& v, const Vect
 }
 
 float DistanceMesh::place() {
+    placed_.resize(pieces_.size());
     return kernels::place_pieces(pieces_.data(), ids_.size(), options_.grid, options_.within,
                                  placed_.data());
 }
