@@ -214,6 +214,8 @@ Found check(const Parted& a, const Pose& pose_a, const Parted& b, const Pose& po
     simd::TransformedInstances instances;
     const std::uint32_t index_a = instances.place(polygon_a, pose_a);
     const std::uint32_t index_b = instances.place(polygon_b, pose_b);
+    instances.complete(index_a);
+    instances.complete(index_b);
     SeparatingTranslationFinder finder;
     Found found;
     found.way = finder.find(instances[index_a], instances[index_b], pose_a, {tolerance, max_work});
@@ -271,6 +273,20 @@ TEST(MinkowskiTruth, CombsWhoseTeethJustFit) {
                           0.0};
         check(a, {{pose_a.translation.x + 1.0, pose_a.translation.y}, pose_a.angle}, b, pose_b,
               1e-4);
+    }
+}
+
+TEST(MinkowskiTruth, CombsOfManyTeeth) {
+    // More than 256 edges: cells are divided by the edges that cross in them.
+    samples::Random random(705);
+    for (int i = 0; i < 6; ++i) {
+        SCOPED_TRACE("case " + std::to_string(i));
+        const Parted a = comb(65, 0.5, 3.0);
+        const Parted b = comb(2, random.between(0.2, 0.6), 4.0);
+        const Pose pose_a{{33.0 + random.between(-0.4, 0.4), random.between(2.5, 3.5)},
+                          std::numbers::pi};
+        const Found found = check(a, pose_a, b, {}, 1e-3);
+        EXPECT_GE(found.way.lower_bound, 0.95 * found.way.vector.norm());
     }
 }
 
