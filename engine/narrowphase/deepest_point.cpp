@@ -46,12 +46,35 @@ DeepestPoint DeepestPointFinder::find(const simd::PointArrays& points,
     touching_ = touching;
     depth_ = 0.0;
     deepest_ = {};
-    if (points.count >= many_points && edges.count >= many_edges) {
+    if (points.count >= many_points && edges.count >= many_edges && !is_crowded()) {
         find_by_adaptive_sampling();
     } else {
         find_together(margin);
     }
     return deepest_;
+}
+
+/// Whether points lie in the boxes of so many edges that a search for the nearest takes longer than
+/// its share when all points are located together.
+bool DeepestPointFinder::is_crowded() {
+    if (is_small(*edges_)) {
+        return false;
+    }
+    constexpr std::uint32_t looked_at = 16;
+    constexpr std::uint32_t many_boxes = 32;
+    if (near_.size() < simd::padded(edges_->count)) {
+        near_.resize(simd::padded(edges_->count));
+    }
+    const simd::AabbTree tree = edges_->tree();
+    std::uint32_t crowded = 0;
+    for (std::uint32_t i = 0; i < looked_at; ++i) {
+        const std::size_t point = std::size_t{points_.count} * i / looked_at;
+        const double x = points_.x[point];
+        const double y = points_.y[point];
+        crowded +=
+            simd::kernels::find_edges_in(tree, {x, y, x, y}, near_.data()) > many_boxes ? 1U : 0U;
+    }
+    return 2 * crowded >= looked_at;
 }
 
 void DeepestPointFinder::find_together(double margin) {

@@ -39,6 +39,7 @@ private:
     /// Every point at a multiple of this is probed first.
     static constexpr std::uint32_t stride = 32;
 
+    [[nodiscard]] bool is_crowded();
     void find_together(double margin);
     void find_by_adaptive_sampling();
 
@@ -61,6 +62,7 @@ private:
     NearestPoints nearest_;    // to the points
     std::uint32_t guess_ = 0;  // an edge near the last point probed
     std::vector<DepthProbe> probes_;
+    std::vector<std::uint32_t> near_;  // scratch: edges
     SparseCheckpoint<64> checkpoint_;
 };
 

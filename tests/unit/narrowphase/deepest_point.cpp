@@ -2,12 +2,13 @@
 #include <engine/narrowphase/deepest_point.hpp>
 
 #include <gtest/gtest.h>
+#include <tests/unit/support/awkward_shapes.hpp>
 #include <tests/unit/support/point_samples.hpp>
-#include <tests/unit/support/shape_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace nearfield::narrowphase {
@@ -59,7 +60,11 @@ TEST(DeepestPoint, IsThatOfBruteForce) {
     samples::Random random(77);
     DeepestPointFinder finder;
     std::uint32_t many = 0;
-    for (const samples::NamedRings& shape : samples::assorted_shapes(random)) {
+    std::vector<samples::NamedRings> shapes = samples::assorted_shapes(random);
+    for (samples::NamedRings& shape : samples::awkward_shapes(random)) {
+        shapes.push_back(std::move(shape));
+    }
+    for (const samples::NamedRings& shape : shapes) {
         for (const Pose& pose : {Pose{}, Pose{{1e4, -3.0}, 0.7}, Pose{{1e6, 1e6}, -2.0}}) {
             SCOPED_TRACE(shape.name + " moved by " + std::to_string(pose.translation.x));
             const Polygon polygon = samples::polygon(shape.rings);
@@ -68,7 +73,8 @@ TEST(DeepestPoint, IsThatOfBruteForce) {
             instances.complete(index);
             const simd::TransformedEdges& edges = instances[index];
             const double rounding = 1e-11 + edges.rounding;
-            for (int i = 0; i < 60; ++i) {
+            const int lists = edges.count > 1000 ? 4 : 60;
+            for (int i = 0; i < lists; ++i) {
                 const Points points = walk(edges, random);
                 many += points.count >= 128 ? 1U : 0U;
                 const std::vector<double> truth = depths(edges, points);
