@@ -1,10 +1,12 @@
 // Measures how the time of a frame grows with the number of edges for the technique cpu, as a table
 // in Markdown: simple shapes, and shapes for which many data structures degenerate to brute force.
 // Both shapes are submitted anew each frame. The last column is the exponent from the second size
-// to the third; 1 means linear growth.
+// to the third; 1 means linear growth. A second table has families that are awkward for boxes, by
+// every technique.
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/awkward_families.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
@@ -214,6 +216,7 @@ int main() {
                 std::fflush(stdout);
             }
         }
+        bench::print_awkward_families(context);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_scaling: %s\n", error.what());
