@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
+#include <tests/simulation/simulation.hpp>
 #include <tests/support/degenerate_polygons.hpp>
 #include <tools/drawing/canvas.hpp>
+#include <tools/rendering/mesh.hpp>
 #include <tools/rendering/page.hpp>
+#include <tools/rendering/scene_picture.hpp>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace nearfield::test {
@@ -113,6 +117,43 @@ TEST_F(Painter, PlacesTextByItsStartMiddleOrEnd) {
         }
         expect_alike(paint(drawing), canvas, "text", 30);
     }
+}
+
+TEST(Mesh, WhatIsAddedComesAfterTheDrawing) {
+    tools::Drawing drawing;
+    drawing.dot({5.0, 5.0}, 2.0, ink);
+    tools::Mesh mesh(10, 10);
+    mesh.add(drawing);
+    const auto vertices = static_cast<std::uint32_t>(mesh.vertices().size());
+    const auto indices = static_cast<std::uint32_t>(mesh.indices().size());
+    const std::vector<tools::MeshVertex> triangle(3);
+    const std::vector<std::uint16_t> corners{0, 1, 2};
+    const std::vector<tools::MeshPart> parts{{0, 0, 10, 10, 0, 3}};
+    mesh.add(triangle, corners, parts);
+    EXPECT_EQ(std::vector(mesh.indices().end() - 3, mesh.indices().end()),
+              (std::vector<std::uint32_t>{vertices, vertices + 1, vertices + 2}));
+    EXPECT_EQ(mesh.parts().back().first, indices);
+}
+
+TEST(Solids, NearOnesAreDrawnOverFarOnes) {
+    simulation::Scene scene;
+    for (const double away : {0.0, 2.0, 1.0}) {
+        add_body(scene, box(1.0, 0.5), {{0.0, away}});
+        scene.looks.back().height = 0.4;
+    }
+    tools::Drawing drawing;
+    tools::draw_bodies(drawing, scene,
+                       tools::View({{-2.0, -2.0}, {2.0, 4.0}}, {{0.0, 0.0}, {240.0, 240.0}}));
+    // The headlights of each car come last.
+    std::vector<double> lamps;
+    for (const tools::DrawnItem& item : drawing.items()) {
+        if (const auto* const dot = std::get_if<tools::DrawnDot>(&item)) {
+            lamps.push_back(dot->center.y);
+        }
+    }
+    ASSERT_EQ(lamps.size(), 6U);
+    EXPECT_LT(lamps[1], lamps[2]);
+    EXPECT_LT(lamps[3], lamps[4]);
 }
 
 TEST_F(Painter, APageIsPaintedAnewEachTime) {

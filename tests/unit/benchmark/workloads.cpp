@@ -4,6 +4,7 @@
 #include <tools/benchmark/objects.hpp>
 #include <tools/benchmark/outlines.hpp>
 #include <tools/benchmark/paper_scenes.hpp>
+#include <tools/benchmark/questions.hpp>
 #include <tools/benchmark/table.hpp>
 
 #include <algorithm>
@@ -119,6 +120,12 @@ TEST(PaperScenes, LookTheSameFromAfarAtEveryScale) {
             EXPECT_EQ(coarse.instances[i].pose.translation, fine.instances[i].pose.translation);
         }
     }
+}
+
+TEST(Questions, OnlySeparationsReachBeyondTheBoxes) {
+    const tools::Scene separations = asked(crowd_scene(), separation(0.01), Pairs::all);
+    EXPECT_DOUBLE_EQ(separations.queries.back().reach, 20.0 * 0.01);
+    EXPECT_EQ(asked(crowd_scene(), contacts(0.01), Pairs::all).queries.back().reach, 0.0);
 }
 
 TEST(Crowds, AreStarsOfFiftyVertices) {
