@@ -307,6 +307,16 @@ TEST_P(WorldPoses, AreAnsweredOnPathsAsAlone) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldPoses, testing::Range(0, scene_kinds));
 
+TEST(WorldClearances, CountAVertexFarFromTheDeepCorner) {
+    // The square's upper right corner is 1 deep in the kite, whose tip is 5 deep in the square.
+    Scene scene({{"kite", {{{11.0, 9.0}, {11.0, 11.0}, {9.0, 11.0}, {5.0, 5.0}}}, {}}});
+    const ShapeHandle square = scene.add_shape(rectangle({0.0, 0.0}, {10.0, 10.0}));
+    const Pose pose{};
+    Clearance clearance;
+    ASSERT_TRUE(scene.world().find_clearances({square}, {&pose, 1}, {&clearance, 1}).ok());
+    EXPECT_EQ(clearance.distance, -5.0);
+}
+
 TEST(WorldClearances, OfATurnIntoAWall) {
     // A bar that turns about its centre, which does not move, comes out of the free into the wall.
     Scene scene({{"wall", rectangle({2.0, -50.0}, {4.0, 50.0}), {}}});
