@@ -9,6 +9,16 @@ namespace nearfield::mtv {
 
 using geometry::Vector;
 
+// At least as much as most pieces ever need: memory moves from piece to piece, and none of it
+// should grow again later.
+constexpr std::size_t usual_corners = 64;
+
+ConvexPiece::ConvexPiece() {
+    for (Corners* const corners : {&corners_, &core_, &kept_}) {
+        corners->reserve(usual_corners);
+    }
+}
+
 void ConvexPiece::begin(const Vector& centre, const Vector& half, double margin) {
     const auto set = [&centre](Corners& corners, double x, double y) {
         corners.assign({centre + Vector(-x, -y), centre + Vector(x, -y), centre + Vector(x, y),
@@ -28,11 +38,8 @@ void ConvexPiece::clip(const Corners& corners, const Vector& direction, double l
     if (corners.empty()) {
         return;
     }
-    // At least as much as most pieces ever need: memory moves from piece to piece, and none of it
-    // should grow again later.
-    constexpr std::size_t usual_corners = 64;
     if (kept.capacity() <= corners.size()) {
-        kept.reserve(std::max(usual_corners, 2 * corners.size()));
+        kept.reserve(2 * corners.size());
     }
     const Vector* from = &corners.back();
     double beyond = direction.dot(*from) - least;

@@ -12,6 +12,7 @@ namespace nearfield::mtv {
 /// it lies between lines that coincide up to rounding. Reuses its memory.
 class ConvexPiece {
 public:
+    ConvexPiece();
     /// Starts with a rectangle around a centre. `half`: half its sides. `margin`: that of the core.
     void begin(const geometry::Vector& centre, const geometry::Vector& half, double margin);
     /// Clips to the half plane whose coordinate along `direction`, a unit vector, is at least
