@@ -13,7 +13,7 @@ using geometry::Vector;
 namespace {
 
 /// Slightly more than a length that was rounded.
-double with_slack(double length, double rounding) {
+double rounded_up(double length, double rounding) {
     return length * (1.0 + 1e-12) + rounding;
 }
 
@@ -54,14 +54,14 @@ void DeepestVertex::take(std::uint32_t index, const EdgesInTree& inner, const Ed
     }
     // Around the deepest vertex so far there is no boundary within its depth.
     const bool is_surely_inside =
-        deepest_ && with_slack((vertex - deepest_->vertex).norm(),
+        deepest_ && rounded_up((vertex - deepest_->vertex).norm(),
                                inner.edges.rounding + outer.edges.rounding) < deepest_->depth;
     if (!is_surely_inside && !simd::kernels::contain(*outer.tree, vertex.x(), vertex.y())) {
         return;
     }
     // Slightly more, so that which of several equally near edges is found depends on no guess.
     const double at_most =
-        with_slack(std::sqrt(guess), inner.edges.rounding + outer.edges.rounding);
+        rounded_up(std::sqrt(guess), inner.edges.rounding + outer.edges.rounding);
     near_ = simd::kernels::find_nearer(
                 *outer.tree, vertex.x(), vertex.y(),
                 {near_, std::nextafter(at_most * at_most, std::numeric_limits<double>::infinity())})
@@ -98,7 +98,7 @@ std::optional<DeepVertex> DeepestVertex::find(const EdgesInTree& inner, const Ed
     bound_depths(inner, outer, count);
     const double rounding = inner.edges.rounding + outer.edges.rounding;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (!deepest_ || with_slack(std::sqrt(bounds_[i]), rounding) >= deepest_->depth) {
+        if (!deepest_ || rounded_up(std::sqrt(bounds_[i]), rounding) >= deepest_->depth) {
             take(found_[i], inner, outer);
         }
     }

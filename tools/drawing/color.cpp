@@ -17,19 +17,19 @@ struct Lab {
 };
 
 /// The colours of one side of a map, from the boundary to the extreme.
-using Side = std::array<Lab, 4>;
+using Ramp = std::array<Lab, 4>;
 
 // Both sides have the same lightness at each step.
-constexpr Side inside{{{0.985, -0.002, -0.004},
+constexpr Ramp inside{{{0.985, -0.002, -0.004},
                        {0.865, -0.028, -0.055},
                        {0.735, -0.045, -0.090},
                        {0.600, -0.045, -0.115}}};
-constexpr Side outside{
+constexpr Ramp outside{
     {{0.985, 0.002, 0.006}, {0.905, 0.018, 0.052}, {0.810, 0.040, 0.090}, {0.690, 0.062, 0.108}}};
 // Red to dark red; yellow by way of green to blue.
-constexpr Side overlapping{
+constexpr Ramp overlapping{
     {{0.680, 0.170, 0.080}, {0.580, 0.190, 0.100}, {0.480, 0.165, 0.085}, {0.380, 0.130, 0.060}}};
-constexpr Side clear{{{0.890, 0.010, 0.165},
+constexpr Ramp clear{{{0.890, 0.010, 0.165},
                       {0.810, -0.095, 0.125},
                       {0.700, -0.100, -0.005},
                       {0.570, -0.035, -0.125}}};
@@ -49,7 +49,7 @@ Color to_color(const Lab& lab) {
 }
 
 /// The colour at a position from 0, the boundary, to 1, the extreme.
-Color color_along(const Side& side, double position) {
+Color color_along(const Ramp& side, double position) {
     const double along = std::min(position, 1.0) * static_cast<double>(side.size() - 1);
     const std::size_t index = std::min(static_cast<std::size_t>(along), side.size() - 2);
     const double weight = along - static_cast<double>(index);

@@ -17,7 +17,8 @@ std::unique_ptr<ClearanceScene> made(Context& context) {
     return scene;
 }
 
-constexpr NamedClearanceScene scenes[] = {{"nest", made<Nest>}, {"robots", made<Robots>}};
+constexpr NamedClearanceScene scenes_of_clearances[] = {{"nest", made<Nest>},
+                                                        {"robots", made<Robots>}};
 
 std::size_t edges_of(const std::vector<Ring>& rings) {
     std::size_t count = 0;
@@ -30,7 +31,7 @@ std::size_t edges_of(const std::vector<Ring>& rings) {
 }  // namespace
 
 std::span<const NamedClearanceScene> clearance_scenes() {
-    return scenes;
+    return scenes_of_clearances;
 }
 
 ClearanceScene::ClearanceScene(Context& context, const Setting& setting)

@@ -18,12 +18,14 @@ protected:
         planned_.b = &b_;
         planned_.searched = true;
         planned_.budget.cell = 0.01;
+        planned_.point_count = 1;
+        plan_.points = {{{0, 0.0}, plan::PlannedPoint::no_tile}};
     }
 
     /// What the device found of the point is in `word`.
     ResolvedPoint resolved(std::uint32_t word) {
-        resolver_.begin(plan_, planned_);
-        return resolver_.resolve({{0, 0.0}, plan::PlannedPoint::no_tile}, word);
+        resolver_.begin(plan_, planned_, {&word, 1});
+        return resolver_.resolve(0);
     }
 
     static constexpr std::uint32_t found =
