@@ -186,9 +186,11 @@ std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
         const auto count = static_cast<std::uint32_t>(made_.size());
         if (entry.room < count) {
             // What grows gets twice the room, so that it leaves little behind in the long run.
-            entry.first = static_cast<std::uint32_t>(units_.size());
-            entry.room = entry.room == 0 ? count : 2 * count;
-            units_.resize(units_.size() + entry.room);
+            const std::size_t first = units_.size();
+            const std::uint32_t room = entry.room == 0 ? count : 2 * count;
+            units_.resize(first + room);
+            entry.first = static_cast<std::uint32_t>(first);
+            entry.room = room;
         }
         if (key.spacing == 0.0) {
             // The header's places are relative to the shape until here.

@@ -12,12 +12,8 @@ namespace {
 using test_support::FailingAllocations;
 
 /// How many of a step's allocations are made to fail: all if there are few, otherwise this many,
-/// spread over all; fewer when every memory access is checked.
-#ifdef __SANITIZE_ADDRESS__
-constexpr std::uint64_t max_tries = 40;
-#else
+/// spread over all.
 constexpr std::uint64_t max_tries = 120;
-#endif
 
 bool is_submission(World::Step step) {
     return step == World::Step::submit_first || step == World::Step::submit_larger ||
