@@ -12,6 +12,12 @@
 
 namespace nearfield::tools {
 
+/// What paints pictures.
+struct PaintingDevice {
+    GpuInstance instance;
+    Gpu gpu{instance};
+};
+
 /// The pictures of a run, in files or a video, if any are requested, and the device that paints
 /// them.
 class FrameOutput {
@@ -27,15 +33,10 @@ public:
     void finish();
 
 private:
-    struct Device {
-        GpuInstance instance;
-        Gpu gpu{instance};
-    };
-
     const SimulateArguments& arguments_;
     std::optional<FrameFiles> files_;
     std::optional<VideoFile> video_;
-    std::optional<Device> device_;
+    std::optional<PaintingDevice> device_;
     std::optional<OffscreenPage> page_;
     Drawing drawing_;
 };

@@ -7,6 +7,6 @@ namespace nearfield::tools {
 
 /// Runs a scene of clearances as run_simulate() does.
 [[nodiscard]] int run_clearances(const SimulateArguments& arguments,
-                                 const simulation::NamedClearanceScene& scene);
+                                 const simulation::NamedClearanceScene& named);
 
 }  // namespace nearfield::tools

@@ -54,11 +54,13 @@ void Nest::nest(std::vector<Ring> item) {
     query.max_clearance = gap;
     std::vector<Pose> poses;
     std::vector<Clearance> clearances;
-    for (double x = 0.0; x < strip_length; x += step) {
+    const auto columns = static_cast<int>(strip_length / step);
+    const auto rows = static_cast<int>(strip_width / step);
+    for (int column = 0; column <= columns; ++column) {
         poses.clear();
-        for (double y = 0.0; y < strip_width; y += step) {
+        for (int row = 0; row <= rows; ++row) {
             for (int quarter = 0; quarter < 4; ++quarter) {
-                poses.push_back({{x, y}, 0.5 * std::numbers::pi * quarter});
+                poses.push_back({{step * column, step * row}, 0.5 * std::numbers::pi * quarter});
             }
         }
         clearances.resize(poses.size());
