@@ -7,13 +7,6 @@
 namespace nearfield::render {
 using graph::Handle;
 
-namespace {
-
-/// By the pass that exports samples.
-constexpr graph::ExternalAccess read_once_more{{}, graph::Access::storage_read_in_compute};
-
-}  // namespace
-
 RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
     : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
                                                   device.stencil_format(), "stencil")),
@@ -68,8 +61,7 @@ void CompiledGraph::declare_compute(const ComputePipelines& passes) {
     if (!needs.fill && !needs.overlap) {
         return;
     }
-    scratch_ = graph_.import_buffer({"scratch", false, false},
-                                    needs_.keeps_hits ? read_once_more : graph::ExternalAccess{});
+    scratch_ = graph_.import_buffer({"scratch", false, false});
     Handle scratch = passes.masks.declare_clear(graph_, scratch_);
     if (needs.fill) {
         scratch = passes.masks.declare_fill(graph_, input_, scratch);
@@ -114,7 +106,10 @@ void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
     if (needs_.overlap != GraphKey{}.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
         if (needs_.keeps_hits) {
-            kept_hits_ = graph_.import_buffer({"kept hits"}, read_once_more);
+            // Read once more by the pass that exports samples. Without that, masks in scratch
+            // memory are readable after the graph, since its last pass reads them.
+            kept_hits_ =
+                graph_.import_buffer({"kept hits"}, {{}, graph::Access::storage_read_in_compute});
         }
         passes::Collect::Output collected{samples_, kept_hits_};
         for (std::size_t i = 0; i < intersection_strategies; ++i) {

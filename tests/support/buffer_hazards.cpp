@@ -110,7 +110,7 @@ std::string described(const BufferAccess& access) {
            std::to_string(access.range.first) + ", " + std::to_string(access.range.end) + ")";
 }
 
-/// The host's shaders may still read the results of the batch before.
+/// The host's draws and dispatches may still read the results of the batch before.
 std::vector<Event> reads_of_results(const Recording& recording) {
     std::vector<Event> events;
     std::set<VkBuffer> seen;
@@ -122,8 +122,10 @@ std::vector<Event> reads_of_results(const Recording& recording) {
             continue;
         }
         for (const VkPipelineStageFlags stage :
-             {VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+             {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, VK_PIPELINE_STAGE_VERTEX_INPUT_BIT,
+              VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT}) {
+            // Which kind of read it is does not matter to a write after it.
             BufferAccess read{
                 {access->range.buffer, 0, VK_WHOLE_SIZE}, stage, VK_ACCESS_SHADER_READ_BIT};
             read.command = UINT32_MAX;

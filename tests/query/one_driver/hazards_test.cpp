@@ -65,6 +65,13 @@ protected:
         EXPECT_TRUE(status.ok()) << status.text();
     }
 
+    /// Alone, so that no barrier of another query covers what it needs.
+    void run_alone(const AnyQuery& query) {
+        Batch batch;
+        std::visit([&](const auto& one) { batch.add(one); }, query);
+        run(batch);
+    }
+
     /// What was recorded has no hazard, and would have one without any of its dependencies.
     static void check() {
         const auto recordings = BufferAccesses::recordings();
@@ -110,6 +117,17 @@ TEST_F(Hazards, AreInNoBatch) {
 TEST_F(Hazards, AreInNoBatchWhoseResultsStay) {
     run(resident_queries(every(true)));
     check();
+}
+
+TEST_F(Hazards, AreInNoQueryThatIsAlone) {
+    const Batch all = every(true);
+    const Batch whose_results_stay = resident_queries(all);
+    for (const Batch* const batch : {&all, &whose_results_stay}) {
+        for (const AnyQuery& query : batch->queries()) {
+            run_alone(query);
+        }
+    }
+    EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
 }
 
 TEST_F(Hazards, AreInNoFrameOfAHost) {
