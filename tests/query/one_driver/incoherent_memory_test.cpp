@@ -1,0 +1,46 @@
+#include <tests/query/all_numbers.hpp>
+#include <tests/query/every_query.hpp>
+#include <tests/query/query_test.hpp>
+#include <tests/support/incoherent_memory.hpp>
+
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+using test_support::FakeLoader;
+
+class IncoherentMemory : public QueryTest {
+protected:
+    /// The answers of two batches whose shapes and poses differ, the second in the buffers of the
+    /// first.
+    [[nodiscard]] static std::vector<double> answers(const HostDevice& host) {
+        Settings settings;
+        settings.batches_in_flight = 1;
+        Expected<Context> context = Context::create(host, drawing(settings));
+        EXPECT_TRUE(context.has_value()) << context.error().text();
+        Random random(7100);
+        const ShapeHandle a = *context->add_shape(coast(random, 100, 0.5));
+        const ShapeHandle b = *context->add_shape(with_holes(random, 3));
+        std::vector<double> numbers;
+        for (int i = 0; i < 2; ++i) {
+            Results results;
+            const Status status = context->run(every_query(a, b, i, false), results);
+            EXPECT_TRUE(status.ok()) << status.text();
+            const std::vector<double> more = all_numbers(results);
+            numbers.insert(numbers.end(), more.begin(), more.end());
+            EXPECT_TRUE(context->update_shape(a, coast(random, 80, 0.4)).ok());
+        }
+        return numbers;
+    }
+};
+
+TEST_F(IncoherentMemory, ChangesNoAnswer) {
+    const std::vector<double> coherent = answers(host_device());
+    EXPECT_GT(coherent.size(), 10'000U);
+    const FakeLoader fake(host_device(), test_support::incoherent_memory());
+    EXPECT_EQ(answers(fake.host()), coherent);
+}
+
+}  // namespace
+}  // namespace nearfield::test
