@@ -130,28 +130,59 @@ void check_others(const TransformedEdges& edges, const Points& points, double ma
     }
 }
 
+/// find_nearest_of() for up to 64 points, against brute force.
+void check_nearest(const TransformedEdges& edges, const Points& points, double margin) {
+    std::vector<double> numbers(6 * 64);
+    std::vector<std::uint32_t> indices(2 * 64);
+    const NearestArrays found{numbers.data(),       numbers.data() + 64,  numbers.data() + 128,
+                              numbers.data() + 192, numbers.data() + 256, numbers.data() + 320,
+                              indices.data(),       indices.data() + 64};
+    std::vector<std::uint32_t> near(padded(edges.count));
+    if (is_small(edges)) {
+        kernels::find_nearest_of(points.arrays(), edges, margin, near.data(), found);
+    } else {
+        DivisionMemory memory;
+        kernels::find_nearest_of(points.arrays(), edges.tree(), margin, near.data(), memory, found);
+    }
+    check_others(edges, points, margin, found);
+}
+
 TEST(NearEdges, OfManyPointsTheOthersAreThoseOfBruteForceOnEveryInstructionSet) {
     for_each_instruction_set([] {
         samples::Random random(303);
-        std::vector<double> numbers(6 * 64);
-        std::vector<std::uint32_t> indices(2 * 64);
-        const NearestArrays found{numbers.data(),       numbers.data() + 64,  numbers.data() + 128,
-                                  numbers.data() + 192, numbers.data() + 256, numbers.data() + 320,
-                                  indices.data(),       indices.data() + 64};
         for_each_shape([&](const TransformedEdges& edges) {
-            std::vector<std::uint32_t> near(padded(edges.count));
-            DivisionMemory memory;
             for (const double margin : {0.0, 1e-3, 0.2}) {
-                const Points points = points_about(edges, random);
-                if (is_small(edges)) {
-                    kernels::find_nearest_of(points.arrays(), edges, margin, near.data(), found);
-                } else {
-                    kernels::find_nearest_of(points.arrays(), edges.tree(), margin, near.data(),
-                                             memory, found);
-                }
-                check_others(edges, points, margin, found);
+                check_nearest(edges, points_about(edges, random), margin);
             }
         });
+    });
+}
+
+/// Squares around each other, which boxes over edges do not tell apart.
+std::vector<std::vector<Vector2>> nested_squares() {
+    std::vector<std::vector<Vector2>> rings;
+    for (int i = 0; i < 1500; ++i) {
+        const double half = 0.6 + 2e-4 * i;
+        rings.push_back({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
+    }
+    return rings;
+}
+
+TEST(NearEdges, OfCrowdedPointsWhatIsWithinTheMarginIsTold) {
+    for_each_instruction_set([] {
+        samples::Random random(304);
+        const Polygon polygon = samples::polygon(nested_squares());
+        TransformedInstances instances;
+        const std::uint32_t index = instances.place(polygon, {{0.3, -0.2}, 0.5});
+        instances.complete(index);
+        const TransformedEdges& edges = instances[index];
+        // Much closer to each other than edges are.
+        Points points;
+        for (int i = 0; i < 21; ++i) {
+            points.push(edges.placed.to_world(
+                {0.59 + 1e-6 * random.between(-1.0, 1.0), 1e-6 * random.between(-1.0, 1.0)}));
+        }
+        check_nearest(edges, points, 1e-3);
     });
 }
 
