@@ -3,6 +3,7 @@
 #include <tests/query/check.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -193,14 +194,16 @@ TEST_F(PointSearch, DecidesTheNearerWallWhereSinglePrecisionCannot) {
 TEST_F(PointSearch, DecidesTheNearestOfWallsThatSinglePrecisionTakesForOne) {
     for_each_case(seed + 5000, 4, [&](Random& random) {
         const Ring around{{-100.0, -100.0}, {100.0, -100.0}, {100.0, 1.0}, {-100.0, 1.0}};
-        const Ring slit{
-            {-99.0, 1.0 - 6e-7}, {99.0, 1.0 - 6e-7}, {99.0, 1.0 - 3e-7}, {-99.0, 1.0 - 3e-7}};
+        Ring slit{{-99.0, 1.0 - 6e-7}, {99.0, 1.0 - 6e-7}, {99.0, 1.0 - 3e-7}, {-99.0, 1.0 - 3e-7}};
         std::vector<Vector2> row;
         std::vector<double> depths;
         for (int i = 0; i < 400; ++i) {
             row.push_back({-8.0 + 0.04 * i, random.between(-30.0, -20.0)});
             depths.push_back(1.0 - 6e-7 - row.back().y);
         }
+        check_row({around, slit}, row, depths, random.between(-3.0, 3.0));
+        // The nearest wall is the last of those that look the same.
+        std::rotate(slit.begin(), slit.begin() + 2, slit.end());
         check_row({around, slit}, row, depths, random.between(-3.0, 3.0));
     });
 }
