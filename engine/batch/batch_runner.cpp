@@ -67,12 +67,11 @@ void BatchRunner::keep_off_the_device() {
 
 /// Plans the batch and makes what the device needs. If the call ends before, nothing is left to do.
 void BatchRunner::plan_batch(plan::Submissions submissions) {
-    plan::Planner& planner = planning_->planner;
     std::vector<AnyResult>& results = results_.results;
     expect_answers(queries_.size());
     try {
         planning_->selector.choose(queries_, shapes_);
-        planner.plan(queries_, shapes_, plan_, results, submissions);
+        planning_->planner.plan(queries_, shapes_, plan_, results, submissions);
         decoder_.begin_batch(plan_);
         make_tile_batches();
     } catch (const Interrupted& interrupted) {
@@ -81,7 +80,7 @@ void BatchRunner::plan_batch(plan::Submissions submissions) {
         search_count_ = 0;
         resident_.clear();
     }
-    results_.timings.localize += planner.localize_milliseconds();
+    results_.timings.localize += plan_.localize_milliseconds;
 }
 
 /// Everything up to the recording of tile batches.

@@ -26,6 +26,7 @@ void Plan::clear() {
     points_by_batch.clear();
     field_points_by_batch.clear();
     result_bytes = 0.0;
+    localize_milliseconds = 0.0;
 }
 
 }  // namespace nearfield::plan

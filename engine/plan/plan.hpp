@@ -178,6 +178,7 @@ struct Plan {
     double result_bytes = 0.0;
     /// Number of jobs that can run at the same time within the memory limit; at least 1.
     std::uint32_t max_jobs = 1;
+    double localize_milliseconds = 0.0;  ///< spent in hierarchies
     /// The times of the batch's queries, which planning and answering add to; empty if nobody asked
     /// for them. Outlives clear().
     std::span<QueryTime> times;

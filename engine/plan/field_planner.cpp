@@ -1,7 +1,8 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
+#include <engine/plan/check_target.hpp>
+#include <engine/plan/field_planner.hpp>
 #include <engine/plan/gpu_layout.hpp>
-#include <engine/plan/planner.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -61,52 +62,15 @@ std::string place(const Vector& point) {
     return "(" + number(point.x()) + ", " + number(point.y()) + ")";
 }
 
-}  // namespace
-
-void Planner::add(const DistanceFieldQuery& query, DistanceFieldResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    planned.budget = field_budget(query, limits_.subpixel, planned.deviations);
-    result.error_bound = planned.budget.bound;
-    result.cell = planned.budget.cell;
-    const std::optional<Box> box = field_box(query, result);
-    if (!box || !check_field(*box, result)) {
-        return;
-    }
-    boxes_.assign(1, *box);
-    add_regions(planned.budget.cell, result);
-    const Grid& grid = grids_.front();
-    planned.field = field_parts(query);
-    if (planned.resident && !check_resident(grid, result)) {
-        return;
-    }
-    if (planned.on_cpu) {
-        require_sides(query.tolerance);
-    }
-    require_field_memory(query, grid);
-    const auto first_tile = static_cast<std::uint32_t>(plan_->tiles.size());
-    result.status = add_field_points(query, grid, first_tile);
-    if (!result.status.ok()) {
-        return;
-    }
-    make_room(query, grid, planned.field, result);
-    if (planned.on_cpu) {
-        return;
-    }
-    cut_into_tiles(0, TileKind::field, field_tile(planned.field), planned.field.halo);
-    if (!planned.field.values && !planned.field.features) {
-        drop_tiles_without_points(first_tile);
-    }
-}
-
-std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
-                                      ResultSummary& result) const {
+/// The box that a field covers; empty if there is none, and then the result states why.
+std::optional<Box> box_of(const DistanceFieldQuery& query, const PlannedQuery& planned,
+                          ResultSummary& result) {
     if (query.rectangle) {
         return Box(geometry::to_vector(query.rectangle->min),
                    geometry::to_vector(query.rectangle->max));
     }
-    const PlannedQuery& planned = plan_->queries[query_];
-    const Box box_a = TransformedPolygon(*planned.a, query.a.pose).box();
-    const Box box = box_a.intersection(TransformedPolygon(*planned.b, query.b.pose).box());
+    const Box box_a = TransformedPolygon(*planned.a, planned.pose_a).box();
+    const Box box = box_a.intersection(TransformedPolygon(*planned.b, planned.pose_b).box());
     if (box.isEmpty()) {
         result.status = {StatusCode::invalid_query,
                          "the bounding boxes of A and B have nothing in common; give the "
@@ -116,8 +80,9 @@ std::optional<Box> Planner::field_box(const DistanceFieldQuery& query,
     return geometry::grown(box, query.tolerance);
 }
 
-bool Planner::check_field(const Box& box, ResultSummary& result) const {
-    const PlannedQuery& planned = plan_->queries[query_];
+/// Checks that tolerance and deviations are compatible with coordinates and distances this large;
+/// the result states the error.
+bool check_numbers(const PlannedQuery& planned, const Box& box, ResultSummary& result) {
     const double tolerance = result.tolerance;
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const Box box_b = b.box();
@@ -136,26 +101,30 @@ bool Planner::check_field(const Box& box, ResultSummary& result) const {
     return result.status.ok();
 }
 
-void Planner::require_field_memory(const DistanceFieldQuery& query, const Grid& grid) {
-    const PlannedQuery& planned = plan_->queries[query_];
-    require_memory(bytes_of_cells(query, planned.field, grid, field_tile(planned.field)) +
-                       bytes_of_points(query, planned.field) +
-                       (planned.by_compute ? bytes_of_masks(1) : 0.0),
-                   query.tolerance, 2.0);
+/// Side of a field's tiles in cells, without the halo.
+std::uint32_t side_of_tiles(const PlannedQuery& planned, const PlanLimits& limits) {
+    if (planned.on_cpu) {
+        return UINT32_MAX;  // the whole grid
+    }
+    const FieldParts& parts = planned.field;
+    const std::uint32_t drawn = parts.small_tiles
+                                    ? std::min(limits.features_tile, limits.largest_tile)
+                                    : limits.largest_tile;
+    return drawn - 2 * parts.halo;
 }
 
-bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {
-    PlannedQuery& planned = plan_->queries[query_];
-    if (std::max(grid.width, grid.height) > limits_.largest_image) {
+/// Checks that the images of a resident field fit the device; the result states the error.
+bool check_resident(const DistanceFieldQuery& query, const Grid& grid, std::uint32_t largest_image,
+                    PlannedQuery& planned, DistanceFieldResult& result) {
+    if (std::max(grid.width, grid.height) > largest_image) {
         result.status = {
             StatusCode::too_large,
             "a field of " + std::to_string(grid.width) + " x " + std::to_string(grid.height) +
                 " cells is to stay on the device; an image of this device has at most " +
-                std::to_string(limits_.largest_image) +
+                std::to_string(largest_image) +
                 " along a side; use a larger tolerance or a smaller rectangle"};
         return false;
     }
-    const auto& query = std::get<DistanceFieldQuery>(*planned.query);
     if (query.target != nullptr) {
         result.status = check_room(*query.target, grid.width, grid.height);
         if (!result.status.ok()) {
@@ -177,54 +146,23 @@ bool Planner::check_resident(const Grid& grid, DistanceFieldResult& result) {
     return result.status.ok();
 }
 
-void Planner::drop_tiles_without_points(std::uint32_t first_tile) {
-    const PlannedQuery& planned = plan_->queries[query_];
-    const std::span points(plan_->field_points.data() + planned.first_field_point,
-                           planned.field_point_count);
-    kept_tiles_.assign(plan_->tiles.size() - first_tile, 0);
-    for (const PlannedFieldPoint& point : points) {
-        kept_tiles_[point.tile - first_tile] = 1;
-    }
-    std::uint32_t next = first_tile;
-    for (std::uint32_t i = 0; i < kept_tiles_.size(); ++i) {
-        if (kept_tiles_[i] != 0) {
-            plan_->tiles[next] = plan_->tiles[first_tile + i];
-            kept_tiles_[i] = next++;
-        }
-    }
-    plan_->tiles.resize(next);
-    for (PlannedFieldPoint& point : points) {
-        point.tile = kept_tiles_[point.tile - first_tile];
-    }
-}
-
-std::uint32_t Planner::field_tile(const FieldParts& parts) const {
-    if (plan_->queries[query_].on_cpu) {
-        return UINT32_MAX;  // the whole grid
-    }
-    const std::uint32_t drawn = parts.small_tiles
-                                    ? std::min(limits_.features_tile, limits_.largest_tile)
-                                    : limits_.largest_tile;
-    return drawn - 2 * parts.halo;
-}
-
-Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& grid,
-                                 std::uint32_t first_tile) {
+/// Assigns the points of a field to the tiles that it will be cut into.
+Status add_points(const DistanceFieldQuery& query, const Grid& grid, std::uint32_t side,
+                  PlannedQuery& planned, Plan& plan) {
     // A rectangle is a whole number of cells only up to rounding.
     constexpr double slack = 1e-6;
-    PlannedQuery& planned = plan_->queries[query_];
     const std::uint32_t halo = planned.field.halo;
-    const std::uint32_t side = field_tile(planned.field);
     const std::uint64_t tiles_along = (grid.width + side - 1) / side;
     const auto width = static_cast<double>(grid.width);
     const auto height = static_cast<double>(grid.height);
-    const std::size_t first = plan_->field_points.size();
+    const std::size_t first = plan.field_points.size();
+    const auto first_tile = static_cast<std::uint32_t>(plan.tiles.size());
     for (std::size_t i = 0; i < query.points.size(); ++i) {
         const Vector position = geometry::to_vector(query.points[i]);
         const Vector local = (position - grid.origin) / grid.cell;
         if (!(local.minCoeff() >= -slack && local.x() <= width + slack &&
               local.y() <= height + slack)) {
-            plan_->field_points.resize(first);
+            plan.field_points.resize(first);
             const Vector high = grid.origin + grid.cell * Vector(width, height);
             return {StatusCode::invalid_query,
                     "point " + std::to_string(i) + " " + place(position) +
@@ -241,7 +179,7 @@ Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& gr
         const std::uint64_t row = cell(local.y(), grid.height);
         const bool to_the_left = local.x() < static_cast<double>(column) + 0.5;
         const bool below = local.y() < static_cast<double>(row) + 0.5;
-        PlannedFieldPoint& point = plan_->field_points.emplace_back();
+        PlannedFieldPoint& point = plan.field_points.emplace_back();
         point.position = position;
         point.tile =
             planned.on_cpu
@@ -255,6 +193,70 @@ Status Planner::add_field_points(const DistanceFieldQuery& query, const Grid& gr
     planned.first_field_point = static_cast<std::uint32_t>(first);
     planned.field_point_count = static_cast<std::uint32_t>(query.points.size());
     return {};
+}
+
+}  // namespace
+
+void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
+                        DistanceFieldResult& result) {
+    const PlanLimits& limits = current.limits;
+    PlannedQuery& planned = current.planned();
+    planned.budget = field_budget(query, limits.subpixel, planned.deviations);
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    const std::optional<Box> box = box_of(query, planned, result);
+    if (!box || !check_numbers(planned, *box, result)) {
+        return;
+    }
+    regions_.cover(*box, result);
+    const Grid& grid = regions_.grids().front();
+    planned.field = field_parts(query);
+    if (planned.resident && !check_resident(query, grid, limits.largest_image, planned, result)) {
+        return;
+    }
+    if (planned.on_cpu) {
+        regions_.require_sides(current.index, query.tolerance);
+    }
+    const std::uint32_t side = side_of_tiles(planned, limits);
+    current.memory.require(
+        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field) +
+            (planned.by_compute ? regions_.bytes_of_masks(1, limits.largest_tile) : 0.0),
+        2.0);
+    const auto first_tile = static_cast<std::uint32_t>(current.plan.tiles.size());
+    result.status = add_points(query, grid, side, planned, current.plan);
+    if (!result.status.ok()) {
+        return;
+    }
+    make_room(query, grid, planned.field, result);
+    if (planned.on_cpu) {
+        return;
+    }
+    regions_.cut_into_tiles(current.index, TileKind::field, side, planned.field.halo,
+                            current.plan.tiles);
+    if (!planned.field.values && !planned.field.features) {
+        drop_tiles_without_points(first_tile, planned, current.plan);
+    }
+}
+
+void FieldPlanner::drop_tiles_without_points(std::uint32_t first_tile, const PlannedQuery& planned,
+                                             Plan& plan) {
+    const std::span points(plan.field_points.data() + planned.first_field_point,
+                           planned.field_point_count);
+    kept_tiles_.assign(plan.tiles.size() - first_tile, 0);
+    for (const PlannedFieldPoint& point : points) {
+        kept_tiles_[point.tile - first_tile] = 1;
+    }
+    std::uint32_t next = first_tile;
+    for (std::uint32_t i = 0; i < kept_tiles_.size(); ++i) {
+        if (kept_tiles_[i] != 0) {
+            plan.tiles[next] = plan.tiles[first_tile + i];
+            kept_tiles_[i] = next++;
+        }
+    }
+    plan.tiles.resize(next);
+    for (PlannedFieldPoint& point : points) {
+        point.tile = kept_tiles_[point.tile - first_tile];
+    }
 }
 
 }  // namespace nearfield::plan

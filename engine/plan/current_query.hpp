@@ -1,0 +1,44 @@
+#pragma once
+
+#include <engine/base/stopwatch.hpp>
+#include <engine/localize/overlap.hpp>
+#include <engine/plan/memory_budget.hpp>
+#include <engine/plan/plan.hpp>
+#include <engine/plan/plan_limits.hpp>
+#include <nearfield/result.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// The query that is being planned.
+struct CurrentQuery {
+    const PlanLimits& limits;
+    Plan& plan;
+    std::uint32_t index;  ///< in Plan::queries
+    QueryMemory memory;
+
+    [[nodiscard]] PlannedQuery& planned() const { return plan.queries[index]; }
+    [[nodiscard]] localize::OverlapOptions overlap_options(double grow) const {
+        return {limits.hierarchy_height, grow, limits.bounding_volume};
+    }
+};
+
+/// Replaces `chains` by those that a search of hierarchies appends to them; adds what it took to
+/// the statistics. `search` returns its effort.
+template <class Search>
+void find_chains(Plan& plan, ResultSummary& result, std::vector<localize::Chain>& chains,
+                 Search&& search) {
+    const Stopwatch start;
+    chains.clear();
+    const localize::Effort effort = search();
+    result.localization.nodes_evaluated += effort.nodes_evaluated;
+    result.localization.pairs_rejected += effort.pairs_rejected;
+    for (const localize::Chain& chain : chains) {
+        result.localization.edges_kept += chain.count;
+    }
+    plan.localize_milliseconds += start.milliseconds();
+}
+
+}  // namespace nearfield::plan

@@ -1,0 +1,370 @@
+#include <engine/geometry/magnitude.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/check_target.hpp>
+#include <engine/plan/point_planner.hpp>
+#include <engine/plan/point_search.hpp>
+#include <engine/plan/region.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Box;
+using geometry::grown;
+using geometry::TransformedPolygon;
+using localize::Chain;
+
+// Host memory per point: planned and resolved, in the result and in the buffers on the way there.
+constexpr double bytes_per_point =
+    sizeof(PlannedPoint) + std::max(sizeof(PenetrationRecord), sizeof(ContactRecord)) + 64.0;
+
+// The same for a resident point: its details, its table entry, its record.
+constexpr double bytes_per_resident_point = 16.0 + 16.0 + 40.0;
+
+double bytes_of_point(const PlannedQuery& query) {
+    return bytes_per_point + (query.resident ? bytes_per_resident_point : 0.0);
+}
+
+// For either boundary, in a search that is finished exactly.
+constexpr double max_search_samples = 4096.0;
+
+// For a whole boundary: keeps the numbers of samples, and of the parts of an edge, well within 32
+// bits.
+constexpr double max_numbered_samples = 1U << 30U;
+
+struct BoxedPolygon {
+    TransformedPolygon placed;
+    Box box;
+
+    BoxedPolygon(const geometry::Polygon& polygon, const Pose& pose)
+        : placed(polygon, pose), box(placed.box()) {}
+};
+
+/// Checks that deviations and coordinates are compatible with the tolerance; the result states the
+/// error.
+bool check_numbers(const PlannedQuery& planned, const BoxedPolygon& a, const BoxedPolygon& b,
+                   ResultSummary& result) {
+    result.status = check_deviations(result.tolerance, planned.deviations, planned.budget.bound);
+    if (result.status.ok()) {
+        result.status = check_resolution(
+            result.tolerance,
+            std::max(geometry::largest_magnitude(a.placed, planned.pose_a, a.box),
+                     geometry::largest_magnitude(b.placed, planned.pose_b, b.box)));
+    }
+    return result.status.ok();
+}
+
+bool check_numbers(const PlannedQuery& planned, ResultSummary& result) {
+    return check_numbers(planned, BoxedPolygon(*planned.a, planned.pose_a),
+                         BoxedPolygon(*planned.b, planned.pose_b), result);
+}
+
+/// Adds the other direction of the query: points of B in the field of A.
+std::uint32_t add_reverse(CurrentQuery& current) {
+    PlannedQuery reverse = current.planned();
+    std::swap(reverse.a, reverse.b);
+    std::swap(reverse.pose_a, reverse.pose_b);
+    std::swap(reverse.deviations.a, reverse.deviations.b);
+    const auto index = static_cast<std::uint32_t>(current.plan.queries.size());
+    current.planned().reverse = index;
+    current.plan.queries.push_back(reverse);
+    return index;
+}
+
+/// Returns whether the device may search for the points of the query. Resident outputs still need
+/// planned points.
+bool can_be_searched(CurrentQuery& current, double samples, double bytes_of_record) {
+    const PlannedQuery& planned = current.planned();
+    constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
+    return planned.by_compute && !planned.resident && samples <= max_searched_points &&
+           current.memory.fits_roughly(samples, bytes_of_found + bytes_of_record);
+}
+
+SearchedQuery searched_query(std::uint32_t query, const TransformedPolygon& a,
+                             const TransformedPolygon& b) {
+    return {query, b.rotation().transpose() * a.rotation().col(0), b.to_local(a.translation())};
+}
+
+/// Leaves the points of the query to the device, and with `both_ways` those of B as well: points
+/// inside, or up to `reach` outside.
+void search(double reach, bool both_ways, CurrentQuery& current, ResultSummary& result) {
+    PlannedQuery& planned = current.planned();
+    const BoxedPolygon a(*planned.a, planned.pose_a);
+    const BoxedPolygon b(*planned.b, planned.pose_b);
+    if (!check_numbers(planned, a, b, result)) {
+        return;
+    }
+    planned.searched = true;
+    const Box of_a = a.box.intersection(grown(b.box, reach));
+    const Box of_b = b.box.intersection(grown(a.box, reach));
+    const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
+    if (are_near) {
+        const Box where = both_ways ? of_a.merged(of_b) : of_a;
+        result.regions.push_back(region_of(Grid::covering(where, planned.budget.cell)));
+        current.plan.searched.push_back(searched_query(current.index, a.placed, b.placed));
+    }
+    if (both_ways) {
+        const std::uint32_t reverse = add_reverse(current);
+        if (are_near) {
+            current.plan.searched.push_back(searched_query(reverse, b.placed, a.placed));
+        }
+    }
+}
+
+/// Checks that the records of the query, whose points are planned, fit the host's buffer, if it
+/// names one. Otherwise drops its tiles, from `first_tile` on, and its points; the result states
+/// the error.
+void check_room_for_records(const ResidentBufferTarget* target, std::size_t first_tile,
+                            CurrentQuery& current, ResultSummary& result) {
+    Plan& plan = current.plan;
+    PlannedQuery& planned = current.planned();
+    if (!planned.resident || target == nullptr) {
+        return;
+    }
+    PlannedQuery* const reverse =
+        planned.reverse == PlannedQuery::none ? nullptr : &plan.queries[planned.reverse];
+    const double points =
+        1.0 * planned.point_count + (reverse == nullptr ? 0.0 : 1.0 * reverse->point_count);
+    result.status =
+        check_room(*target, sizeof(SummaryData) + points * sizeof(RecordData), "records");
+    if (result.status.ok()) {
+        return;
+    }
+    plan.tiles.resize(first_tile);
+    plan.points.resize(plan.points.size() - static_cast<std::size_t>(points));
+    planned.point_count = 0;
+    if (reverse != nullptr) {
+        reverse->point_count = 0;
+    }
+}
+
+/// Finds the chains of A that can hold contacts; returns an upper bound on their samples.
+double find_near(const TransformedPolygon& a, const TransformedPolygon& b, double contact_distance,
+                 const CurrentQuery& current, std::vector<Chain>& chains, ResultSummary& result) {
+    find_chains(current.plan, result, chains, [&] {
+        return localize::chains_near_boundary(a, b, current.overlap_options(contact_distance),
+                                              chains);
+    });
+    return max_samples(a, chains, result.cell, grown(b.box(), contact_distance));
+}
+
+}  // namespace
+
+PointPlanner::PointPlanner(const PlanLimits& limits)
+    : tiles_(std::min(limits.points_tile, limits.largest_tile)) {}
+
+void PointPlanner::add_samples(std::uint32_t direction, const Box& within, CurrentQuery& current) {
+    Plan& plan = current.plan;
+    PlannedQuery& planned = plan.queries[direction];
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    planned.first_point = static_cast<std::uint32_t>(plan.points.size());
+    if (planned.on_cpu) {
+        for (const BoundaryPoint& sample : samples_) {
+            if (within.contains(position(a, sample))) {
+                plan.points.push_back({sample, PlannedPoint::no_tile});
+            }
+        }
+    } else {
+        tiles_.spread(a, samples_, within, regions_.boxes(), regions_.grids(), direction, plan);
+    }
+    planned.point_count = static_cast<std::uint32_t>(plan.points.size()) - planned.first_point;
+}
+
+void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
+                        PenetrationResult& result) {
+    PlannedQuery& planned = current.planned();
+    const ErrorBudget budget = penetration_budget(query, planned.deviations);
+    result.error_bound = budget.bound;
+    result.cell = budget.cell;
+    const bool vertices = query.points == PenetrationPoints::vertices;
+    const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
+    const double of_boundary =
+        vertices ? static_cast<double>(planned.a->size()) : max_samples(*planned.a, budget.cell);
+    const bool may_be_by_edge = planned.on_cpu && of_boundary <= max_numbered_samples;
+    planned.brute_force =
+        may_be_by_edge && current.memory.fits_roughly(of_boundary, bytes_of_record);
+    if (planned.brute_force) {
+        // Nothing is planned: only the bound of the budget is used.
+        planned.budget.bound = budget.bound;
+        planned.budget.cell = budget.cell;
+        return;
+    }
+    planned.budget = budget;
+    if (can_be_searched(current, of_boundary, bytes_of_record)) {
+        search(0.0, false, current, result);
+        return;
+    }
+    if (!check_numbers(planned, result)) {
+        return;
+    }
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
+    std::vector<Chain>& chains = chains_[0];
+    find_chains(current.plan, result, chains, [&] {
+        return localize::chains_in_volume(a, b, current.overlap_options(0.0), chains);
+    });
+    if (chains.empty()) {
+        return;
+    }
+    const Box box_b = b.box();
+    const double samples =
+        vertices ? max_vertices(chains) : max_samples(a, chains, result.cell, box_b);
+    planned.brute_force = may_be_by_edge && current.memory.fits(samples, bytes_of_record);
+    if (!planned.brute_force) {
+        add_deepest(query, box_b, samples, current, result);
+    }
+}
+
+void PointPlanner::add_deepest(const PenetrationQuery& query, const Box& box_b, double samples,
+                               CurrentQuery& current, PenetrationResult& result) {
+    const PlannedQuery& planned = current.planned();
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    samples_.clear();
+    if (query.points == PenetrationPoints::vertices) {
+        vertices_of_chains(a, chains_[0], samples_);
+    } else {
+        sample_chains(a, chains_[0], result.cell, box_b, samples_);
+    }
+    const std::size_t first_tile = current.plan.tiles.size();
+    regions_.cover(chains_[0], 0.0, box_b, result);
+    add_samples(current.index, box_b, current);
+    check_room_for_records(query.target, first_tile, current, result);
+}
+
+void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result) {
+    PlannedQuery& planned = current.planned();
+    planned.budget = contact_budget(query.tolerance, planned.deviations);
+    planned.outside = true;
+    result.error_bound = planned.budget.bound;
+    result.cell = planned.budget.cell;
+    const bool gradients = query.normals == ContactNormals::gradient;
+    if (gradients) {
+        current.plan.with_gradient_normals.push_back(current.index);
+    }
+    const double of_boundaries =
+        max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
+    // Gradients are computed around planned points.
+    const bool may_be_by_edge =
+        planned.on_cpu && !gradients && of_boundaries <= max_numbered_samples;
+    const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
+    planned.brute_force =
+        may_be_by_edge && current.memory.fits_roughly(of_boundaries, bytes_of_record);
+    if (planned.brute_force) {
+        return;
+    }
+    if (!gradients && can_be_searched(current, of_boundaries, bytes_of_record)) {
+        search(query.contact_distance, true, current, result);
+        return;
+    }
+    if (!check_numbers(planned, result)) {
+        return;
+    }
+    const double near = query.contact_distance;
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
+    const double of_a = find_near(a, b, near, current, chains_[0], result);
+    const double of_b = find_near(b, a, near, current, chains_[1], result);
+    planned.brute_force = may_be_by_edge && current.memory.fits(of_a + of_b, bytes_of_record);
+    if (planned.brute_force) {
+        return;
+    }
+    const std::uint32_t reverse = add_reverse(current);
+    const std::size_t first_tile = current.plan.tiles.size();
+    add_near(current.index, near, chains_[0], of_a, current, result);
+    add_near(reverse, near, chains_[1], of_b, current, result);
+    check_room_for_records(query.target, first_tile, current, result);
+}
+
+void PointPlanner::add_near(std::uint32_t direction, double contact_distance,
+                            const std::vector<Chain>& chains, double samples, CurrentQuery& current,
+                            ResultSummary& result) {
+    if (chains.empty()) {
+        return;
+    }
+    const PlannedQuery& planned = current.plan.queries[direction];
+    const Box within =
+        grown(TransformedPolygon(*planned.b, planned.pose_b).box(), contact_distance);
+    regions_.cover(chains, 0.0, within, result);
+    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    samples_.clear();
+    sample_chains(TransformedPolygon(*planned.a, planned.pose_a), chains, result.cell, within,
+                  samples_);
+    add_samples(direction, within, current);
+}
+
+void PointPlanner::plan(const ClosestPointQuery& query, CurrentQuery& current,
+                        ClosestPointResult& result) {
+    plan_closest(query.tolerance, false, current, result);
+}
+
+void PointPlanner::plan(const SeparationQuery& query, CurrentQuery& current,
+                        SeparationResult& result) {
+    plan_closest(query.tolerance, true, current, result);
+}
+
+void PointPlanner::plan_closest(double tolerance, bool both_ways, CurrentQuery& current,
+                                ResultSummary& result) {
+    PlannedQuery& planned = current.planned();
+    planned.budget = search_budget(tolerance);
+    planned.outside = true;
+    result.cell = planned.budget.cell;
+    if (planned.on_cpu || !check_numbers(planned, result)) {
+        return;  // ClosestDecoder does the rest on the CPU
+    }
+    find_chains(current.plan, result, chains_[0], [&] {
+        localize::Effort effort;
+        result.intersects = localize::intersects(TransformedPolygon(*planned.a, planned.pose_a),
+                                                 TransformedPolygon(*planned.b, planned.pose_b),
+                                                 current.limits.bounding_volume, &effort);
+        return effort;
+    });
+    if (result.intersects) {
+        return;  // at distance 0: nothing to render
+    }
+    const std::uint32_t reverse = both_ways ? add_reverse(current) : PlannedQuery::none;
+    double samples = find_closest(current.index, current, chains_[0], result);
+    if (both_ways) {
+        samples = std::max(samples, find_closest(reverse, current, chains_[1], result));
+    }
+    // The exact search continues wherever the samples end, so more samples gain nothing.
+    result.cell *= std::max(1.0, samples / max_search_samples);
+    if (both_ways) {
+        add_closest(reverse, chains_[1], current, result);
+    }
+    add_closest(current.index, chains_[0], current, result);
+}
+
+double PointPlanner::find_closest(std::uint32_t direction, const CurrentQuery& current,
+                                  std::vector<Chain>& chains, ResultSummary& result) {
+    const PlannedQuery& planned = current.plan.queries[direction];
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    const TransformedPolygon b(*planned.b, planned.pose_b);
+    find_chains(current.plan, result, chains,
+                [&] { return closest_.find(a, b, current.overlap_options(0.0), chains); });
+    return max_samples(a, chains, result.cell, grown(a.box(), result.cell));
+}
+
+void PointPlanner::add_closest(std::uint32_t direction, const std::vector<Chain>& chains,
+                               CurrentQuery& current, ResultSummary& result) {
+    PlannedQuery& planned = current.plan.queries[direction];
+    planned.budget = search_budget(result.cell / std::numbers::sqrt2);
+    const TransformedPolygon a(*planned.a, planned.pose_a);
+    // A box slightly larger than A, so that rounding drops no point.
+    const Box everything = grown(a.box(), result.cell);
+    regions_.cover(chains, 0.0, everything, result);
+    const double samples = max_samples(a, chains, result.cell, everything);
+    current.memory.require(bytes_of_point(planned) * samples, 1.0);
+    samples_.clear();
+    sample_chains(a, chains, result.cell, everything, samples_);
+    // A short chain may lie between two samples.
+    for (const Chain& chain : chains) {
+        samples_.push_back({chain.first, 0.0});
+    }
+    add_samples(direction, everything, current);
+}
+
+}  // namespace nearfield::plan

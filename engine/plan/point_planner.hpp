@@ -1,0 +1,54 @@
+#pragma once
+
+#include <engine/localize/closest.hpp>
+#include <engine/plan/current_query.hpp>
+#include <engine/plan/point_tiles.hpp>
+#include <engine/plan/regions.hpp>
+#include <nearfield/result.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nearfield::plan {
+
+/// Plans queries about points of one boundary in the field of the other. Which points, is decided
+/// in one of three ways: brute force on the CPU over all samples, a search by the device, or
+/// localisation and samples here. Reuses its memory from query to query.
+class PointPlanner {
+public:
+    explicit PointPlanner(const PlanLimits& limits);
+
+    /// Each adds to the plan, and to the result what is known before rendering. An error is stated
+    /// in the result and leaves the query without tiles. Throws StatusException (too_large) if the
+    /// batch needs more memory than the limit.
+    void plan(const PenetrationQuery& query, CurrentQuery& current, PenetrationResult& result);
+    void plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result);
+    void plan(const ClosestPointQuery& query, CurrentQuery& current, ClosestPointResult& result);
+    void plan(const SeparationQuery& query, CurrentQuery& current, SeparationResult& result);
+
+private:
+    /// Samples the chains of A; `samples` is an upper bound on their number.
+    void add_deepest(const PenetrationQuery& query, const geometry::Box& box_b, double samples,
+                     CurrentQuery& current, PenetrationResult& result);
+    void add_near(std::uint32_t direction, double contact_distance,
+                  const std::vector<localize::Chain>& chains, double samples, CurrentQuery& current,
+                  ResultSummary& result);
+    void plan_closest(double tolerance, bool both_ways, CurrentQuery& current,
+                      ResultSummary& result);
+    /// Finds the chains that can hold the closest point; returns an upper bound on their samples.
+    [[nodiscard]] double find_closest(std::uint32_t direction, const CurrentQuery& current,
+                                      std::vector<localize::Chain>& chains, ResultSummary& result);
+    void add_closest(std::uint32_t direction, const std::vector<localize::Chain>& chains,
+                     CurrentQuery& current, ResultSummary& result);
+    /// Adds those of the samples that lie in `within`, and the tiles or regions that hold them.
+    void add_samples(std::uint32_t direction, const geometry::Box& within, CurrentQuery& current);
+
+    localize::ClosestChains closest_;
+    std::array<std::vector<localize::Chain>, 2> chains_;  // A and B
+    Regions regions_;
+    std::vector<BoundaryPoint> samples_;
+    PointTiles tiles_;
+};
+
+}  // namespace nearfield::plan
