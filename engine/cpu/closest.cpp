@@ -25,7 +25,8 @@ double sampled_distance(const plan::Plan& plan, const PlannedQuery& query,
     const TransformedPolygon b(*query.b, query.pose_b);
     double squared = infinity;
     SparseCheckpoint<256> checkpoint;
-    for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+    const plan::PlannedPoints& points = query.points();
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
         checkpoint.step();
         if ((words[i] & plan::point_resolved) != 0) {
             const std::uint32_t edge = words[i] & plan::point_edge_mask;
@@ -99,7 +100,7 @@ void ClosestDecoder::answer(const PlannedQuery& query, simd::TransformedInstance
 void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
                             std::span<const std::uint32_t> words,
                             simd::TransformedInstances& instances, SeparationResult& result) {
-    if (query.on_cpu) {
+    if (query.technique == Technique::cpu) {
         answer(query, instances, result);
         return;
     }
@@ -113,8 +114,9 @@ void ClosestDecoder::decode(const plan::Plan& plan, const PlannedQuery& query,
         return;
     }
     double sampled = sampled_distance(plan, query, words);
-    if (query.reverse != PlannedQuery::none) {
-        sampled = std::min(sampled, sampled_distance(plan, plan.queries[query.reverse], words));
+    const std::uint32_t reverse = query.points().reverse;
+    if (reverse != plan::PlannedPoints::none) {
+        sampled = std::min(sampled, sampled_distance(plan, plan.queries[reverse], words));
     }
     answer_apart(query, a, b, sampled, result);
     result.sampled_distance = sampled;

@@ -35,10 +35,10 @@ double touching_at(const DistanceFieldResult& result) {
 double ExactField::answer(const plan::Plan& plan, const PlannedQuery& planned,
                           plan::SimplifiedShapes& shapes, DistanceFieldResult& result) {
     double largest = 0.0;
-    if (planned.field.values || planned.field.features) {
+    if (planned.field().parts.values || planned.field().parts.features) {
         largest = solve_cells(planned, shapes, result);
     }
-    if (planned.field_point_count > 0) {
+    if (planned.field().point_count > 0) {
         largest = std::max(largest, solve_points(plan, planned, result));
     }
     return largest;
@@ -61,7 +61,7 @@ double ExactField::solve_cells(const PlannedQuery& planned, plan::SimplifiedShap
         output.distances = distances_;
         output.scale = 1.0;
     }
-    if (planned.field.features) {
+    if (planned.field().parts.features) {
         words_.resize(std::size_t{grid.width} * grid.height);
         output.nearest = words_;
     }
@@ -75,7 +75,7 @@ double ExactField::solve_cells(const PlannedQuery& planned, plan::SimplifiedShap
         result.error_bound -= most - deviation;
     }
     const double largest = solver_.solve(b, edges, grid, output);
-    if (planned.field.features) {
+    if (planned.field().parts.features) {
         write_features(query, b, differences ? 1 : 0, result);
     }
     if (!differences) {
@@ -120,7 +120,7 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const Vector origin = geometry::to_vector(result.origin);
     const double cell = result.cell;
-    const bool differences = planned.field.cells_per_point > 4;
+    const bool differences = planned.field().parts.cells_per_point > 4;
     boundary_.set(b);
     // Points are resolved on the boundary itself, so simplification adds no error.
     const double error = planned.budget.bound - planned.budget.simplification;
@@ -131,15 +131,15 @@ double ExactField::solve_points(const plan::Plan& plan, const PlannedQuery& plan
         const double distance = std::sqrt(guess.on_edge.squared_distance);
         return boundary_.contains(place) ? -distance : distance;
     };
-    for (std::uint32_t i = 0; i < planned.field_point_count; ++i) {
+    for (std::uint32_t i = 0; i < planned.field().point_count; ++i) {
         checkpoint();
-        const plan::PlannedFieldPoint& point = plan.field_points[planned.first_field_point + i];
+        const plan::PlannedFieldPoint& point = plan.field_points[planned.field().first_point + i];
         std::array<double, records::difference_cells.size()> distances{};
-        const std::size_t count = planned.field.cells_per_point;
+        const std::size_t count = planned.field().parts.cells_per_point;
         for (std::size_t k = 0; k < count; ++k) {
-            const Vector place(static_cast<double>(point.column) - planned.field.halo +
+            const Vector place(static_cast<double>(point.column) - planned.field().parts.halo +
                                    records::difference_cells[k].column + 0.5,
-                               static_cast<double>(point.row) - planned.field.halo +
+                               static_cast<double>(point.row) - planned.field().parts.halo +
                                    records::difference_cells[k].row + 0.5);
             distances[k] = signed_distance(origin + cell * place);
             largest = std::max(largest, std::abs(distances[k]));

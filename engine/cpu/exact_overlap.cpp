@@ -33,8 +33,8 @@ void ExactOverlap::answer(const plan::Plan& plan, const PlannedQuery& planned,
                           plan::SimplifiedShapes& shapes, IntersectionResult& result) {
     const auto& query = std::get<IntersectionQuery>(*planned.query);
     const bool with_runs = query.records && query.kind != IntersectionKind::volume_volume;
-    const auto tiles =
-        std::span(plan.cpu_tiles).subspan(planned.first_cpu_tile, planned.cpu_tile_count);
+    const auto& [first_tile, tile_count] = std::get<plan::PlannedOverlap>(planned.work);
+    const auto tiles = std::span(plan.cpu_tiles).subspan(first_tile, tile_count);
     for (std::size_t first = 0; first < tiles.size();) {
         const std::span<const Tile> band = band_of(tiles, first);
         first += band.size();

@@ -12,7 +12,8 @@ namespace nearfield::cpu {
 
 void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query,
                          simd::TransformedInstances& instances, std::span<std::uint32_t> words) {
-    if (query.point_count == 0) {
+    const plan::PlannedPoints& points = query.points();
+    if (points.count == 0) {
         return;
     }
     const std::uint32_t b = instances.place(*query.b, query.pose_b);
@@ -20,10 +21,10 @@ void ExactPoints::answer(const plan::Plan& plan, const plan::PlannedQuery& query
         instances.complete(b);
     }
     const geometry::TransformedPolygon a(*query.a, query.pose_a);
-    const std::uint32_t end = query.first_point + query.point_count;
     const std::size_t at_once = narrowphase::points_at_once(instances[b].count);
-    for (std::uint32_t first = query.first_point; first < end;) {
-        const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(end - first, at_once));
+    for (std::uint32_t first = points.first; first < points.end();) {
+        const auto count =
+            static_cast<std::uint32_t>(std::min<std::size_t>(points.end() - first, at_once));
         points_.clear();
         points_.reserve(count);
         for (const plan::PlannedPoint& planned : std::span(plan.points).subspan(first, count)) {
@@ -53,7 +54,7 @@ void ExactPoints::answer(const plan::PlannedQuery& query, double rounding_of_a,
             continue;
         }
         const bool inside = located_.is_inside(i);
-        if (!query.outside && !inside) {
+        if (!query.points().outside && !inside) {
             continue;
         }
         words[i] = plan::point_resolved | nearest.edge[i] | (inside ? plan::point_inside : 0U) |

@@ -15,7 +15,8 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
                    records::PointResolver& resolver, const Use& use) {
     resolver.begin(plan, query, words);
     SparseCheckpoint<256> checkpoint;
-    for (std::uint32_t i = query.first_point; i < query.first_point + query.point_count; ++i) {
+    const plan::PlannedPoints& points = query.points();
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
         checkpoint.step();
         if ((words[i] & plan::point_resolved) != 0) {
             const records::ResolvedPoint resolved = resolver.resolve(i);
@@ -31,8 +32,8 @@ void for_each_near(const plan::Plan& plan, const PlannedQuery& query,
 void ContactDecoder::find(const plan::Plan& plan, const PlannedQuery& query,
                           std::span<const std::uint32_t> words, double cell,
                           records::FoundContacts& found) {
-    const PlannedQuery& reverse = plan.queries[query.reverse];
-    if (query.point_count == 0 && reverse.point_count == 0) {
+    const PlannedQuery& reverse = plan.queries[query.points().reverse];
+    if (query.points().count == 0 && reverse.points().count == 0) {
         found.begin(cell, 0.0);
         return;
     }

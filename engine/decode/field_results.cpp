@@ -70,7 +70,7 @@ void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& batch,
             const std::uint32_t count = run.parts.words_per_point;
             add_point(planned, plan.tiles[point.tile], point,
                       words.subspan(run.first_word + std::size_t{i} * count, count),
-                      result.points[index - planned.first_field_point]);
+                      result.points[index - planned.field().first_point]);
         }
     }
 }
@@ -79,13 +79,13 @@ void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
                             const plan::TileDraw& draw, std::span<const std::uint32_t> words,
                             DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
-    if (planned.field.host_values) {
+    if (planned.field().parts.host_values) {
         add_values(tile, words.subspan(draw.first_value), query.values, result);
     }
-    if (planned.field.host_features) {
+    if (planned.field().parts.host_features) {
         add_features(planned, tile, words.subspan(draw.first_feature), result);
     }
-    if (planned.field.gradients) {
+    if (planned.field().parts.gradients) {
         const auto gradients = words.subspan(draw.first_gradient);
         for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
             result.gradients[2 * cell] = from_word(gradients[2 * drawn]);
@@ -156,11 +156,11 @@ void FieldDecoder::add_point(const plan::PlannedQuery& planned, const Tile& tile
         point, around, tile.grid.cell, error,
         records::field_feature(b, records::touching_distance(tile), point.position, words[0]),
         result);
-    if (planned.field.blended) {
+    if (planned.field().parts.blended) {
         result.gradient = records::gradient_between(point, [&](std::size_t i) {
             return Vector(from_word(cells[4 + 2 * i]), from_word(cells[5 + 2 * i]));
         });
-    } else if (planned.field.cells_per_point > 4) {
+    } else if (planned.field().parts.cells_per_point > 4) {
         result.gradient = records::difference_between(
             point, [&](std::size_t i) { return static_cast<double>(from_word(cells[i])); });
     }
@@ -190,7 +190,7 @@ void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query
         result.status = std::move(status);
         return;
     }
-    if (planned.field.blended) {
+    if (planned.field().parts.blended) {
         result.gradient_format = gradient_format_;
         // Half of the errors: two values and their difference are rounded; then the product.
         // Differences reach up to two cells beyond the grid.

@@ -115,7 +115,7 @@ bool ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile
                                      std::max(tile.width, tile.height) + 2.0 * largest_reach + 4.0);
     data.crossing = batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
     data.margin = static_cast<float>(margin_in_cells);
-    data.outside = query.outside ? 1 : 0;
+    data.outside = query.points().outside ? 1 : 0;
     return true;
 }
 
@@ -145,10 +145,10 @@ void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
                    crossing_);
     const std::uint32_t mask = add_mask(tile, work);
     add_fill(tile, mask, work);
-    if (query.field.values) {
+    if (query.field().parts.values) {
         add_blocks(boundary, tile, work.masks[mask], draw.first_value, work);
     }
-    if (query.field.features || query.field_point_count > 0) {
+    if (query.field().parts.features || query.field().point_count > 0) {
         add_feature_blocks(query, boundary, tile, work.masks[mask], draw.first_feature, batch);
     }
 }
@@ -181,7 +181,7 @@ void ComputeBuilder::add_feature_blocks(const PlannedQuery& query, const TileBou
     const double simplification = query.budget.simplification / tile.grid.cell;
     block_edges_.find(
         boundary, tile.width, tile.height,
-        simplification + margin_in_cells + (query.field_point_count > 0 ? points_reach : 0.0));
+        simplification + margin_in_cells + (query.field().point_count > 0 ? points_reach : 0.0));
     work.features = work.features || first_feature != not_asked;
     batch.lists.begin_tile(boundary);
     TileData data;

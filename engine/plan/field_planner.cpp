@@ -103,10 +103,10 @@ bool check_numbers(const PlannedQuery& planned, const Box& box, ResultSummary& r
 
 /// Side of a field's tiles in cells, without the halo.
 std::uint32_t side_of_tiles(const PlannedQuery& planned, const PlanLimits& limits) {
-    if (planned.on_cpu) {
+    if (planned.technique == Technique::cpu) {
         return UINT32_MAX;  // the whole grid
     }
-    const FieldParts& parts = planned.field;
+    const FieldParts& parts = planned.field().parts;
     const std::uint32_t drawn = parts.small_tiles
                                     ? std::min(limits.features_tile, limits.largest_tile)
                                     : limits.largest_tile;
@@ -115,7 +115,7 @@ std::uint32_t side_of_tiles(const PlannedQuery& planned, const PlanLimits& limit
 
 /// Checks that the images of a resident field fit the device; the result states the error.
 bool check_resident(const DistanceFieldQuery& query, const Grid& grid, std::uint32_t largest_image,
-                    PlannedQuery& planned, DistanceFieldResult& result) {
+                    const PlannedQuery& planned, PlannedField& field, DistanceFieldResult& result) {
     if (std::max(grid.width, grid.height) > largest_image) {
         result.status = {
             StatusCode::too_large,
@@ -140,18 +140,18 @@ bool check_resident(const DistanceFieldQuery& query, const Grid& grid, std::uint
     for (std::uint32_t i = 0; i < planned.b->size(); ++i) {
         nearest = std::min(nearest, (b.vertex(i) - centre).norm());
     }
-    planned.farthest = nearest + half.norm();
+    field.farthest = nearest + half.norm();
     result.status = check_distance(
-        result.tolerance, planned.budget.bound + far_rounding * planned.farthest, planned.farthest);
+        result.tolerance, planned.budget.bound + far_rounding * field.farthest, field.farthest);
     return result.status.ok();
 }
 
 /// Assigns the points of a field to the tiles that it will be cut into.
 Status add_points(const DistanceFieldQuery& query, const Grid& grid, std::uint32_t side,
-                  PlannedQuery& planned, Plan& plan) {
+                  bool on_cpu, PlannedField& field, Plan& plan) {
     // A rectangle is a whole number of cells only up to rounding.
     constexpr double slack = 1e-6;
-    const std::uint32_t halo = planned.field.halo;
+    const std::uint32_t halo = field.parts.halo;
     const std::uint64_t tiles_along = (grid.width + side - 1) / side;
     const auto width = static_cast<double>(grid.width);
     const auto height = static_cast<double>(grid.height);
@@ -182,7 +182,7 @@ Status add_points(const DistanceFieldQuery& query, const Grid& grid, std::uint32
         PlannedFieldPoint& point = plan.field_points.emplace_back();
         point.position = position;
         point.tile =
-            planned.on_cpu
+            on_cpu
                 ? PlannedFieldPoint::no_tile
                 : first_tile + static_cast<std::uint32_t>(row / side * tiles_along + column / side);
         point.column = static_cast<std::uint32_t>(column % side) + halo - (to_the_left ? 1U : 0U);
@@ -190,8 +190,8 @@ Status add_points(const DistanceFieldQuery& query, const Grid& grid, std::uint32
         point.across = local.x() - static_cast<double>(column) + (to_the_left ? 0.5 : -0.5);
         point.up = local.y() - static_cast<double>(row) + (below ? 0.5 : -0.5);
     }
-    planned.first_field_point = static_cast<std::uint32_t>(first);
-    planned.field_point_count = static_cast<std::uint32_t>(query.points.size());
+    field.first_point = static_cast<std::uint32_t>(first);
+    field.point_count = static_cast<std::uint32_t>(query.points.size());
     return {};
 }
 
@@ -210,38 +210,42 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
     }
     regions_.cover(*box, result);
     const Grid& grid = regions_.grids().front();
-    planned.field = field_parts(query);
-    if (planned.resident && !check_resident(query, grid, limits.largest_image, planned, result)) {
+    auto& field = planned.work.emplace<PlannedField>();
+    field.parts = field_parts(query);
+    if (planned.resident &&
+        !check_resident(query, grid, limits.largest_image, planned, field, result)) {
         return;
     }
-    if (planned.on_cpu) {
+    const bool on_cpu = planned.technique == Technique::cpu;
+    if (on_cpu) {
         regions_.require_sides(current.index, query.tolerance);
     }
     const std::uint32_t side = side_of_tiles(planned, limits);
-    current.memory.require(
-        bytes_of_cells(query, planned.field, grid, side) + bytes_of_points(query, planned.field) +
-            (planned.by_compute ? regions_.bytes_of_masks(1, limits.largest_tile) : 0.0),
-        2.0);
+    current.memory.require(bytes_of_cells(query, field.parts, grid, side) +
+                               bytes_of_points(query, field.parts) +
+                               (planned.technique == Technique::compute
+                                    ? regions_.bytes_of_masks(1, limits.largest_tile)
+                                    : 0.0),
+                           2.0);
     const auto first_tile = static_cast<std::uint32_t>(current.plan.tiles.size());
-    result.status = add_points(query, grid, side, planned, current.plan);
+    result.status = add_points(query, grid, side, on_cpu, field, current.plan);
     if (!result.status.ok()) {
         return;
     }
-    make_room(query, grid, planned.field, result);
-    if (planned.on_cpu) {
+    make_room(query, grid, field.parts, result);
+    if (on_cpu) {
         return;
     }
-    regions_.cut_into_tiles(current.index, TileKind::field, side, planned.field.halo,
+    regions_.cut_into_tiles(current.index, TileKind::field, side, field.parts.halo,
                             current.plan.tiles);
-    if (!planned.field.values && !planned.field.features) {
-        drop_tiles_without_points(first_tile, planned, current.plan);
+    if (!field.parts.values && !field.parts.features) {
+        drop_tiles_without_points(first_tile, field, current.plan);
     }
 }
 
-void FieldPlanner::drop_tiles_without_points(std::uint32_t first_tile, const PlannedQuery& planned,
+void FieldPlanner::drop_tiles_without_points(std::uint32_t first_tile, const PlannedField& field,
                                              Plan& plan) {
-    const std::span points(plan.field_points.data() + planned.first_field_point,
-                           planned.field_point_count);
+    const std::span points(plan.field_points.data() + field.first_point, field.point_count);
     kept_tiles_.assign(plan.tiles.size() - first_tile, 0);
     for (const PlannedFieldPoint& point : points) {
         kept_tiles_[point.tile - first_tile] = 1;

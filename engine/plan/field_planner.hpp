@@ -19,8 +19,7 @@ public:
 
 private:
     /// For queries without output at every cell: drops the query's tiles that hold no point.
-    void drop_tiles_without_points(std::uint32_t first_tile, const PlannedQuery& planned,
-                                   Plan& plan);
+    void drop_tiles_without_points(std::uint32_t first_tile, const PlannedField& field, Plan& plan);
 
     Regions regions_;
     std::vector<std::uint32_t> kept_tiles_;

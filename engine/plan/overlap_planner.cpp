@@ -38,7 +38,7 @@ bool check_strategy(IntersectionStrategy strategy, const CurrentQuery& current,
                     ResultSummary& result) {
     const PlannedQuery& planned = current.planned();
     const auto& missing = current.limits.missing_for_strategy[static_cast<std::size_t>(strategy)];
-    if (missing.empty() || planned.on_cpu || planned.by_compute) {
+    if (missing.empty() || planned.technique != Technique::raster) {
         return true;
     }
     result.status = {StatusCode::unsupported_strategy,
@@ -95,8 +95,10 @@ void OverlapPlanner::plan(const IntersectionQuery& query, CurrentQuery& current,
                           IntersectionResult& result) {
     const PlanLimits& limits = current.limits;
     PlannedQuery& planned = current.planned();
+    auto& overlap = planned.work.emplace<PlannedOverlap>();
+    const bool on_cpu = planned.technique == Technique::cpu;
     // The CPU's answers must not depend on the device.
-    const geometry::SubpixelGrid grid = planned.on_cpu ? geometry::cpu_grid : limits.subpixel;
+    const geometry::SubpixelGrid grid = on_cpu ? geometry::cpu_grid : limits.subpixel;
     planned.budget = intersection_budget(query, grid, planned.deviations);
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
@@ -119,17 +121,18 @@ void OverlapPlanner::plan(const IntersectionQuery& query, CurrentQuery& current,
         !check_resident(query, regions_.cells(), limits.largest_range, result)) {
         return;
     }
-    current.memory.require(
-        bytes_of_samples(query, regions_, limits.largest_tile) +
-            (planned.by_compute ? regions_.bytes_of_masks(2, limits.largest_tile) : 0.0),
-        2.0);
+    current.memory.require(bytes_of_samples(query, regions_, limits.largest_tile) +
+                               (planned.technique == Technique::compute
+                                    ? regions_.bytes_of_masks(2, limits.largest_tile)
+                                    : 0.0),
+                           2.0);
     regions_.require_sides(current.index, query.tolerance);
     // Tiles of queries that the CPU answers are kept apart.
     std::vector<Tile>& cpu_tiles = current.plan.cpu_tiles;
-    planned.first_cpu_tile = static_cast<std::uint32_t>(cpu_tiles.size());
+    overlap.first_tile = static_cast<std::uint32_t>(cpu_tiles.size());
     regions_.cut_into_tiles(current.index, TileKind::overlap, limits.largest_tile, 0,
-                            planned.on_cpu ? cpu_tiles : current.plan.tiles);
-    planned.cpu_tile_count = static_cast<std::uint32_t>(cpu_tiles.size()) - planned.first_cpu_tile;
+                            on_cpu ? cpu_tiles : current.plan.tiles);
+    overlap.tile_count = static_cast<std::uint32_t>(cpu_tiles.size()) - overlap.first_tile;
 }
 
 void OverlapPlanner::cover_common_volume(const TransformedPolygon& a, const TransformedPolygon& b,

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace nearfield::plan {
@@ -70,11 +71,46 @@ struct PlannedFieldPoint {
     double up = 0.0;      ///< and along y
 };
 
+/// Who decides which points of a boundary matter to a query.
+enum class PointSource : std::uint8_t {
+    planner,      ///< they are in Plan::points
+    brute_force,  ///< Technique::cpu: PointPenetration or PointContacts visits all of them
+    device,       ///< Technique::compute: PointSearch finds them, and they are appended to the plan
+};
+
+/// The points of A's boundary that a query, or one direction of it, resolves in the field of B.
+struct PlannedPoints {
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    PointSource source = PointSource::planner;
+    bool outside = false;     ///< points outside B are resolved as well
+    std::uint32_t first = 0;  ///< in Plan::points
+    std::uint32_t count = 0;
+    double margin = 0.0;  ///< where the device finds them: bound on its errors, world units
+    /// Index in Plan::queries of the other direction: points of B in the field of A.
+    std::uint32_t reverse = none;
+
+    [[nodiscard]] std::uint32_t end() const { return first + count; }
+};
+
+/// What is planned for a distance field.
+struct PlannedField {
+    FieldParts parts;
+    std::uint32_t first_point = 0;  ///< in Plan::field_points
+    std::uint32_t point_count = 0;
+    /// Of a resident field: no cell is farther from B's boundary, world units.
+    double farthest = 0.0;
+};
+
+/// What is planned for an intersection on the CPU.
+struct PlannedOverlap {
+    std::uint32_t first_tile = 0;  ///< in Plan::cpu_tiles
+    std::uint32_t tile_count = 0;
+};
+
 /// The planned form of a query, or of one direction of it. The polygons live in the shape store
 /// until the batch is done.
 struct PlannedQuery {
-    static constexpr std::uint32_t none = UINT32_MAX;
-
     const AnyQuery* query = nullptr;
     const geometry::Polygon* a = nullptr;  // null where the query has none
     const geometry::Polygon* b = nullptr;
@@ -82,31 +118,21 @@ struct PlannedQuery {
     Pose pose_b;
     Deviations deviations;  ///< of both shapes
     ErrorBudget budget;
-    std::uint32_t first_point = 0;
-    std::uint32_t point_count = 0;
-    /// Points outside B are resolved as well.
-    bool outside = false;
-    /// Technique::cpu: nothing is rendered for the query.
-    bool on_cpu = false;
-    /// Answered on the CPU with nothing planned: PointPenetration or PointContacts finds the
-    /// points.
-    bool brute_force = false;
-    /// Technique::compute: the device searches for its points (PointSearch); nothing is planned.
-    bool searched = false;
-    double margin = 0.0;  ///< where searched: bound on the device's errors, world units
     /// Technique::compute: its tiles have no place in the atlas, and tile batches of their own.
-    bool by_compute = false;
-    /// Index in Plan::queries of the other direction: points of B in the field of A.
-    std::uint32_t reverse = none;
-    std::uint32_t first_cpu_tile = 0;  ///< of an intersection on the CPU
-    std::uint32_t cpu_tile_count = 0;
+    Technique technique{};
     /// Its results stay on the device as well.
     bool resident = false;
-    FieldParts field;  ///< of a distance field
-    double farthest =
-        0.0;  ///< of a resident field: no cell is farther from B's boundary, world units
-    std::uint32_t first_field_point = 0;
-    std::uint32_t field_point_count = 0;
+    /// Nothing for a query that the CPU alone answers, or that was rejected.
+    std::variant<std::monostate, PlannedPoints, PlannedField, PlannedOverlap> work;
+
+    [[nodiscard]] PlannedPoints& points() { return std::get<PlannedPoints>(work); }
+    [[nodiscard]] const PlannedPoints& points() const { return std::get<PlannedPoints>(work); }
+    [[nodiscard]] const PlannedField& field() const { return std::get<PlannedField>(work); }
+    /// Whether the query is about points, from this source.
+    [[nodiscard]] bool has_points_of(PointSource source) const {
+        const auto* const points = std::get_if<PlannedPoints>(&work);
+        return points != nullptr && points->source == source;
+    }
 };
 
 /// Upper bound on the points of A's boundary that a penetration or contact query, or one direction

@@ -83,8 +83,7 @@ void Planner::plan_query(const Query& query, const QueryShapes& shapes, Submissi
                          CurrentQuery& current, typename Query::Result& result) {
     PlannedQuery& planned = current.planned();
     result.technique = query.technique;
-    planned.on_cpu = result.technique == Technique::cpu;
-    planned.by_compute = result.technique == Technique::compute;
+    planned.technique = query.technique;
     if constexpr (requires { query.resident; }) {
         planned.resident = query.resident;
         if (query.resident) {

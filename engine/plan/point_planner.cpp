@@ -69,7 +69,7 @@ std::uint32_t add_reverse(CurrentQuery& current) {
     std::swap(reverse.pose_a, reverse.pose_b);
     std::swap(reverse.deviations.a, reverse.deviations.b);
     const auto index = static_cast<std::uint32_t>(current.plan.queries.size());
-    current.planned().reverse = index;
+    current.planned().points().reverse = index;
     current.plan.queries.push_back(reverse);
     return index;
 }
@@ -79,7 +79,8 @@ std::uint32_t add_reverse(CurrentQuery& current) {
 bool can_be_searched(CurrentQuery& current, double samples, double bytes_of_record) {
     const PlannedQuery& planned = current.planned();
     constexpr double bytes_of_found = sizeof(PlannedPoint) + sizeof(std::uint32_t);
-    return planned.by_compute && !planned.resident && samples <= max_searched_points &&
+    return planned.technique == Technique::compute && !planned.resident &&
+           samples <= max_searched_points &&
            current.memory.fits_roughly(samples, bytes_of_found + bytes_of_record);
 }
 
@@ -97,7 +98,7 @@ void search(double reach, bool both_ways, CurrentQuery& current, ResultSummary& 
     if (!check_numbers(planned, a, b, result)) {
         return;
     }
-    planned.searched = true;
+    planned.points().source = PointSource::device;
     const Box of_a = a.box.intersection(grown(b.box, reach));
     const Box of_b = b.box.intersection(grown(a.box, reach));
     const bool are_near = !of_a.isEmpty() && !of_b.isEmpty();
@@ -124,10 +125,10 @@ void check_room_for_records(const ResidentBufferTarget* target, std::size_t firs
     if (!planned.resident || target == nullptr) {
         return;
     }
-    PlannedQuery* const reverse =
-        planned.reverse == PlannedQuery::none ? nullptr : &plan.queries[planned.reverse];
-    const double points =
-        1.0 * planned.point_count + (reverse == nullptr ? 0.0 : 1.0 * reverse->point_count);
+    PlannedPoints& of_a = planned.points();
+    PlannedPoints* const of_b =
+        of_a.reverse == PlannedPoints::none ? nullptr : &plan.queries[of_a.reverse].points();
+    const double points = 1.0 * of_a.count + (of_b == nullptr ? 0.0 : 1.0 * of_b->count);
     result.status =
         check_room(*target, sizeof(SummaryData) + points * sizeof(RecordData), "records");
     if (result.status.ok()) {
@@ -135,9 +136,9 @@ void check_room_for_records(const ResidentBufferTarget* target, std::size_t firs
     }
     plan.tiles.resize(first_tile);
     plan.points.resize(plan.points.size() - static_cast<std::size_t>(points));
-    planned.point_count = 0;
-    if (reverse != nullptr) {
-        reverse->point_count = 0;
+    of_a.count = 0;
+    if (of_b != nullptr) {
+        of_b->count = 0;
     }
 }
 
@@ -160,8 +161,9 @@ void PointPlanner::add_samples(std::uint32_t direction, const Box& within, Curre
     Plan& plan = current.plan;
     PlannedQuery& planned = plan.queries[direction];
     const TransformedPolygon a(*planned.a, planned.pose_a);
-    planned.first_point = static_cast<std::uint32_t>(plan.points.size());
-    if (planned.on_cpu) {
+    PlannedPoints& points = planned.points();
+    points.first = static_cast<std::uint32_t>(plan.points.size());
+    if (planned.technique == Technique::cpu) {
         for (const BoundaryPoint& sample : samples_) {
             if (within.contains(position(a, sample))) {
                 plan.points.push_back({sample, PlannedPoint::no_tile});
@@ -170,12 +172,13 @@ void PointPlanner::add_samples(std::uint32_t direction, const Box& within, Curre
     } else {
         tiles_.spread(a, samples_, within, regions_.boxes(), regions_.grids(), direction, plan);
     }
-    planned.point_count = static_cast<std::uint32_t>(plan.points.size()) - planned.first_point;
+    points.count = static_cast<std::uint32_t>(plan.points.size()) - points.first;
 }
 
 void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
                         PenetrationResult& result) {
     PlannedQuery& planned = current.planned();
+    auto& points = planned.work.emplace<PlannedPoints>();
     const ErrorBudget budget = penetration_budget(query, planned.deviations);
     result.error_bound = budget.bound;
     result.cell = budget.cell;
@@ -183,10 +186,10 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     const double bytes_of_record = query.records ? sizeof(PenetrationRecord) : 0.0;
     const double of_boundary =
         vertices ? static_cast<double>(planned.a->size()) : max_samples(*planned.a, budget.cell);
-    const bool may_be_by_edge = planned.on_cpu && of_boundary <= max_numbered_samples;
-    planned.brute_force =
-        may_be_by_edge && current.memory.fits_roughly(of_boundary, bytes_of_record);
-    if (planned.brute_force) {
+    const bool may_be_by_edge =
+        planned.technique == Technique::cpu && of_boundary <= max_numbered_samples;
+    if (may_be_by_edge && current.memory.fits_roughly(of_boundary, bytes_of_record)) {
+        points.source = PointSource::brute_force;
         // Nothing is planned: only the bound of the budget is used.
         planned.budget.bound = budget.bound;
         planned.budget.cell = budget.cell;
@@ -212,8 +215,9 @@ void PointPlanner::plan(const PenetrationQuery& query, CurrentQuery& current,
     const Box box_b = b.box();
     const double samples =
         vertices ? max_vertices(chains) : max_samples(a, chains, result.cell, box_b);
-    planned.brute_force = may_be_by_edge && current.memory.fits(samples, bytes_of_record);
-    if (!planned.brute_force) {
+    if (may_be_by_edge && current.memory.fits(samples, bytes_of_record)) {
+        points.source = PointSource::brute_force;
+    } else {
         add_deepest(query, box_b, samples, current, result);
     }
 }
@@ -238,7 +242,8 @@ void PointPlanner::add_deepest(const PenetrationQuery& query, const Box& box_b, 
 void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, ContactResult& result) {
     PlannedQuery& planned = current.planned();
     planned.budget = contact_budget(query.tolerance, planned.deviations);
-    planned.outside = true;
+    auto& points = planned.work.emplace<PlannedPoints>();
+    points.outside = true;
     result.error_bound = planned.budget.bound;
     result.cell = planned.budget.cell;
     const bool gradients = query.normals == ContactNormals::gradient;
@@ -249,11 +254,10 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
         max_samples(*planned.a, result.cell) + max_samples(*planned.b, result.cell);
     // Gradients are computed around planned points.
     const bool may_be_by_edge =
-        planned.on_cpu && !gradients && of_boundaries <= max_numbered_samples;
+        planned.technique == Technique::cpu && !gradients && of_boundaries <= max_numbered_samples;
     const double bytes_of_record = query.records ? sizeof(ContactRecord) : 0.0;
-    planned.brute_force =
-        may_be_by_edge && current.memory.fits_roughly(of_boundaries, bytes_of_record);
-    if (planned.brute_force) {
+    if (may_be_by_edge && current.memory.fits_roughly(of_boundaries, bytes_of_record)) {
+        points.source = PointSource::brute_force;
         return;
     }
     if (!gradients && can_be_searched(current, of_boundaries, bytes_of_record)) {
@@ -268,8 +272,8 @@ void PointPlanner::plan(const ContactQuery& query, CurrentQuery& current, Contac
     const TransformedPolygon b(*planned.b, planned.pose_b);
     const double of_a = find_near(a, b, near, current, chains_[0], result);
     const double of_b = find_near(b, a, near, current, chains_[1], result);
-    planned.brute_force = may_be_by_edge && current.memory.fits(of_a + of_b, bytes_of_record);
-    if (planned.brute_force) {
+    if (may_be_by_edge && current.memory.fits(of_a + of_b, bytes_of_record)) {
+        points.source = PointSource::brute_force;
         return;
     }
     const std::uint32_t reverse = add_reverse(current);
@@ -310,9 +314,9 @@ void PointPlanner::plan_closest(double tolerance, bool both_ways, CurrentQuery& 
                                 ResultSummary& result) {
     PlannedQuery& planned = current.planned();
     planned.budget = search_budget(tolerance);
-    planned.outside = true;
+    planned.work.emplace<PlannedPoints>().outside = true;
     result.cell = planned.budget.cell;
-    if (planned.on_cpu || !check_numbers(planned, result)) {
+    if (planned.technique == Technique::cpu || !check_numbers(planned, result)) {
         return;  // ClosestDecoder does the rest on the CPU
     }
     find_chains(current.plan, result, chains_[0], [&] {
@@ -325,7 +329,7 @@ void PointPlanner::plan_closest(double tolerance, bool both_ways, CurrentQuery& 
     if (result.intersects) {
         return;  // at distance 0: nothing to render
     }
-    const std::uint32_t reverse = both_ways ? add_reverse(current) : PlannedQuery::none;
+    const std::uint32_t reverse = both_ways ? add_reverse(current) : PlannedPoints::none;
     double samples = find_closest(current.index, current, chains_[0], result);
     if (both_ways) {
         samples = std::max(samples, find_closest(reverse, current, chains_[1], result));

@@ -93,10 +93,10 @@ SearchDirectionData direction_of(const PlannedQuery& query, const SearchedQuery&
     data.offset = {static_cast<float>(offset.x()), static_cast<float>(offset.y())};
     const double extent = (query.a->radius() + query.b->radius()) / unit + offset.norm();
     const double cell = query.budget.cell / unit;
-    data.reach = query.outside ? rounded_up(reach_of(query) / unit) : 0.0F;
+    data.reach = query.points().outside ? rounded_up(reach_of(query) / unit) : 0.0F;
     data.margin = rounded_up(std::ldexp(extent, -20));
     data.rival = static_cast<float>(cell / std::numbers::sqrt2 * uniqueness_margin);
-    data.outside = query.outside ? 1.0F : 0.0F;
+    data.outside = query.points().outside ? 1.0F : 0.0F;
     data.doubt = data.margin > search_precision * cell ? data.rival + 4.0F * data.margin : -1.0F;
     return data;
 }
@@ -143,7 +143,7 @@ std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& sear
 void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSearch& search) {
     PlannedQuery& planned = plan.queries[searched.query];
     SearchDirectionData& data = search.directions.emplace_back(direction_of(planned, searched));
-    planned.margin = data.margin * unit_length_of(*planned.b);
+    planned.points().margin = data.margin * unit_length_of(*planned.b);
     data.shape_a = find_or_make({planned.a, 0.0});
     data.shape_b = find_or_make({planned.b, 0.0});
     if (!asks_for_vertices(planned)) {

@@ -215,18 +215,18 @@ void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& t
                  std::to_string(max_signed_features)});
     }
     const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
-    if (query.field.values) {
-        draw.first_value = add_field_words(cells, query.field.host_values, batch);
+    if (query.field().parts.values) {
+        draw.first_value = add_field_words(cells, query.field().parts.host_values, batch);
     }
-    if (query.field.blended) {
+    if (query.field().parts.blended) {
         for (const geometry::MeshVertex& vertex : rectangle_of(tile, draw.first_value)) {
             batch.meshes[TileMeshId::gradients].push_back(in_tile(tile, vertex));
         }
     }
-    if (query.field.features) {
-        draw.first_feature = add_field_words(cells, query.field.host_features, batch);
+    if (query.field().parts.features) {
+        draw.first_feature = add_field_words(cells, query.field().parts.host_features, batch);
     }
-    if (query.field.gradients) {
+    if (query.field().parts.gradients) {
         draw.first_gradient = add_field_words(2 * cells, true, batch);
     }
 }
@@ -301,7 +301,7 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification + mesh_error +
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
-    data.outside = query.outside ? 1 : 0;
+    data.outside = tile.kind == TileKind::points && query.points().outside ? 1 : 0;
     batch.distance_draws.push_back(draw);
 }
 
@@ -342,7 +342,7 @@ void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, 
             run.query = tile.query;
             run.first_word = static_cast<std::uint32_t>(batch.field_words);
             run.sign = std::get<DistanceFieldQuery>(*query.query).sign;
-            run.parts = query.field;
+            run.parts = query.field().parts;
         }
         if (batch.by_compute) {
             ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, batch.compute);

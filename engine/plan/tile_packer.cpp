@@ -13,7 +13,7 @@ void TilePacker::add_compute_tile_batches(Plan& plan) const {
     const double most = static_cast<double>(largest_atlas_) * largest_atlas_;
     double cells = most;
     for (Tile& tile : plan.tiles) {
-        if (!plan.queries[tile.query].by_compute) {
+        if (plan.queries[tile.query].technique != Technique::compute) {
             continue;
         }
         const double own = whole(tile.width, 32) * whole(tile.height, block_side);
@@ -36,7 +36,7 @@ void TilePacker::pack_drawn_tiles(Plan& plan) {
     for (std::uint32_t i = 0; i < plan.tiles.size(); ++i) {
         const Tile& tile = plan.tiles[i];
         const PlannedQuery& planned = plan.queries[tile.query];
-        if (!planned.by_compute) {
+        if (planned.technique != Technique::compute) {
             const auto* const overlap = std::get_if<IntersectionQuery>(planned.query);
             DrawnTogether& group =
                 drawn_together_[overlap == nullptr

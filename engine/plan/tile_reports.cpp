@@ -13,7 +13,7 @@ void report_tiles(const Plan& plan, std::vector<TileReport>& reports) {
             low + tile.grid.cell * geometry::Vector(tile.width, tile.height);
         TileReport& report = reports.emplace_back();
         report.query = query;
-        report.technique = planned.by_compute ? Technique::compute : Technique::raster;
+        report.technique = planned.technique;
         report.side = query == tile.query ? Side::a : Side::b;
         report.min = geometry::to_public(low);
         report.max = geometry::to_public(high);

@@ -31,9 +31,9 @@ void PointResolver::begin(const plan::Plan& plan, const plan::PlannedQuery& quer
     boundary_is_set_ = false;
     points_.clear();
     next_ = 0;
-    rounding_ = query.on_cpu ? localize::placement_rounding(*a_, a_->box()) +
-                                   localize::placement_rounding(*b_, b_->box())
-                             : 0.0;
+    rounding_ = query.technique == Technique::cpu ? localize::placement_rounding(*a_, a_->box()) +
+                                                        localize::placement_rounding(*b_, b_->box())
+                                                  : 0.0;
 }
 
 narrowphase::Boundary& PointResolver::boundary_of_b() {
@@ -51,7 +51,7 @@ narrowphase::Boundary& PointResolver::boundary_of_b() {
 void PointResolver::locate_doubtful(std::uint32_t first) {
     static_cast<void>(boundary_of_b());
     const simd::TransformedEdges& b = instances_[0];
-    const std::uint32_t end = query_->first_point + query_->point_count;
+    const std::uint32_t end = query_->points().end();
     const std::size_t at_once = narrowphase::points_at_once(b.count);
     points_.clear();
     next_ = 0;
@@ -106,13 +106,14 @@ PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t inde
     const std::uint32_t edge = word & plan::point_edge_mask;
     const double tolerance = query_->budget.cell / std::numbers::sqrt2;
     Found found{{edge, {}}, (word & plan::point_inside) != 0, (word & plan::point_unique) != 0};
-    if (query_->margin > plan::search_precision * query_->budget.cell) {
+    if (query_->points().margin > plan::search_precision * query_->budget.cell) {
         found.nearest = nearest_of_neighbours(point, edge);
         return found;
     }
     found.nearest.on_edge = nearest_on_edge(*b_, edge, point);
     const double far = farthest_in_single_precision * query_->budget.cell;
-    if (!query_->searched && found.nearest.on_edge.squared_distance > far * far) {
+    if (query_->points().source != plan::PointSource::device &&
+        found.nearest.on_edge.squared_distance > far * far) {
         found.nearest = boundary_of_b().nearest(point);
         found.unique =
             boundary_of_b().is_unique(point, found.nearest, tolerance * plan::uniqueness_margin);
@@ -122,11 +123,12 @@ PointResolver::Found PointResolver::find(const Vector& point, std::uint32_t inde
 
 /// Points nearer to the boundary than this touch it.
 double PointResolver::touching(const plan::PlannedPoint& planned) const {
-    if (query_->on_cpu) {
+    if (query_->technique == Technique::cpu) {
         return rounding_;
     }
-    return query_->searched ? touching_distance(query_->budget.cell, 0)
-                            : touching_distance(plan_->tiles[planned.tile]);
+    return query_->points().source == plan::PointSource::device
+               ? touching_distance(query_->budget.cell, 0)
+               : touching_distance(plan_->tiles[planned.tile]);
 }
 
 ResolvedPoint PointResolver::resolve(std::uint32_t index) {

@@ -26,8 +26,9 @@ std::uint32_t as_snorm(double number) {
 /// Grows `box` to contain the points of a query, or of one direction of it.
 void extend_by_points(const plan::Plan& plan, const PlannedQuery& planned, Box& box) {
     const TransformedPolygon a(*planned.a, planned.pose_a);
-    for (std::uint32_t i = 0; i < planned.point_count; ++i) {
-        box.extend(position(a, plan.points[planned.first_point + i].point));
+    const plan::PlannedPoints& points = planned.points();
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
+        box.extend(position(a, plan.points[i].point));
     }
 }
 
@@ -109,7 +110,7 @@ void ResidentOutputsBuilder::add_field(const PlannedQuery& planned, std::uint32_
     field.height = result.height;
     field.origin = geometry::to_vector(result.origin);
     field.cell = result.cell;
-    field.error_bound = planned.budget.bound + plan::far_rounding * planned.farthest;
+    field.error_bound = planned.budget.bound + plan::far_rounding * planned.field().farthest;
     if (const auto* const target = std::get<DistanceFieldQuery>(*planned.query).target) {
         field.target = *target;
     }
@@ -127,8 +128,9 @@ void ResidentOutputsBuilder::add_records(const plan::Plan& plan,
                                          std::span<const plan::TileBatch> tile_batches,
                                          std::uint32_t query, ResidentOutputs& resident) {
     const PlannedQuery& planned = plan.queries[query];
+    const std::uint32_t other = planned.points().reverse;
     const PlannedQuery* const reverse =
-        planned.reverse == PlannedQuery::none ? nullptr : &plan.queries[planned.reverse];
+        other == plan::PlannedPoints::none ? nullptr : &plan.queries[other];
     Box box;
     extend_by_points(plan, planned, box);
     if (reverse != nullptr) {
@@ -170,14 +172,14 @@ void ResidentOutputsBuilder::add_runs(const plan::Plan& plan,
     RecordsOutput& records = resident.records.back();
     const std::uint32_t first_place = records.capacity;
     const TransformedPolygon a(*planned.a, planned.pose_a);
+    const plan::PlannedPoints& points = planned.points();
     plan::PointRunOutput run;
     run.rings = add_rings(*planned.b, resident);
     run.flags = flags;
     for (run.tile_batch = 0; run.tile_batch < tile_batches.size(); ++run.tile_batch) {
         const std::vector<std::uint32_t>& index = tile_batches[run.tile_batch].point_index;
-        const auto begin = std::lower_bound(index.begin(), index.end(), planned.first_point);
-        const auto end =
-            std::lower_bound(begin, index.end(), planned.first_point + planned.point_count);
+        const auto begin = std::lower_bound(index.begin(), index.end(), points.first);
+        const auto end = std::lower_bound(begin, index.end(), points.end());
         if (begin == end) {
             continue;
         }
@@ -190,7 +192,7 @@ void ResidentOutputsBuilder::add_runs(const plan::Plan& plan,
             const Vector place = position(a, point) - records.origin;
             add_position(place, resident);
             resident.tables.push_back(flags == 0 ? 0U : normal_at(planned, point));
-            resident.tables.push_back(first_place + *i - planned.first_point);
+            resident.tables.push_back(first_place + *i - points.first);
         }
         records.block_count += run.blocks();
         records.capacity += run.count;

@@ -26,10 +26,10 @@ std::size_t samples_of(const plan::PlannedQuery& query) {
 
 /// Cost of a query, in edges or samples that are visited once or twice.
 std::size_t weight_of(const plan::PlannedQuery& query) {
-    if (!query.on_cpu) {
+    if (query.technique != Technique::cpu) {
         return 0;
     }
-    if (query.brute_force) {
+    if (query.has_points_of(plan::PointSource::brute_force)) {
         return edges_of(query) + samples_of(query);
     }
     const bool looks_once = std::holds_alternative<IntersectionTestQuery>(*query.query) ||

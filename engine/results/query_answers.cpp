@@ -14,7 +14,7 @@ using plan::PlannedQuery;
 /// Adds the effort to the result's statistics if the test uses hierarchies.
 bool QueryAnswers::shapes_intersect(const Asked& asked, ResultSummary& result) {
     const PlannedQuery& query = asked.planned();
-    if (query.on_cpu || query.searched) {
+    if (query.technique == Technique::cpu || query.has_points_of(plan::PointSource::device)) {
         return intersection_test_.intersect(query, instances_);
     }
     localize::Effort effort;
@@ -34,24 +34,27 @@ void QueryAnswers::begin_batch() {
 
 void QueryAnswers::find_points(const Asked& asked) {
     const PlannedQuery& planned = asked.planned();
+    if (!planned.has_points_of(plan::PointSource::planner)) {
+        return;
+    }
     exact_points_.answer(asked.plan, planned, instances_, asked.words);
-    if (planned.reverse != PlannedQuery::none) {
-        exact_points_.answer(asked.plan, asked.plan.queries[planned.reverse], instances_,
-                             asked.words);
+    const std::uint32_t reverse = planned.points().reverse;
+    if (reverse != plan::PlannedPoints::none) {
+        exact_points_.answer(asked.plan, asked.plan.queries[reverse], instances_, asked.words);
     }
 }
 
 void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.brute_force) {
+    if (planned.has_points_of(plan::PointSource::brute_force)) {
         penetration_.answer(planned, instances_, result);
         return;
     }
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     const double touching = result.tolerance * plan::touching_depth;
     resolver_.begin(asked.plan, planned, asked.words);
-    for (std::uint32_t i = planned.first_point; i < planned.first_point + planned.point_count;
-         ++i) {
+    const plan::PlannedPoints& points = planned.points();
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
         if ((asked.words[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
             continue;
         }
@@ -73,7 +76,7 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
 
 void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.on_cpu) {
+    if (planned.technique == Technique::cpu) {
         overlaps_.answer(asked.plan, planned, simplified_, result);
     }
     result.area = static_cast<double>(result.count) * result.cell * result.cell;
@@ -83,7 +86,7 @@ void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {
 void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
     const PlannedQuery& planned = asked.planned();
     result.intersects = planned.a != nullptr && shapes_intersect(asked, result);
-    if (planned.on_cpu) {
+    if (planned.technique == Technique::cpu) {
         asked.fields.set_largest(asked.query,
                                  exact_fields_.answer(asked.plan, planned, simplified_, result));
     }
@@ -92,7 +95,7 @@ void QueryAnswers::answer(const Asked& asked, DistanceFieldResult& result) {
 
 void QueryAnswers::answer(const Asked& asked, ContactResult& result) {
     const PlannedQuery& planned = asked.planned();
-    if (planned.brute_force) {
+    if (planned.has_points_of(plan::PointSource::brute_force)) {
         contacts_.answer(planned, instances_, result);
         return;
     }
@@ -133,7 +136,7 @@ std::size_t QueryAnswers::write(const plan::Plan& plan, std::size_t first, std::
                                 decode::FieldDecoder& fields, std::vector<AnyResult>& results) {
     std::size_t count = 0;
     for (std::size_t i = first; i < end; ++i) {
-        if (plan.queries[i].on_cpu != on_cpu) {
+        if ((plan.queries[i].technique == Technique::cpu) != on_cpu) {
             continue;
         }
         ++count;

@@ -27,15 +27,17 @@ void ResultDecoder::add_points(const plan::TileBatch& batch, std::span<const std
 void ResultDecoder::add_found(const plan::PointSearch& search,
                               std::span<const plan::FoundPointData> found, plan::Plan& plan) {
     plan::PlannedQuery* query = nullptr;
+    plan::PlannedPoints* points = nullptr;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const plan::FoundPointData& point = found[i];
         if (i == 0 || point.direction != found[i - 1].direction) {
             query = &plan.queries[search.queries[point.direction]];
-            query->first_point = static_cast<std::uint32_t>(plan.points.size());
+            points = &query->points();
+            points->first = static_cast<std::uint32_t>(plan.points.size());
         }
         plan.points.push_back({plan::found_point(*query, point), plan::PlannedPoint::no_tile});
         words_.push_back(point.word);
-        ++query->point_count;
+        ++points->count;
     }
 }
 

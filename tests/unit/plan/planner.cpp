@@ -151,19 +151,19 @@ TEST_F(PlannerTest, ContactsThatMayTakeTooMuchAreCountedClosely) {
     query.contact_distance = 0.6;
     query.technique = Technique::cpu;
     run({query});
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     const double roughly = plan_.result_bytes;
     ASSERT_GT(roughly, 0.0);
     const double most = static_cast<double>(limits_.memory);
     const auto many = static_cast<std::size_t>(most / roughly) + 1;
     query.contact_distance = 0.01;
     run(std::vector<AnyQuery>(many, query));
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_EQ(plan_.result_bytes, 0.0);
     query.contact_distance = 30.0;
     EXPECT_THROW(run(std::vector<AnyQuery>(many, query)), StatusException);
     run({query});
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
 }
 
 TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
@@ -172,7 +172,7 @@ TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
     query.tolerance = 0.01;
     query.technique = Technique::cpu;
     run({query});
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     const double roughly = plan_.result_bytes;
     ASSERT_GT(roughly, 0.0);
     const auto many = static_cast<std::size_t>(static_cast<double>(limits_.memory) / roughly) + 1;
@@ -180,11 +180,11 @@ TEST_F(PlannerTest, RecordsThatMayTakeTooMuchAreCountedClosely) {
     EXPECT_EQ(plan_.result_bytes, 0.0);
     query.b.pose = {{1.0, 1.0}, 0.0};
     run(std::vector<AnyQuery>(many / 2, query));
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_THROW(run(std::vector<AnyQuery>(4 * many, query)), StatusException);
     query.records = false;
     run(std::vector<AnyQuery>(4 * many, query));
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_EQ(plan_.result_bytes, 0.0);
 }
 
@@ -196,7 +196,7 @@ TEST_F(PlannerTest, AsManyJobsAnswerAsThereIsRoomFor) {
     penetration_.tolerance = 0.001;
     penetration_.records = false;
     run({penetration_});
-    EXPECT_TRUE(plan_.queries[0].brute_force);
+    EXPECT_TRUE(plan_.queries[0].has_points_of(PointSource::brute_force));
     EXPECT_GE(plan_.max_jobs, 1U);
     EXPECT_LT(plan_.max_jobs, 4U);
 }
@@ -210,7 +210,7 @@ TEST_F(PlannerTest, WhatIsFoundEdgeByEdgeIsWhatItsBoundariesAllow) {
     query.contact_distance = 0.02;
     const auto brute_force = [&] {
         run({query});
-        return plan_.queries[0].brute_force;
+        return plan_.queries[0].has_points_of(PointSource::brute_force);
     };
     query.technique = Technique::raster;
     EXPECT_FALSE(brute_force());

@@ -30,6 +30,7 @@ protected:
         planned.a = &a_;
         planned.b = &b_;
         planned.budget.cell = 0.05;
+        planned.work.emplace<PlannedPoints>().source = PointSource::device;
         plan_.searched.push_back({});
     }
 
@@ -52,7 +53,7 @@ protected:
         ContactQuery contacts;
         contacts.contact_distance = distance;
         query_ = contacts;
-        plan_.queries.front().outside = true;
+        plan_.queries.front().points().outside = true;
     }
 
     [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units.size(); }

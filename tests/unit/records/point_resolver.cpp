@@ -16,9 +16,10 @@ protected:
           b_(samples::polygon({samples::rectangle(0.0, 0.0, 4.0, 4.0)})) {
         planned_.a = &a_;
         planned_.b = &b_;
-        planned_.searched = true;
         planned_.budget.cell = 0.01;
-        planned_.point_count = 1;
+        plan::PlannedPoints& points = planned_.work.emplace<plan::PlannedPoints>();
+        points.source = plan::PointSource::device;
+        points.count = 1;
         plan_.points = {{{0, 0.0}, plan::PlannedPoint::no_tile}};
     }
 
@@ -45,7 +46,7 @@ TEST_F(PointResolverTest, TakesTheEdgeThatTheDeviceFound) {
 }
 
 TEST_F(PointResolverTest, ComparesBothNeighboursWhereSinglePrecisionCannotTell) {
-    planned_.margin = 1.0;
+    planned_.points().margin = 1.0;
     for (const std::uint32_t edge : {0U, 1U, 2U}) {
         const ResolvedPoint point = resolved(found | edge);
         EXPECT_EQ(point.edge, 1U) << "found: " << edge;
