@@ -41,7 +41,7 @@ function(nearfield_shaders target folder)
     set(output_folder ${PROJECT_BINARY_DIR}/generated/${folder})
     file(MAKE_DIRECTORY ${output_folder})
     file(GLOB includes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.glsl
-         ${PROJECT_SOURCE_DIR}/include/nearfield/*.glsl)
+         ${PROJECT_SOURCE_DIR}/${folder}/*.h ${PROJECT_SOURCE_DIR}/include/nearfield/*.glsl)
     foreach(shader IN LISTS ARGN)
         string(REPLACE "." "_" symbol ${shader})
         set(source ${PROJECT_SOURCE_DIR}/${folder}/${shader})

@@ -41,18 +41,18 @@ graph::Handle Blocks::declare_points(TileGraph& graph, graph::Handle input, grap
 }
 
 void Blocks::record_values(VkCommandBuffer commands, const RecordContext& context) const {
-    constexpr std::uint32_t threads_per_block = plan::block_side / 2;
     const std::size_t blocks = context.batch->compute.blocks.size();
     values_.bind(commands, context.blocks);
-    values_.dispatch_elements(commands, 0, static_cast<std::uint32_t>(blocks) * threads_per_block);
+    values_.dispatch_elements<plan::ResolveBlocksPush>(
+        commands, 0, static_cast<std::uint32_t>(blocks) * plan::threads_per_block);
 }
 
 void Blocks::record_features(VkCommandBuffer commands, const RecordContext& context) const {
     constexpr std::uint32_t cells = plan::block_side * plan::block_side;
     const std::size_t blocks = context.batch->compute.feature_blocks.size();
     features_.bind(commands, context.feature_blocks);
-    features_.dispatch_elements(commands, 0, static_cast<std::uint32_t>(blocks) * cells,
-                                context.batch->resident ? 1U : 0U);
+    features_.dispatch_elements<plan::ResolveFeaturesPush>(
+        commands, 0, static_cast<std::uint32_t>(blocks) * cells, context.batch->resident ? 1U : 0U);
 }
 
 void Blocks::record_points(VkCommandBuffer commands, const RecordContext& context) const {
@@ -60,9 +60,9 @@ void Blocks::record_points(VkCommandBuffer commands, const RecordContext& contex
     const auto points = static_cast<std::uint32_t>(batch.lists.geometry().size());
     points_.bind(commands, context.feature_blocks);
     for (const plan::FieldPointRun& run : batch.field_point_runs) {
-        points_.dispatch_elements(commands, run.first, run.first + run.count, points,
-                                  run.first_word, run.first, run.parts.words_per_point,
-                                  run.parts.cells_per_point);
+        points_.dispatch_elements<plan::ResolveFieldPointsByListsPush>(
+            commands, run.first, run.first + run.count, points, run.first_word, run.first,
+            run.parts.words_per_point, run.parts.cells_per_point);
     }
 }
 

@@ -5,9 +5,6 @@
 
 namespace nearfield::passes {
 
-// A workgroup has 16 x 4 threads, each with a strip of 8 cells.
-static_assert(plan::overlap_group_width == 16 && plan::overlap_group_height == 4 * 8);
-
 Collect::Collect(const gpu::Device& device, const ComputeLayout& layout)
     : numbers_(device, layout, shaders::collect_comp, "nearfield collect numbers"),
       colors_(device, layout, shaders::collect_colors_comp, "nearfield collect colours") {}
@@ -35,8 +32,8 @@ void Collect::record(VkCommandBuffer commands, const RecordContext& context,
                      IntersectionStrategy strategy) const {
     const ComputeShader& shader = strategy == IntersectionStrategy::blend ? colors_ : numbers_;
     shader.bind(commands, context.samples[static_cast<std::size_t>(strategy)]);
-    shader.dispatch_groups(commands, *context.batch, plan::group_list(strategy),
-                           context.sample_capacity);
+    shader.dispatch_groups<plan::CollectPush>(commands, *context.batch, plan::group_list(strategy),
+                                              context.sample_capacity);
 }
 
 }  // namespace nearfield::passes

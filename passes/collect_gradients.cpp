@@ -21,14 +21,15 @@ void CollectGradients::record(VkCommandBuffer commands, const RecordContext& con
     shader_.bind(commands, context.gradients);
     for (const plan::TileDraw& tile : context.batch->distance_draws) {
         if (tile.first_gradient != plan::not_asked) {
-            shader_.dispatch_elements(commands, 0, tile.width * tile.height, tile.first_gradient,
-                                      0U, 0U, tile.tile);
+            shader_.dispatch_elements<plan::CollectGradientsPush>(
+                commands, 0, tile.width * tile.height, tile.first_gradient, 0U, 0U, tile.tile);
         }
     }
     for (const plan::FieldPointRun& run : context.batch->field_point_runs) {
         if (run.parts.blended) {
-            shader_.dispatch_elements(commands, 4 * run.first, 4 * (run.first + run.count),
-                                      run.first_word, run.first, run.parts.words_per_point, 0U);
+            shader_.dispatch_elements<plan::CollectGradientsPush>(
+                commands, 4 * run.first, 4 * (run.first + run.count), run.first_word, run.first,
+                run.parts.words_per_point, 0U);
         }
     }
 }

@@ -3,6 +3,8 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/owned.hpp>
 
+#include <shaders/push.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -41,7 +43,8 @@ public:
     static constexpr std::uint32_t texel_buffers = 1;
     static constexpr std::uint32_t bindings =
         storage_buffers + sampled_images + storage_images + texel_buffers;
-    static constexpr std::uint32_t push_bytes = 52;
+    /// Those of the largest push constants.
+    static constexpr std::uint32_t push_bytes = sizeof(plan::ExportRecordsPush);
 
     explicit ComputeLayout(const gpu::Device& device);
 

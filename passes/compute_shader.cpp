@@ -24,12 +24,13 @@ void ComputeShader::bind(VkCommandBuffer commands, VkDescriptorSet set) const {
 
 void ComputeShader::dispatch_cells(VkCommandBuffer commands, std::uint32_t width,
                                    std::uint32_t height) const {
-    constexpr std::uint32_t side = 8;
+    constexpr std::uint32_t side = plan::field_group_side;
     functions_->vkCmdDispatch(commands, (width + side - 1) / side, (height + side - 1) / side, 1);
 }
 
 void ComputeShader::dispatch_threads(VkCommandBuffer commands, std::uint64_t count) const {
-    dispatch(commands, static_cast<std::uint32_t>((count + group_size - 1) / group_size));
+    dispatch(commands,
+             static_cast<std::uint32_t>((count + plan::group_size - 1) / plan::group_size));
 }
 
 void ComputeShader::dispatch(VkCommandBuffer commands, std::uint32_t groups) const {

@@ -6,6 +6,9 @@
 #include <engine/plan/tile_batch.hpp>
 #include <passes/compute_layout.hpp>
 
+#include <shaders/layout.h>
+#include <shaders/push.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -24,60 +27,54 @@ public:
     void bind_set(VkCommandBuffer commands, VkDescriptorSet set) const;
     void bind(VkCommandBuffer commands, VkDescriptorSet set) const;
 
-    /// Sets the push constants, a structure or an array.
+    /// Sets the push constants, a structure of shaders/push.h.
     template <class Push>
     void push(VkCommandBuffer commands, const Push& push) const {
         static_assert(sizeof(Push) <= ComputeLayout::push_bytes);
         push_bytes(commands, &push, sizeof(Push));
     }
 
-    /// Dispatches one thread per element, in workgroups of 64, for the elements from `begin` to
-    /// `end`, in as many dispatches as the device's limits require. The push constants of each are
-    /// its first element, `end`, and `words`.
-    template <class... Words>
+    /// Dispatches one thread per element for the elements from `begin` to `end`, in as many
+    /// dispatches as the device's limits require. The push constants of each, a structure of
+    /// shaders/push.h, are its first element, `end`, and `words`.
+    template <class Push, class... Words>
     void dispatch_elements(VkCommandBuffer commands, std::uint32_t begin, std::uint32_t end,
                            Words... words) const {
         dispatch_in_parts(commands, begin, end, [&](std::uint32_t first) {
-            const std::uint32_t constants[] = {first, end, words...};
-            push(commands, constants);
+            push(commands, Push{first, end, words...});
         });
     }
     /// The same with push constants of the caller: `push(first)` is called before each dispatch.
     template <class Push>
     void dispatch_in_parts(VkCommandBuffer commands, std::uint32_t begin, std::uint32_t end,
                            Push&& push) const {
-        constexpr std::uint64_t most = std::uint64_t{max_groups} * group_size;
+        constexpr std::uint64_t most = std::uint64_t{plan::max_workgroups} * plan::group_size;
         for (std::uint64_t first = begin; first < end; first += most) {
             push(static_cast<std::uint32_t>(first));
             dispatch_threads(commands, std::min(end - first, most));
         }
     }
     /// Dispatches one workgroup for each plan::CellGroup of a list, in as many dispatches as the
-    /// device's limits require. The push constants of each are the position of its first group, and
-    /// `words`.
-    template <class... Words>
+    /// device's limits require. The push constants of each, a structure of shaders/push.h, are the
+    /// position of its first group, and `words`.
+    template <class Push, class... Words>
     void dispatch_groups(VkCommandBuffer commands, const plan::TileBatch& batch, std::size_t list,
                          Words... words) const {
         const std::uint32_t begin = batch.first_group(list);
         const auto end = begin + static_cast<std::uint32_t>(batch.groups[list].size());
-        for (std::uint32_t first = begin; first < end; first += max_groups) {
-            const std::uint32_t constants[] = {first, words...};
-            push(commands, constants);
-            dispatch(commands, std::min(end - first, max_groups));
+        for (std::uint32_t first = begin; first < end; first += plan::max_workgroups) {
+            push(commands, Push{first, words...});
+            dispatch(commands, std::min(end - first, plan::max_workgroups));
         }
     }
-    /// Dispatches one thread per cell of a rectangle, in workgroups of 8 x 8.
+    /// Dispatches one thread per cell of a rectangle, in workgroups of field_group_side squared.
     void dispatch_cells(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const;
-    /// Dispatches `count` threads in workgroups of 64, in a single dispatch.
+    /// Dispatches `count` threads in a single dispatch.
     void dispatch_threads(VkCommandBuffer commands, std::uint64_t count) const;
     void dispatch(VkCommandBuffer commands, std::uint32_t groups) const;
     void dispatch_indirect(VkCommandBuffer commands, VkBuffer arguments, VkDeviceSize offset) const;
 
 private:
-    /// The minimum of maxComputeWorkGroupCount that Vulkan guarantees.
-    static constexpr std::uint32_t max_groups = 65535;
-    static constexpr std::uint32_t group_size = 64;
-
     void push_bytes(VkCommandBuffer commands, const void* bytes, std::size_t count) const;
 
     const gpu::Functions* functions_;

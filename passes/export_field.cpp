@@ -10,13 +10,6 @@ namespace {
 constexpr graph::ExternalAccess exported{graph::Access::exported_image,
                                          graph::Access::exported_image};
 
-struct FieldPush {
-    std::uint32_t value, feature, stride, width, height;
-    std::int32_t column, row;
-    std::uint32_t rings, ring_count;
-    float cell;
-};
-
 }  // namespace
 
 ExportField::ExportField(const gpu::Device& device, const ComputeLayout& layout)
@@ -51,16 +44,16 @@ void ExportField::dispatch(VkCommandBuffer commands, const Item& item) const {
     for (std::size_t i = 0; i < item.parts.size(); ++i) {
         const plan::FieldPartOutput& part = item.parts[i];
         shader_.bind_set(commands, item.sets[i]);
-        const FieldPush push{part.value,
-                             part.feature,
-                             part.stride,
-                             part.width,
-                             part.height,
-                             static_cast<std::int32_t>(part.column),
-                             static_cast<std::int32_t>(part.row),
-                             item.field->rings.first_word,
-                             item.field->rings.count,
-                             static_cast<float>(item.field->cell)};
+        const plan::ExportFieldPush push{part.value,
+                                         part.feature,
+                                         part.stride,
+                                         part.width,
+                                         part.height,
+                                         static_cast<std::int32_t>(part.column),
+                                         static_cast<std::int32_t>(part.row),
+                                         item.field->rings.first_word,
+                                         item.field->rings.count,
+                                         static_cast<float>(item.field->cell)};
         shader_.push(commands, push);
         shader_.dispatch_cells(commands, part.width, part.height);
     }

@@ -18,15 +18,8 @@ class ExportHeaders {
 public:
     ExportHeaders(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// The push constants of one header; see the shader.
-    struct Header {
-        float origin[2]{};
-        float cell = 0.0F;
-        std::uint32_t width = 0;
-        std::uint32_t height = 0;
-    };
     struct Item {
-        std::span<const Header> headers;
+        std::span<const plan::ExportHeaderPush> headers;
         std::span<const VkDescriptorSet> sets;  ///< by header
         VkBuffer buffer = VK_NULL_HANDLE;       ///< of headers, and of most summaries
         /// In which the host uses buffers of its own after the batch: they wait for this pass,

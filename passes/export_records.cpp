@@ -5,19 +5,8 @@
 #include <functional>
 
 namespace nearfield::passes {
-namespace {
 
 using graph::Access;
-
-struct RecordsPush {
-    std::uint32_t step, first_block, block_count, point_count, word, details, points, rings,
-        ring_count, flags;
-    float cell, near;
-    std::uint32_t capacity;
-};
-static_assert(sizeof(RecordsPush) == ComputeLayout::push_bytes);
-
-}  // namespace
 
 ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& layout)
     : shader_(device, layout, shaders::export_records_comp, "nearfield export records"),
@@ -39,7 +28,7 @@ ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& lay
             records = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            dispatch_runs(commands, item, Step::count);
+            dispatch_runs(commands, item, plan::count_step);
         });
     graph_.add_pass(
         "place records", graph::PassKind::compute,
@@ -57,7 +46,7 @@ ExportRecords::ExportRecords(const gpu::Device& device, const ComputeLayout& lay
             static_cast<void>(pass.write(records, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            dispatch_runs(commands, item, Step::write);
+            dispatch_runs(commands, item, plan::write_step);
         });
     graph_.compile(device);
 }
@@ -71,24 +60,25 @@ void ExportRecords::record(VkCommandBuffer commands, gpu::Timestamps& timestamps
     graph_.execute(commands, timestamps, item);
 }
 
-void ExportRecords::dispatch_runs(VkCommandBuffer commands, const Item& item, Step step) const {
+void ExportRecords::dispatch_runs(VkCommandBuffer commands, const Item& item,
+                                  std::uint32_t step) const {
     shader_.bind(commands);
     for (std::size_t i = 0; i < item.runs.size(); ++i) {
         const plan::PointRunOutput& run = item.runs[i];
         shader_.bind_set(commands, item.sets[i]);
-        const RecordsPush push{static_cast<std::uint32_t>(step),
-                               run.first_block,
-                               run.blocks(),
-                               run.count,
-                               run.first,
-                               item.details[i],
-                               run.table,
-                               run.rings.first_word,
-                               run.rings.count,
-                               run.flags,
-                               static_cast<float>(item.records->cell),
-                               item.records->near,
-                               item.records->capacity};
+        const plan::ExportRecordsPush push{step,
+                                           run.first_block,
+                                           run.blocks(),
+                                           run.count,
+                                           run.first,
+                                           item.details[i],
+                                           run.table,
+                                           run.rings.first_word,
+                                           run.rings.count,
+                                           run.flags,
+                                           static_cast<float>(item.records->cell),
+                                           item.records->near,
+                                           item.records->capacity};
         shader_.push(commands, push);
         shader_.dispatch_threads(commands, run.blocks());
     }
@@ -96,8 +86,8 @@ void ExportRecords::dispatch_runs(VkCommandBuffer commands, const Item& item, St
 
 void ExportRecords::dispatch_place(VkCommandBuffer commands, const Item& item) const {
     shader_.bind(commands, item.sets.back());
-    RecordsPush push{};
-    push.step = static_cast<std::uint32_t>(Step::place);
+    plan::ExportRecordsPush push{};
+    push.step = plan::place_step;
     push.block_count = item.records->block_count;
     push.capacity = item.records->capacity;
     shader_.push(commands, push);

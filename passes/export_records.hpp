@@ -33,9 +33,7 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
-    enum class Step : std::uint32_t { count, place, write };
-
-    void dispatch_runs(VkCommandBuffer commands, const Item& item, Step step) const;
+    void dispatch_runs(VkCommandBuffer commands, const Item& item, std::uint32_t step) const;
     void dispatch_place(VkCommandBuffer commands, const Item& item) const;
 
     ComputeShader shader_;

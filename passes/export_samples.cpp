@@ -5,17 +5,8 @@
 #include <functional>
 
 namespace nearfield::passes {
-namespace {
 
 using graph::Access;
-
-struct SamplesPush {
-    std::uint32_t step, table, first_tile, tile_count, block_count, capacity, rings, ring_count,
-        vertices;
-    float cell;
-};
-
-}  // namespace
 
 // The graphs of the tile batches leave their hits readable (render::CompiledGraph), wherever they
 // are stored.
@@ -56,7 +47,7 @@ ExportSamples::ExportSamples(const gpu::Device& device, const ComputeLayout& lay
             static_cast<void>(pass.write(samples, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            dispatch_rows(commands, item, Step::write);
+            dispatch_rows(commands, item, plan::write_step);
         });
     graph_.compile(device);
 }
@@ -76,42 +67,43 @@ void ExportSamples::dispatch_count(VkCommandBuffer commands, const Item& item) c
     for (std::size_t i = 0; i < item.runs.size(); ++i) {
         const plan::SampleRunOutput& run = item.runs[i];
         shader_.bind_set(commands, item.sets[2 * i]);
-        dispatch(commands, item, Step::box, run.table, first_tile, run.tile_count, run.tile_count);
+        dispatch(commands, item, plan::box_step, run.table, first_tile, run.tile_count,
+                 run.tile_count);
         first_tile += run.tile_count;
     }
-    dispatch_rows(commands, item, Step::count);
+    dispatch_rows(commands, item, plan::count_step);
 }
 
 void ExportSamples::dispatch_place(VkCommandBuffer commands, const Item& item) const {
     shader_.bind(commands, item.sets.back());
-    dispatch(commands, item, Step::place, 0, 0, item.samples->tile_count, 1);
+    dispatch(commands, item, plan::place_step, 0, 0, item.samples->tile_count, 1);
 }
 
 /// One thread per row of each tile; nothing if the samples are omitted.
-void ExportSamples::dispatch_rows(VkCommandBuffer commands, const Item& item, Step step) const {
+void ExportSamples::dispatch_rows(VkCommandBuffer commands, const Item& item,
+                                  std::uint32_t step) const {
     if (item.samples->block_count == 0) {
         return;
     }
     shader_.bind(commands);
-    constexpr std::uint32_t words_of_tile = sizeof(plan::SampleTileData) / sizeof(std::uint32_t);
     for (std::size_t i = 0; i < item.runs.size(); ++i) {
         const plan::SampleRunOutput& run = item.runs[i];
         shader_.bind_set(commands, item.sets[2 * i + 1]);
         for (std::uint32_t tile = 0; tile < run.tile_count; ++tile) {
-            dispatch(commands, item, step, run.table + tile * words_of_tile, 0,
+            dispatch(commands, item, step, run.table + tile * plan::words_of_tile, 0,
                      item.samples->tile_count, item.tiles[run.first_tile + tile].height);
         }
     }
 }
 
-void ExportSamples::dispatch(VkCommandBuffer commands, const Item& item, Step step,
+void ExportSamples::dispatch(VkCommandBuffer commands, const Item& item, std::uint32_t step,
                              std::uint32_t table, std::uint32_t first_tile,
                              std::uint32_t tile_count, std::uint32_t threads) const {
     const plan::SamplesOutput& samples = *item.samples;
-    shader_.push(commands, SamplesPush{static_cast<std::uint32_t>(step), table, first_tile,
-                                       tile_count, samples.block_count, samples.capacity,
-                                       samples.rings.first_word, samples.rings.count,
-                                       samples.vertices, static_cast<float>(samples.cell)});
+    shader_.push(commands, plan::ExportSamplesPush{
+                               step, table, first_tile, tile_count, samples.block_count,
+                               samples.capacity, samples.rings.first_word, samples.rings.count,
+                               samples.vertices, static_cast<float>(samples.cell)});
     shader_.dispatch_threads(commands, threads);
 }
 

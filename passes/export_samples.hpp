@@ -36,14 +36,13 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
-    enum class Step : std::uint32_t { box, count, place, write };
-
     void dispatch_count(VkCommandBuffer commands, const Item& item) const;
     void dispatch_place(VkCommandBuffer commands, const Item& item) const;
-    void dispatch_rows(VkCommandBuffer commands, const Item& item, Step step) const;
+    void dispatch_rows(VkCommandBuffer commands, const Item& item, std::uint32_t step) const;
     /// Dispatches `threads` threads. `table`, `first_tile`, `tile_count`: as in the shader.
-    void dispatch(VkCommandBuffer commands, const Item& item, Step step, std::uint32_t table,
-                  std::uint32_t first_tile, std::uint32_t tile_count, std::uint32_t threads) const;
+    void dispatch(VkCommandBuffer commands, const Item& item, std::uint32_t step,
+                  std::uint32_t table, std::uint32_t first_tile, std::uint32_t tile_count,
+                  std::uint32_t threads) const;
 
     ComputeShader shader_;
     graph::RecordedGraph<Item> graph_;

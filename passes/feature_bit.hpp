@@ -31,8 +31,4 @@ private:
 /// The colour format of the pass, for its render pass; depth is distance_depth_format.
 inline constexpr VkFormat signed_feature_format = VK_FORMAT_R8G8B8A8_UNORM;
 
-/// The bit of a texel that is set inside B. Shaders take this mask as the sign that ids share the
-/// image.
-inline constexpr std::uint32_t feature_bit_mask = 1U << 31U;
-
 }  // namespace nearfield::passes

@@ -13,21 +13,12 @@
 namespace nearfield::passes {
 namespace {
 
-/// The push constants of gradient.frag, after those of mesh.vert.
-struct GradientPush {
-    std::int32_t shift;
-    float factor;
-    float largest;
-};
-constexpr std::uint32_t push_offset = 32;
-
 constexpr float largest_half = 65504.0F;
 
 gpu::Owned<VkPipelineLayout> make_layout(const gpu::Device& device, VkDescriptorSetLayout set) {
     const std::array<VkPushConstantRange, 2> push{
-        {{draw_push_stages, 0, draw_push_bytes},
-         {VK_SHADER_STAGE_FRAGMENT_BIT, push_offset, sizeof(GradientPush)}}};
-    static_assert(draw_push_bytes <= push_offset);
+        {{draw_push_stages, 0, sizeof(plan::MeshPush)},
+         {VK_SHADER_STAGE_FRAGMENT_BIT, plan::gradient_push_offset, sizeof(plan::GradientPush)}}};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.setLayoutCount = 1;
@@ -94,9 +85,9 @@ void Gradient::record(VkCommandBuffer commands, const RecordContext& context) co
                               : std::numeric_limits<float>::max();
     const auto draw_all = [&](const gpu::Owned<VkPipeline>& pipeline, std::int32_t shift) {
         renderer.bind(pipeline.get());
-        const GradientPush push{shift, 0.5F, largest};
+        const plan::GradientPush push{shift, 0.5F, largest};
         functions.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT,
-                                     push_offset, sizeof(push), &push);
+                                     plan::gradient_push_offset, sizeof(push), &push);
         renderer.draw(plan::TileMeshId::gradients);
     };
     renderer.stencil(0, 0, 0);

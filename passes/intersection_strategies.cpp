@@ -1,9 +1,9 @@
 #include <engine/gpu/pipeline.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/prototype.hpp>
 
 #include <shaders/color_frag.hpp>
+#include <shaders/layout.h>
 #include <shaders/mesh_vert.hpp>
 #include <shaders/number_frag.hpp>
 

@@ -8,14 +8,8 @@
 #include <functional>
 
 namespace nearfield::passes {
-namespace {
 
 using graph::Access;
-
-// The flag in the push constants of mask_polygons.comp.
-constexpr std::uint32_t of_a_flag = 256;
-
-}  // namespace
 
 Masks::Masks(const gpu::Device& device, const ComputeLayout& layout)
     : device_(&device),
@@ -56,14 +50,16 @@ graph::Handle Masks::declare_fill(TileGraph& graph, graph::Handle input,
 void Masks::record_edges(VkCommandBuffer commands, const RecordContext& context) const {
     const auto ranges = context.batch->compute.ranges();
     edges_.bind(commands, context.masks);
-    edges_.dispatch_elements(commands, 0, ranges.edges.count, ranges.edges.first_word,
-                             ranges.masks.first_word, context.subpixel_bits);
+    edges_.dispatch_elements<plan::MaskEdgesPush>(commands, 0, ranges.edges.count,
+                                                  ranges.edges.first_word, ranges.masks.first_word,
+                                                  context.subpixel_bits);
 }
 
 void Masks::record_rows(VkCommandBuffer commands, const RecordContext& context) const {
     const auto ranges = context.batch->compute.ranges();
     rows_.bind(commands, context.masks);
-    rows_.dispatch_elements(commands, 0, ranges.rows.count, ranges.rows.first_word);
+    rows_.dispatch_elements<plan::MaskRowsPush>(commands, 0, ranges.rows.count,
+                                                ranges.rows.first_word);
 }
 
 graph::Handle Masks::declare_boundaries_b(TileGraph& graph, graph::Handle input,
@@ -90,10 +86,10 @@ void Masks::record_polygons(VkCommandBuffer commands, const RecordContext& conte
     const auto ranges = work.ranges();
     const plan::WorkRange& polygons = of_a ? ranges.polygons_a : ranges.polygons_b;
     polygons_.bind(commands, context.masks);
-    polygons_.dispatch_elements(commands, 0, polygons.count, polygons.first_word,
-                                ranges.masks.first_word, ranges.overlaps.first_word,
-                                static_cast<std::uint32_t>(work.mask_words),
-                                context.subpixel_bits | (of_a ? of_a_flag : 0U));
+    polygons_.dispatch_elements<plan::MaskPolygonsPush>(
+        commands, 0, polygons.count, polygons.first_word, ranges.masks.first_word,
+        ranges.overlaps.first_word, static_cast<std::uint32_t>(work.mask_words),
+        context.subpixel_bits | (of_a ? plan::polygons_of_a : 0U));
 }
 
 graph::Handle Masks::declare_collect(TileGraph& graph, graph::Handle input, graph::Handle scratch,
@@ -108,7 +104,7 @@ void Masks::record_collect(VkCommandBuffer commands, const RecordContext& contex
     const plan::ComputeWork& work = context.batch->compute;
     const auto ranges = work.ranges();
     collect_.bind(commands, context.masks);
-    collect_.dispatch_elements(
+    collect_.dispatch_elements<plan::CollectMasksPush>(
         commands, 0, ranges.overlap_rows.count, ranges.overlap_rows.first_word,
         ranges.masks.first_word, ranges.overlaps.first_word,
         static_cast<std::uint32_t>(work.mask_words), context.sample_capacity);

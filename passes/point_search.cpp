@@ -14,14 +14,7 @@ namespace {
 
 using graph::Access;
 
-struct SearchPush {
-    std::uint32_t first, items, directions, direction_count;
-    std::uint32_t item_blocks, edge_blocks, point_blocks, item_words;
-    std::uint32_t edge_units, point_units, stage, capacity;
-};
-
-// Of the arguments of one stage: three numbers of workgroups, and the number of elements.
-constexpr VkDeviceSize argument_bytes = 4 * sizeof(std::uint32_t);
+constexpr VkDeviceSize argument_bytes = plan::words_of_arguments * sizeof(std::uint32_t);
 
 // Whether shaders read the input as texels: where these can address as much as a storage buffer.
 VkBool32 reads_texels(const gpu::Device& device) {
@@ -53,7 +46,7 @@ PointSearch::PointSearch(const gpu::Device& device, const ComputeLayout& layout)
 void PointSearch::declare() {
     graph::Handle scratch = scratch_;
     graph::Handle arguments = arguments_;
-    const auto scan = [&](const char* name, Stage stage) {
+    const auto scan = [&](const char* name, std::uint32_t stage) {
         graph_.add_pass(
             name, graph::PassKind::compute,
             [&](graph::PassBuilder& pass) {
@@ -64,7 +57,7 @@ void PointSearch::declare() {
                 dispatch_scan(commands, item, stage);
             });
     };
-    const auto search = [&](const char* name, const ComputeShader& shader, Stage of) {
+    const auto search = [&](const char* name, const ComputeShader& shader, std::uint32_t of) {
         graph_.add_pass(
             name, graph::PassKind::compute,
             [&](graph::PassBuilder& pass) {
@@ -83,11 +76,11 @@ void PointSearch::declare() {
             scratch = pass.write(scratch, Access::storage_write_in_compute);
         },
         std::bind_front(&PointSearch::dispatch_items, this));
-    scan("count edges", Stage::edges);
-    search("search edges", edges_, Stage::edges);
-    scan("count points", Stage::points);
-    search("search points", points_, Stage::points);
-    scan("count found points", Stage::records);
+    scan("count edges", plan::edge_total);
+    search("search edges", edges_, plan::edge_total);
+    scan("count points", plan::point_total);
+    search("search points", points_, plan::point_total);
+    scan("count found points", plan::record_total);
     graph_.add_pass(
         "pack points", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
@@ -96,7 +89,7 @@ void PointSearch::declare() {
             static_cast<void>(pass.write(records_, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            dispatch(commands, item, pack_, Stage::points);
+            dispatch(commands, item, pack_, plan::point_total);
         });
 }
 
@@ -111,34 +104,34 @@ void PointSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
 }
 
 void PointSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                       std::uint32_t first, Stage stage) {
+                       std::uint32_t first, std::uint32_t stage) {
     const SearchLayout& layout = item.layout;
-    shader.push(commands, SearchPush{first, item.items, item.first_direction, item.directions,
-                                     layout.item_blocks, layout.edge_blocks, layout.point_blocks,
-                                     layout.item_words, layout.edge_units, layout.point_units,
-                                     static_cast<std::uint32_t>(stage),
-                                     layout.capacities[static_cast<std::size_t>(stage)]});
+    shader.push(commands,
+                plan::SearchPush{first, item.items, item.first_direction, item.directions,
+                                 layout.item_blocks, layout.edge_blocks, layout.point_blocks,
+                                 layout.item_words, layout.edge_units, layout.point_units, stage,
+                                 layout.capacities[stage]});
 }
 
 void PointSearch::dispatch_items(VkCommandBuffer commands, const Item& item) const {
     items_.bind(commands, item.set);
     items_.dispatch_in_parts(commands, 0, item.items, [&](std::uint32_t first) {
-        push(commands, item, items_, first, Stage::edges);
+        push(commands, item, items_, first, plan::edge_total);
     });
 }
 
-void PointSearch::dispatch_scan(VkCommandBuffer commands, const Item& item, Stage stage) const {
+void PointSearch::dispatch_scan(VkCommandBuffer commands, const Item& item,
+                                std::uint32_t stage) const {
     scan_.bind(commands, item.set);
     push(commands, item, scan_, 0, stage);
     scan_.dispatch(commands, 1);
 }
 
 void PointSearch::dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                           Stage arguments) const {
+                           std::uint32_t arguments) const {
     shader.bind(commands, item.set);
-    push(commands, item, shader, 0, Stage::records);
-    shader.dispatch_indirect(commands, item.arguments,
-                             argument_bytes * static_cast<VkDeviceSize>(arguments));
+    push(commands, item, shader, 0, plan::record_total);
+    shader.dispatch_indirect(commands, item.arguments, argument_bytes * arguments);
 }
 
 }  // namespace nearfield::passes

@@ -19,7 +19,7 @@ struct SearchLayout {
     std::uint32_t edge_units = 0, point_units = 0;                                     // units
     std::uint64_t units = 0;  ///< of the whole
     /// Of edges, points, and points that were found.
-    std::array<std::uint32_t, 3> capacities{};
+    std::array<std::uint32_t, plan::stages> capacities{};
 };
 
 /// The passes that search for boundary points (plan::PointSearch), in a separate graph: items,
@@ -48,15 +48,13 @@ public:
     [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
 
 private:
-    enum class Stage : std::uint32_t { edges, points, records };
-
     void declare();
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                     std::uint32_t first, Stage stage);
+                     std::uint32_t first, std::uint32_t stage);
     void dispatch_items(VkCommandBuffer commands, const Item& item) const;
-    void dispatch_scan(VkCommandBuffer commands, const Item& item, Stage stage) const;
+    void dispatch_scan(VkCommandBuffer commands, const Item& item, std::uint32_t stage) const;
     void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
-                  Stage arguments) const;
+                  std::uint32_t arguments) const;
 
     ComputeShader items_;
     ComputeShader scan_;

@@ -29,7 +29,7 @@ std::uint32_t sign_mask(SignEncoding encoding) {
         case SignEncoding::color:
             return white_mask;
         case SignEncoding::feature_bit:
-            return feature_bit_mask;
+            return plan::feature_bit_mask;
         case SignEncoding::stencil:
             break;
     }
@@ -58,8 +58,9 @@ void ResolveField::record(VkCommandBuffer commands, const RecordContext& context
         const auto sign = static_cast<SignEncoding>(encoding);
         if (!context.batch->groups[plan::group_list(sign)].empty()) {
             shader_.bind_set(commands, context.field_set(sign));
-            shader_.dispatch_groups(commands, *context.batch, plan::group_list(sign),
-                                    sign_mask(sign), context.batch->resident ? 1U : 0U);
+            shader_.dispatch_groups<plan::ResolveFieldPush>(commands, *context.batch,
+                                                            plan::group_list(sign), sign_mask(sign),
+                                                            context.batch->resident ? 1U : 0U);
         }
     }
 }

@@ -27,9 +27,9 @@ void ResolveFieldPoints::record(VkCommandBuffer commands, const RecordContext& c
     shader_.bind(commands);
     for (const plan::FieldPointRun& run : context.batch->field_point_runs) {
         shader_.bind_set(commands, context.field_set(run.sign));
-        shader_.dispatch_elements(commands, run.first, run.first + run.count, sign_mask(run.sign),
-                                  run.first_word, run.first, run.parts.words_per_point,
-                                  run.parts.cells_per_point);
+        shader_.dispatch_elements<plan::ResolveFieldPointsPush>(
+            commands, run.first, run.first + run.count, sign_mask(run.sign), run.first_word,
+            run.first, run.parts.words_per_point, run.parts.cells_per_point);
     }
 }
 

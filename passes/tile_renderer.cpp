@@ -5,15 +5,6 @@
 namespace nearfield::passes {
 namespace {
 
-/// The push constants of mesh.vert.
-struct Push {
-    float scale[2];
-    float bias[2];
-    float depth_scale;
-    std::uint32_t value;
-};
-static_assert(offsetof(Push, value) == 20 && sizeof(Push) == draw_push_bytes);
-
 // The vertex input bindings that gpu::make_graphics_pipeline declares.
 static_assert(sizeof(geometry::MeshVertex) == 16 && offsetof(geometry::MeshVertex, distance) == 8 &&
               offsetof(geometry::MeshVertex, id) == 12);
@@ -32,7 +23,7 @@ constexpr float bias = -scale * viewport_origin - 1.0F;
 }  // namespace
 
 gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
-    const VkPushConstantRange push{draw_push_stages, 0, sizeof(Push)};
+    const VkPushConstantRange push{draw_push_stages, 0, sizeof(plan::MeshPush)};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.pushConstantRangeCount = 1;
@@ -81,7 +72,7 @@ void TileRenderer::draw_from(VkDeviceSize offset, plan::DrawRange range, float d
         return;
     }
     functions_->vkCmdBindVertexBuffers(commands_, 0, 1, &context_->mesh, &offset);
-    const Push push{{scale, scale}, {bias, bias}, depth_scale, value};
+    const plan::MeshPush push{{scale, scale}, {bias, bias}, depth_scale, value};
     functions_->vkCmdPushConstants(commands_, layout_, draw_push_stages, 0, sizeof(push), &push);
     functions_->vkCmdDraw(commands_, range.count, 1, range.first, 0);
 }

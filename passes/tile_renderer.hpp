@@ -5,13 +5,14 @@
 #include <engine/plan/tile_batch.hpp>
 #include <passes/record_context.hpp>
 
+#include <shaders/push.h>
+
 #include <cstdint>
 
 namespace nearfield::passes {
 
-/// The push constants of mesh.vert, from offset 0.
+/// The stages that read the push constants of a draw (plan::MeshPush), from offset 0.
 inline constexpr VkShaderStageFlags draw_push_stages = VK_SHADER_STAGE_VERTEX_BIT;
-inline constexpr std::uint32_t draw_push_bytes = 24;
 
 /// The pipeline layout of graphics pipelines without resources: only push constants.
 [[nodiscard]] gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device);

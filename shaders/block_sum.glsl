@@ -1,6 +1,6 @@
 // Sums over the elements of a workgroup, one per thread. Include after search.glsl.
 
-shared uint counts[block_size];
+shared uint counts[search_block];
 
 // Returns the sum of the counts of the threads before this one; the last thread also stores the
 // sum of all at a word of the scratch memory. Call from every thread of the workgroup.
@@ -11,7 +11,7 @@ uint sum_before(uint count, uint block_word) {
     for (uint i = 0u; i < gl_LocalInvocationID.x; ++i) {
         sum += counts[i];
     }
-    if (gl_LocalInvocationID.x + 1u == block_size) {
+    if (gl_LocalInvocationID.x + 1u == search_block) {
         scratch[block_word] = sum + count;
     }
     return sum;

@@ -5,7 +5,8 @@
 
 #include "layout.glsl"
 
-layout(local_size_x = 16, local_size_y = 4) in;
+layout(local_size_x = overlap_group_width,
+       local_size_y = overlap_group_height / overlap_cells_per_thread) in;
 
 layout(set = 0, binding = 4) uniform usampler2D hit_image;
 

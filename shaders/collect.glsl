@@ -5,42 +5,32 @@
 //
 // The including shader defines hit_at(texel): the number in the hit image.
 
-const uint white = 255u;
-const uint run_shift = 8u;
-
+#include "push.h"
 #include "samples.glsl"
 
-// A group's `first`: 1 if samples are listed; `second`: where the numbers of all cells of its tile
-// are kept, or not_kept.
-layout(push_constant) uniform Push {
-    uint first_group;
-    uint capacity;  // space for samples
-} push;
+layout(push_constant) uniform Push { CollectPush push; };
 
-const uint not_kept = 0xffffffffu;
 layout(std430, set = 0, binding = 1) writeonly buffer KeptHits {
     uint kept_hits[];  // one word per cell, 0 if it is no sample
 };
 
-// Cells per thread, one above the other; as in passes/collect.cpp.
-const uint strip = 8u;
-
 void main() {
     CellGroup group = group_at(push.first_group + gl_WorkGroupID.x);
-    Tile tile = tile_at(group.tile);
-    uint column = group.cell.x + gl_LocalInvocationID.x;
-    uint first_row = group.cell.y + gl_LocalInvocationID.y * strip;
-    bool keeps = group.second != not_kept;
+    TileData tile = tile_at(group.tile);
+    uvec2 low = unpacked(group.cell);
+    uint column = low.x + gl_LocalInvocationID.x;
+    uint first_row = low.y + gl_LocalInvocationID.y * overlap_cells_per_thread;
+    bool keeps = group.second != not_asked;
     if ((summaries[group.tile].passed == 0u && !keeps) || column >= tile.width ||
         first_row >= tile.height) {
         return;
     }
-    uint rows = min(strip, tile.height - first_row);
+    uint rows = min(overlap_cells_per_thread, tile.height - first_row);
     ivec2 corner = ivec2(tile.atlas_x + column, tile.atlas_y + first_row);
     uint found = 0u;
     for (uint i = 0u; i < rows; ++i) {
         uint hit = hit_at(corner + ivec2(0, i));
-        bool is_found = (hit & 255u) == white;
+        bool is_found = (hit & white) == white;
         found |= is_found ? 1u << i : 0u;
         if (keeps) {
             kept_hits[group.second + (first_row + i) * tile.width + column] = is_found ? hit : 0u;
@@ -61,7 +51,7 @@ void main() {
     uint place = atomicAdd(samples.count, count);
     for (uint i = 0u; i < rows; ++i) {
         if ((found & (1u << i)) != 0u && place < push.capacity) {
-            uint word = place * 3u;
+            uint word = place * words_of_sample;
             samples.words[word] = column | ((first_row + i) << 16);
             samples.words[word + 1u] = group.tile;
             samples.words[word + 2u] = hit_at(corner + ivec2(0, i)) >> run_shift;

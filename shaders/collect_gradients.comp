@@ -5,34 +5,22 @@
 // each point of a range.
 
 #include "layout.glsl"
+#include "push.h"
 
-layout(local_size_x = 64) in;
-
-struct Point {
-    vec2 position;
-    uint tile;
-    uint cell;  // the low one of the four cells around it, column | row << 16
-};
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    Point points[];
+    PointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
 layout(set = 0, binding = 4) uniform sampler2D gradient_image;
 
-layout(push_constant) uniform Push {
-    uint first;            // cell of the tile, or cell around a point (four per point)
-    uint end;
-    uint first_word;       // first word of cell 0, or of point `origin`
-    uint origin;
-    uint words_per_point;  // 0: a whole tile
-    uint tile;
-} push;
+layout(push_constant) uniform Push { CollectGradientsPush push; };
 
 void write(uint word, uint tile_index, ivec2 cell) {
-    Tile tile = tile_at(tile_index);
+    TileData tile = tile_at(tile_index);
     vec2 gradient = texelFetch(gradient_image, ivec2(tile.atlas_x, tile.atlas_y) + cell, 0).xy;
     field.words[word] = floatBitsToUint(gradient.x);
     field.words[word + 1u] = floatBitsToUint(gradient.y);
@@ -49,8 +37,8 @@ void main() {
         return;
     }
     uint corner = index & 3u;
-    Point point = points[index / 4u];
-    ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
+    PointData point = points[index / 4u];
+    ivec2 low = ivec2(unpacked(point.cell));
     // After the feature and the four values.
     uint word = push.first_word + (index / 4u - push.origin) * push.words_per_point + 5u;
     write(word + 2u * corner, point.tile, low + ivec2(corner & 1u, corner >> 1));

@@ -6,31 +6,24 @@
 
 #include "masks.glsl"
 #include "overlaps.glsl"
+#include "push.h"
 #include "samples.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint rows;  // first word in the work buffer
-    uint masks;
-    uint overlaps;
-    uint runs;  // first word of the cells' runs in the scratch memory
-    uint capacity;  // space for samples
-} push;
+layout(push_constant) uniform Push { CollectMasksPush push; };
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index >= push.end) {
         return;
     }
-    Overlap overlap = overlap_at(push.overlaps + 5u * work[push.rows + 2u * index]);
-    uint row = work[push.rows + 2u * index + 1u];
-    Mask a = mask_at(push.masks + 4u * overlap.mask_a);
+    uint own = push.rows + words_of_overlap_row * index;
+    OverlapData overlap = overlap_at(push.overlaps, work[own]);
+    uint row = work[own + 1u];
+    MaskData a = mask_at(push.masks, overlap.mask_a);
     uint words_a = a.first_word + row * a.words_per_row;
-    uint words_b =
-        mask_at(push.masks + 4u * overlap.mask_b).first_word + row * a.words_per_row;
+    uint words_b = mask_at(push.masks, overlap.mask_b).first_word + row * a.words_per_row;
     uint count = 0u;
     uint low = 0u;
     uint high = 0u;
@@ -60,7 +53,7 @@ void main() {
         while (found != 0u && place < push.capacity) {
             uint column = 32u * word + uint(findLSB(found));
             found &= found - 1u;
-            uint out_word = place * 3u;
+            uint out_word = place * words_of_sample;
             samples.words[out_word] = column | (row << 16);
             samples.words[out_word + 1u] = overlap.tile;
             samples.words[out_word + 2u] =

@@ -1,17 +1,11 @@
-// The details of a resolved point (plan::PointDetails), written in addition to its word if records
-// are resident. Include after nearest.glsl; the shader declares results[] and push.details.
+// The details of a resolved point, written in addition to its word if records are resident. Include
+// after nearest.glsl; the shader declares results[] and push.details.
 
-const uint no_details = 0xffffffffu;
-const uint words_of_details = 4u;
-
-// Closer to the boundary than this, in cells, single precision cannot decide on which side a point
-// lies (touching_distance in engine/records/nearest_feature.hpp, for tiles of points).
-const float touching = 1.0 / 32768.0;
 // Offset, in cells, at which the two sides of an edge are tested.
 const float step_aside = 1.0 / 4096.0;
 
 // The outward normal of the nearest edge; zero if there is none or it has no length.
-vec2 normal_of_wall(Nearest nearest, vec2 way, EdgeList crossing) {
+vec2 normal_of_wall(Nearest nearest, vec2 way, EdgeListData crossing) {
     float size = length(way);
     if (!(size > 0.0)) {
         return vec2(0.0);
@@ -20,8 +14,8 @@ vec2 normal_of_wall(Nearest nearest, vec2 way, EdgeList crossing) {
     return inside_by_crossings(nearest.point + step_aside * normal, crossing) ? -normal : normal;
 }
 
-void write_details(uint index, vec2 p, Nearest nearest, Tile tile) {
-    if (push.details == no_details) {
+void write_details(uint index, vec2 p, Nearest nearest, TileData tile) {
+    if (push.details == not_asked) {
         return;
     }
     vec2 offset = nearest.point - p;

@@ -1,7 +1,9 @@
 // Shared by the export passes (resident outputs): the words written by the resolve passes, the
 // tables written by the host, and feature ids.
 
+#include "export.h"
 #include "nearfield/nearfield.glsl"
+#include "push.h"
 
 layout(std430, set = 0, binding = 0) readonly buffer Words {
     uint words[];

@@ -6,26 +6,12 @@
 
 #include "export.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = field_group_side, local_size_y = field_group_side) in;
 
 layout(set = 0, binding = 6, r32f) writeonly uniform image2D signed_distance;
 layout(set = 0, binding = 7, r32ui) writeonly uniform uimage2D feature_id;
 
-layout(push_constant) uniform Push {
-    uint value;    // word of the first cell's value
-    uint feature;  // word of its feature
-    uint stride;   // words per row
-    uint width;    // cells to copy
-    uint height;
-    int column;  // of the first cell, in the images
-    int row;
-    uint rings;
-    uint ring_count;
-    float cell;
-} push;
-
-const uint first_vertex_flag = 1u << 28;  // as in nearest.glsl
-const uint last_vertex_flag = 1u << 29;
+layout(push_constant) uniform Push { ExportFieldPush push; };
 
 uint id_of(uint word) {
     uint edge = word & nearfield_index_mask;

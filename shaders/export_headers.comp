@@ -3,7 +3,9 @@
 
 // Writes the header of one resident output from what its summary says. One thread.
 
+#include "layout.h"
 #include "nearfield/nearfield.glsl"
+#include "push.h"
 
 layout(local_size_x = 1) in;
 
@@ -16,12 +18,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Header {
     NearfieldHeader header;
 };
 
-layout(push_constant) uniform Push {
-    vec2 origin;
-    float cell;
-    uint width;  // of a field, in cells; otherwise 0
-    uint height;
-} push;
+layout(push_constant) uniform Push { ExportHeaderPush push; };
 
 uint groups_of(uint count, uint size) {
     return (count + size - 1u) / size;
@@ -30,8 +27,9 @@ uint groups_of(uint count, uint size) {
 void main() {
     bool is_field = push.width > 0u;
     uint count = is_field ? push.width * push.height : min(found, capacity);
-    uvec3 groups = is_field ? uvec3(groups_of(push.width, 8u), groups_of(push.height, 8u), 1u)
-                            : uvec3(groups_of(count, 64u), 1u, 1u);
+    uvec3 groups = is_field ? uvec3(groups_of(push.width, field_group_side),
+                                    groups_of(push.height, field_group_side), 1u)
+                            : uvec3(groups_of(count, group_size), 1u, 1u);
     header.points = uvec4(count, 1u, 0u, 0u);
     header.quads = uvec4(6u, is_field ? 1u : count, 0u, 0u);
     header.groups = uint[3](groups.x, groups.y, groups.z);

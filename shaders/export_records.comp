@@ -8,52 +8,22 @@
 
 #include "export.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) writeonly buffer Records {
     NearfieldSummary summary;
     NearfieldRecord records[];
 };
 
-struct Block {
-    uint count;    // records; after the second step, records of the blocks before it
-    uint deepest;  // index among them
-    float depth;
-    uint unused;
-    vec2 low;
-    vec2 high;
-};
 layout(std430, set = 0, binding = 3) buffer Blocks {
-    Block blocks[];
+    RecordBlockData blocks[];
 };
 
-const uint count_step = 0u;
-const uint place_step = 1u;
-const uint write_step = 2u;
+layout(push_constant) uniform Push { ExportRecordsPush push; };
 
-layout(push_constant) uniform Push {
-    uint step;
-    uint first_block;  // first block of this run of points
-    uint block_count;  // of the run; in the second step, of all runs
-    uint point_count;  // of the run
-    uint word;         // position of the run's first point
-    uint details;      // position of its details
-    uint points;       // position of the run's points in the tables
-    uint rings;
-    uint ring_count;
-    uint flags;     // of the run's records
-    float cell;
-    float nearby;   // contacts: maximum distance, world units; negative: only points inside
-    uint capacity;
-} push;
-
-const uint points_per_block = 32u;  // as in engine/plan/resident_outputs.hpp
-const uint words_of_details = 4u;   // as in details.glsl
-const uint words_of_point = 4u;
-const float touching = 1.0 / 32768.0;  // as in details.glsl, cells
-const float touching_depth = 0.70710678 / 1024.0;  // as in engine/plan/error_budget.hpp, cells
+// Depth in cells: d is half the diagonal of one.
+const float touching_cells = 0.70710678 * touching_depth;
 const float infinity = 1.0 / 0.0;
-const uint resolved_flag = 1u << 29;  // as in nearest.glsl
 
 struct Resolved {
     bool is_record;
@@ -73,8 +43,8 @@ Resolved resolved_at(uint index) {
     resolved.distance = length(resolved.offset);
     resolved.touches = resolved.distance <= touching;
     resolved.inside = (word & nearfield_inside_flag) != 0u && !resolved.touches;
-    resolved.penetrates = resolved.inside && resolved.distance > touching_depth;
-    resolved.is_record = (word & resolved_flag) != 0u &&
+    resolved.penetrates = resolved.inside && resolved.distance > touching_cells;
+    resolved.is_record = (word & point_resolved) != 0u &&
                          (push.nearby < 0.0 ? resolved.penetrates
                                             : resolved.distance * push.cell <= push.nearby);
     resolved.point = push.points + words_of_point * index;
@@ -86,7 +56,7 @@ vec2 position_of(Resolved resolved) {
 }
 
 void count_records(uint block, uint begin, uint end) {
-    Block found = Block(0u, 0u, -infinity, 0u, vec2(infinity), vec2(-infinity));
+    RecordBlockData found = RecordBlockData(0u, 0u, -infinity, 0u, vec2(infinity), vec2(-infinity));
     for (uint i = begin; i < end; ++i) {
         Resolved resolved = resolved_at(i);
         if (resolved.is_record) {
@@ -108,7 +78,7 @@ void place_blocks() {
     NearfieldSummary all = NearfieldSummary(0u, push.capacity, nearfield_no_record, -infinity,
                                             vec2(infinity), vec2(-infinity));
     for (uint i = 0u; i < push.block_count; ++i) {
-        Block block = blocks[i];
+        RecordBlockData block = blocks[i];
         blocks[i].count = all.count;
         if (block.count > 0u && block.depth > all.depth) {
             all.depth = block.depth;

@@ -8,7 +8,7 @@
 
 #include "export.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) writeonly buffer Samples {
     NearfieldIntersectionSummary summary;
@@ -18,62 +18,26 @@ layout(std430, set = 0, binding = 3) buffer Blocks {
     uint blocks[];  // per tile the count and both corners, then per row the count of samples
 };
 
-const uint box_step = 0u;
-const uint count_step = 1u;
-const uint place_step = 2u;
-const uint write_step = 3u;
+layout(push_constant) uniform Push { ExportSamplesPush push; };
 
-layout(push_constant) uniform Push {
-    uint step;
-    uint table;        // position of the tile, or of the first one, in the tables
-    uint first_tile;   // its index among the query's tiles
-    uint tile_count;   // of the tile batch in the first step, of the query in the others
-    uint block_count;  // of all rows; 0 if samples are omitted
-    uint capacity;
-    uint rings;        // of A
-    uint ring_count;
-    uint vertices;     // of A
-    float cell;
-} push;
-
-// As SampleTileData in engine/plan/resident_outputs.hpp.
-struct Tile {
-    uint width;
-    uint height;
-    uint first_block;
-    uint block_step;
-    uint hits;
-    uint mask_a;
-    uint words_per_row;
-    uint runs;
-    uint run_table;
-    uint summary;
-    uint region;
-    vec2 corner;
-};
-const uint words_of_tile = 13u;
-const uint words_of_box = 5u;
-const uint no_word = 0xffffffffu;
-
-const uint words_of_summary = 6u;  // as in samples.glsl
-const uint run_shift = 8u;         // as in collect.glsl
 const float infinity = 1.0 / 0.0;
 
-Tile tile_at(uint word) {
-    return Tile(tables[word], tables[word + 1u], tables[word + 2u], tables[word + 3u],
-                tables[word + 4u], tables[word + 5u], tables[word + 6u], tables[word + 7u],
-                tables[word + 8u], tables[word + 9u], tables[word + 10u],
-                uintBitsToFloat(uvec2(tables[word + 11u], tables[word + 12u])));
+SampleTileData tile_at(uint word) {
+    return SampleTileData(tables[word], tables[word + 1u], tables[word + 2u], tables[word + 3u],
+                          tables[word + 4u], tables[word + 5u], tables[word + 6u],
+                          tables[word + 7u], tables[word + 8u], tables[word + 9u],
+                          tables[word + 10u], uintBitsToFloat(tables[word + 11u]),
+                          uintBitsToFloat(tables[word + 12u]));
 }
 
 // `precise`, so that boxes and samples agree bit for bit.
-precise vec2 centre_of(Tile tile, uint column, uint row) {
+precise vec2 centre_of(SampleTileData tile, uint column, uint row) {
     precise vec2 offset = push.cell * (vec2(float(column), float(row)) + 0.5);
-    return tile.corner + offset;
+    return vec2(tile.corner_x, tile.corner_y) + offset;
 }
 
 void write_box(uint index) {
-    Tile tile = tile_at(push.table + words_of_tile * index);
+    SampleTileData tile = tile_at(push.table + words_of_tile * index);
     uint found = words_of_summary * tile.summary;
     uint count = words[found];
     uint box = words_of_box * (push.first_tile + index);
@@ -91,7 +55,7 @@ void write_box(uint index) {
 }
 
 // The hits among the 32 cells of a word of a row, one bit each.
-uint found_in(Tile tile, uint row, uint word) {
+uint found_in(SampleTileData tile, uint row, uint word) {
     if (tile.mask_a != no_word) {
         uint offset = row * tile.words_per_row + word;
         return words[tile.mask_a + offset] & words[tile.hits + offset];
@@ -105,15 +69,15 @@ uint found_in(Tile tile, uint row, uint word) {
     return found;
 }
 
-uint words_of_row(Tile tile) {
+uint words_of_row(SampleTileData tile) {
     return (tile.width + 31u) / 32u;
 }
 
-uint block_of(Tile tile, uint row) {
+uint block_of(SampleTileData tile, uint row) {
     return words_of_box * push.tile_count + tile.first_block + tile.block_step * row;
 }
 
-void count_row(Tile tile, uint row) {
+void count_row(SampleTileData tile, uint row) {
     uint count = 0u;
     for (uint word = 0u; word < words_of_row(tile); ++word) {
         count += uint(bitCount(found_in(tile, row, word)));
@@ -171,7 +135,7 @@ uint nearest_edge(uint first, uint count, vec2 point) {
     return nearest;
 }
 
-uint edge_of(Tile tile, uint cell, vec2 point) {
+uint edge_of(SampleTileData tile, uint cell, vec2 point) {
     if (tile.run_table == no_word) {
         return nearfield_no_edge;
     }
@@ -181,7 +145,7 @@ uint edge_of(Tile tile, uint cell, vec2 point) {
     return nearest_edge(tables[word], tables[word + 1u], point);
 }
 
-void write_row(Tile tile, uint row) {
+void write_row(SampleTileData tile, uint row) {
     uint place = blocks[block_of(tile, row)];
     for (uint word = 0u; word < words_of_row(tile); ++word) {
         uint found = found_in(tile, row, word);
@@ -209,7 +173,7 @@ void main() {
         }
         return;
     }
-    Tile tile = tile_at(push.table);
+    SampleTileData tile = tile_at(push.table);
     if (index >= tile.height) {
         return;
     }

@@ -1,19 +1,14 @@
 // Distance and feature at a cell of a field tile, from the images of the raster passes. Include
 // after nearest.glsl; the shader declares feature_image, sign_image and push.sign_mask.
 
-// push.sign_mask holds the bits of the sign image that are set inside. This value means that sign
-// and feature share an image: the sign in the top bit, the feature in the low 24.
-const uint feature_bit_sign = 1u << 31;
-const uint feature_bit_id = (1u << 24) - 1u;
-
-// Relative difference of two distances far from B that single precision cannot resolve.
-const float relative_margin = 1.0 / 262144.0;
+// push.sign_mask holds the bits of the sign image that are set inside. feature_bit_mask means that
+// sign and feature share an image: the sign in the top bit, the feature in the low 24.
 
 uint feature_at(ivec2 texel) {
     uint feature = texelFetch(feature_image, texel, 0).x;
-    if (push.sign_mask == feature_bit_sign) {
-        feature &= feature_bit_id;
-        return feature == feature_bit_id ? no_feature : feature;
+    if (push.sign_mask == feature_bit_mask) {
+        feature &= max_signed_features;
+        return feature == max_signed_features ? no_feature : feature;
     }
     return feature;
 }
@@ -24,7 +19,7 @@ bool filled_at(ivec2 texel) {
 
 // Signed distance at the centre of a cell (section 2.2.2 of the paper), in cells: analytic, to the
 // feature that won the depth test here or at a neighbour. The sign comes from the fill.
-float field_value(Tile tile, ivec2 cell) {
+float field_value(TileData tile, ivec2 cell) {
     ivec2 last = ivec2(tile.width, tile.height) - 1;
     ivec2 corner = ivec2(tile.atlas_x, tile.atlas_y);
     vec2 centre = vec2(cell) + 0.5;
@@ -39,14 +34,14 @@ float field_value(Tile tile, ivec2 cell) {
         ivec2 neighbour = clamp(cell + offsets[i], ivec2(0), last);
         uint feature = feature_at(corner + neighbour);
         if (feature != no_feature && feature != former) {
-            Edge edge = list_edge(tile.nearest, feature);
+            EdgeData edge = list_edge(tile.nearest, feature);
             nearest = min(nearest, distance_to_segment(centre, edge.a, edge.b));
             former = feature;
         }
     }
     if (isinf(nearest)) {
         for (uint i = 0u; i < tile.nearest.count; ++i) {
-            Edge edge = list_edge(tile.nearest, i);
+            EdgeData edge = list_edge(tile.nearest, i);
             nearest = min(nearest, distance_to_segment(centre, edge.a, edge.b));
         }
     }
@@ -55,14 +50,14 @@ float field_value(Tile tile, ivec2 cell) {
 
 // The nearest of B's own edges to a point in a cell, whether it is unique, and the side of the
 // boundary, as one word (plan::point_inside and the other flags). The images only save work.
-uint field_feature(Tile tile, vec2 p, ivec2 cell, out Nearest nearest) {
+uint field_feature(TileData tile, vec2 p, ivec2 cell, out Nearest nearest) {
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
     uint feature = feature_at(texel);
     nearest = nothing_near;
     bool settled = false;
     bool inside = filled_at(texel);
     if (feature != no_feature) {
-        Edge edge = list_edge(tile.nearest, feature);
+        EdgeData edge = list_edge(tile.nearest, feature);
         settled = distance_to_segment(vec2(cell) + 0.5, edge.a, edge.b) > tile.settled;
         consider_run(p, edge, nearest);
     }
@@ -71,6 +66,6 @@ uint field_feature(Tile tile, vec2 p, ivec2 cell, out Nearest nearest) {
     }
     nearest = find_nearest(p, tile.nearest, nearest);
     float margin = max(tile.margin, relative_margin * nearest.distance);
-    uint unique = has_rival(p, tile.nearest, nearest, margin) ? 0u : unique_flag;
-    return (inside ? inside_flag : 0u) | unique | nearest.edge;
+    uint unique = has_rival(p, tile.nearest, nearest, margin) ? 0u : point_unique;
+    return (inside ? point_inside : 0u) | unique | nearest.edge;
 }

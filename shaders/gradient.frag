@@ -4,17 +4,14 @@
 // The distance image shifted by a number of pixels, along x for the first component and along y for
 // the second; or a constant factor for blending.
 
+#include "push.h"
 #include "tile.glsl"
 
 layout(std430, set = 0, binding = 3) readonly buffer Field {
     uint words[];
 } field;
 
-layout(push_constant) uniform Push {
-    layout(offset = 32) int shift;  // 0: write the factor
-    float factor;
-    float largest;  // maximum magnitude that the format holds
-} push;
+layout(push_constant) uniform Push { layout(offset = gradient_push_offset) GradientPush push; };
 
 layout(location = 0) flat in uint first_value;
 layout(location = 0) out vec2 color;

@@ -6,23 +6,18 @@
 // marked here; mask_rows.comp inverts those before it.
 
 #include "masks.glsl"
+#include "push.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint edges;  // first word in the work buffer
-    uint masks;
-    uint bits;   // bits of sub-pixel precision
-} push;
+layout(push_constant) uniform Push { MaskEdgesPush push; };
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index >= push.end) {
         return;
     }
-    uint word = push.edges + 5u * index;
+    uint word = push.edges + words_of_mask_edge * index;
     ivec2 low = ivec2(work[word], work[word + 1u]);
     ivec2 high = ivec2(work[word + 2u], work[word + 3u]);
     if (low.y > high.y) {
@@ -30,7 +25,7 @@ void main() {
         low = high;
         high = former;
     }
-    Mask mask = mask_at(push.masks + 4u * work[word + 4u]);
+    MaskData mask = mask_at(push.masks, work[word + 4u]);
     int end = min(row_from(high.y, push.bits), int(mask.height));
     for (int row = max(row_from(low.y, push.bits), 0); row < end; ++row) {
         uint count = samples_left(low, high, row_centre(row, push.bits), mask.width, push.bits);

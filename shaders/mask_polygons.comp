@@ -7,20 +7,11 @@
 
 #include "masks.glsl"
 #include "overlaps.glsl"
+#include "push.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint polygons;  // first word in the work buffer
-    uint masks;
-    uint overlaps;
-    uint runs;      // first word of the cells' runs in the scratch memory
-    uint bits_of;   // bits of sub-pixel precision; plus 256: the polygons are A's
-} push;
-
-const uint of_a = 256u;
+layout(push_constant) uniform Push { MaskPolygonsPush push; };
 
 ivec2 corner(uint word, uint i) {
     return ivec2(work[word + 2u * i], work[word + 2u * i + 1u]);
@@ -39,19 +30,20 @@ void narrow(ivec2 a, ivec2 b, int y, uint width, uint bits, inout uint begin, in
     }
 }
 
-void cover(Mask mask, Overlap overlap, Mask mask_b, uint run, uint row, uint begin, uint end) {
+void cover(MaskData mask, OverlapData overlap, MaskData mask_b, uint run, uint row, uint begin,
+           uint end) {
     for (uint word = begin / 32u; word <= (end - 1u) / 32u; ++word) {
         uint low = max(begin, 32u * word) - 32u * word;
         uint count = min(end, 32u * word + 32u) - 32u * word - low;
         uint bits = (count == 32u ? ~0u : (1u << count) - 1u) << low;
-        if ((push.bits_of & of_a) != 0u) {
+        if ((push.bits_of & polygons_of_a) != 0u) {
             bits &= scratch[mask_b.first_word + row * mask_b.words_per_row + word];
         }
         if (bits == 0u) {
             continue;
         }
         atomicOr(scratch[mask.first_word + row * mask.words_per_row + word], bits);
-        if ((push.bits_of & of_a) != 0u && overlap.first_run != no_runs) {
+        if ((push.bits_of & polygons_of_a) != 0u && overlap.first_run != no_runs) {
             uint cells = push.runs + overlap.first_run + row * mask.width + 32u * word;
             while (bits != 0u) {
                 uint bit = uint(findLSB(bits));
@@ -67,17 +59,17 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    uint polygon = push.polygons + 18u * index;
-    uint bits = push.bits_of & 255u;
-    Overlap overlap = overlap_at(push.overlaps + 5u * work[polygon + 16u]);
-    uint run = work[polygon + 17u];
-    Mask mask_b = mask_at(push.masks + 4u * overlap.mask_b);
-    Mask mask = mask_b;
-    if ((push.bits_of & of_a) != 0u) {
-        mask = mask_at(push.masks + 4u * overlap.mask_a);
+    uint polygon = push.polygons + words_of_polygon * index;
+    uint bits = push.bits_of & (polygons_of_a - 1u);
+    OverlapData overlap = overlap_at(push.overlaps, work[polygon + overlap_of_polygon]);
+    uint run = work[polygon + run_of_polygon];
+    MaskData mask_b = mask_at(push.masks, overlap.mask_b);
+    MaskData mask = mask_b;
+    if ((push.bits_of & polygons_of_a) != 0u) {
+        mask = mask_at(push.masks, overlap.mask_a);
     }
     ivec2 a = corner(polygon, 0u);
-    for (uint i = 2u; i < 8u; ++i) {
+    for (uint i = 2u; i < corners_of_polygon; ++i) {
         ivec2 b = corner(polygon, i - 1u);
         ivec2 c = corner(polygon, i);
         if (product_exceeds(c.x - a.x, b.y - a.y, b.x - a.x, c.y - a.y)) {

@@ -5,23 +5,21 @@
 // or after it is odd (odd-even rule).
 
 #include "masks.glsl"
+#include "push.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint rows;  // first word in the work buffer
-} push;
+layout(push_constant) uniform Push { MaskRowsPush push; };
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index >= push.end) {
         return;
     }
-    uint first_word = work[push.rows + 2u * index];
+    uint row = push.rows + words_of_mask_row * index;
+    uint first_word = work[row];
     uint beyond = 0u;  // all ones if the words after have an odd number of marks
-    for (uint i = work[push.rows + 2u * index + 1u]; i > 0u; --i) {
+    for (uint i = work[row + 1u]; i > 0u; --i) {
         uint word = scratch[first_word + i - 1u];
         word ^= word >> 1;
         word ^= word >> 2;

@@ -1,5 +1,8 @@
-// Bit masks of tiles: the structures of engine/plan/compute_work.hpp, and the exact number of
-// samples left of an edge. Coordinates are integers, in sub-pixel steps.
+// Bit masks of tiles (compute_work.h), and the exact number of samples left of an edge. Coordinates
+// are integers, in sub-pixel steps.
+
+#include "compute_work.h"
+#include "layout.h"
 
 layout(std430, set = 0, binding = 0) readonly buffer Work {
     uint work[];
@@ -9,15 +12,10 @@ layout(std430, set = 0, binding = 1) buffer Scratch {
     uint scratch[];
 };
 
-struct Mask {
-    uint first_word;
-    uint words_per_row;
-    uint width;
-    uint height;
-};
-
-Mask mask_at(uint word) {
-    return Mask(work[word], work[word + 1u], work[word + 2u], work[word + 3u]);
+// The mask with a number; `masks`: first word of all.
+MaskData mask_at(uint masks, uint number) {
+    uint word = masks + words_of_mask * number;
+    return MaskData(work[word], work[word + 1u], work[word + 2u], work[word + 3u]);
 }
 
 // True if a * b > c * d, computed in 64 bits.

@@ -1,12 +1,9 @@
 // What the vertex shaders of meshes share: pixels of the atlas to the viewport, and distance to
 // depth.
 
-layout(push_constant) uniform Push {
-    vec2 scale;
-    vec2 bias;
-    float depth_scale;
-    uint value;
-} push;
+#include "push.h"
+
+layout(push_constant) uniform Push { MeshPush push; };
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in float distance_to_feature;

@@ -1,17 +1,16 @@
 // The nearest edge to a point, and the side of the boundary on which the point lies, computed on
 // B's own edges. Include after layout.glsl.
 
-const uint inside_flag = 1u << 31;
-const uint unique_flag = 1u << 30;
-const uint resolved_flag = 1u << 29;
 const float infinity = 1.0 / 0.0;
+// Relative difference of two distances far from B that single precision cannot resolve.
+const float relative_margin = 1.0 / 262144.0;
 
 bool crosses(vec2 p, vec2 a, vec2 b) {
     // Half-open in y, so a vertex on the ray counts once.
     return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
 }
 
-bool run_crosses(vec2 p, Edge edge) {
+bool run_crosses(vec2 p, EdgeData edge) {
     bool odd = false;
     vec2 a = geometry[edge.run];
     for (uint i = 1u; i <= edge.run_count; ++i) {
@@ -24,7 +23,7 @@ bool run_crosses(vec2 p, Edge edge) {
 
 // Odd-even rule on the original boundary. A run of edges and the straight edge that replaces it
 // enclose no point outside the box around both, so only points in that box need the run itself.
-bool inside_by_crossings(vec2 p, EdgeList list) {
+bool inside_by_crossings(vec2 p, EdgeListData list) {
     bool odd = false;
     for (uint first = 0u; first < list.count; first += cluster_size) {
         vec4 box = cluster_box(list, first);
@@ -33,7 +32,7 @@ bool inside_by_crossings(vec2 p, EdgeList list) {
         }
         uint end = min(first + cluster_size, list.count);
         for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
+            EdgeData edge = list_edge(list, i);
             vec2 edge_low = min(edge.a, edge.b) - edge.deviation;
             vec2 edge_high = max(edge.a, edge.b) + edge.deviation;
             bool near = all(greaterThanEqual(p, edge_low)) && all(lessThanEqual(p, edge_high));
@@ -60,7 +59,7 @@ void consider(vec2 p, vec2 a, vec2 b, uint edge, inout Nearest nearest) {
     }
 }
 
-void consider_run(vec2 p, Edge edge, inout Nearest nearest) {
+void consider_run(vec2 p, EdgeData edge, inout Nearest nearest) {
     if (edge.run_count == 1u) {
         consider(p, edge.a, edge.b, edge.first_edge, nearest);
         return;
@@ -73,14 +72,14 @@ void consider_run(vec2 p, Edge edge, inout Nearest nearest) {
     }
 }
 
-Nearest find_nearest(vec2 p, EdgeList list, Nearest nearest) {
+Nearest find_nearest(vec2 p, EdgeListData list, Nearest nearest) {
     for (uint first = 0u; first < list.count; first += cluster_size) {
         if (distance_to_box(p, cluster_box(list, first)) > nearest.distance) {
             continue;
         }
         uint end = min(first + cluster_size, list.count);
         for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
+            EdgeData edge = list_edge(list, i);
             if (distance_to_segment(p, edge.a, edge.b) - edge.deviation < nearest.distance) {
                 consider_run(p, edge, nearest);
             }
@@ -99,7 +98,7 @@ bool is_rival(vec2 p, vec2 a, vec2 b, Nearest nearest, float margin) {
     return distance(p, q) <= limit && dot(apart, apart) > 4.0 * along_wall;
 }
 
-bool run_has_rival(vec2 p, Edge edge, Nearest nearest, float margin) {
+bool run_has_rival(vec2 p, EdgeData edge, Nearest nearest, float margin) {
     if (edge.run_count == 1u) {
         return is_rival(p, edge.a, edge.b, nearest, margin);
     }
@@ -114,7 +113,7 @@ bool run_has_rival(vec2 p, Edge edge, Nearest nearest, float margin) {
     return false;
 }
 
-bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
+bool has_rival(vec2 p, EdgeListData list, Nearest nearest, float margin) {
     float limit = nearest.distance + margin;
     for (uint first = 0u; first < list.count; first += cluster_size) {
         if (distance_to_box(p, cluster_box(list, first)) > limit) {
@@ -122,7 +121,7 @@ bool has_rival(vec2 p, EdgeList list, Nearest nearest, float margin) {
         }
         uint end = min(first + cluster_size, list.count);
         for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
+            EdgeData edge = list_edge(list, i);
             if (distance_to_segment(p, edge.a, edge.b) - edge.deviation <= limit &&
                 run_has_rival(p, edge, nearest, margin)) {
                 return true;
@@ -144,7 +143,7 @@ OnEdge on_segment(vec2 p, vec2 a, vec2 b) {
 }
 
 // `list`: a list that holds the nearest edge, by itself or in a run.
-OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
+OnEdge on_edge(vec2 p, EdgeListData list, Nearest nearest) {
     // The nearest point lies in the box of its edge, up to rounding.
     float slack = 0.25 + nearest.distance / 65536.0;
     for (uint first = 0u; first < list.count; first += cluster_size) {
@@ -153,7 +152,7 @@ OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
         }
         uint end = min(first + cluster_size, list.count);
         for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(list, i);
+            EdgeData edge = list_edge(list, i);
             uint in_run = nearest.edge - edge.first_edge;  // huge if the run comes after it
             if (in_run < edge.run_count) {
                 return edge.run_count == 1u ? on_segment(p, edge.a, edge.b)
@@ -165,11 +164,7 @@ OnEdge on_edge(vec2 p, EdgeList list, Nearest nearest) {
     return OnEdge(0.5, vec2(0.0));
 }
 
-// Flags in the unused bits of a field's word: the first or last vertex of the edge is nearest.
-const uint first_vertex_flag = 1u << 28;
-const uint last_vertex_flag = 1u << 29;
-
-uint vertex_flags(vec2 p, EdgeList list, Nearest nearest) {
+uint vertex_flags(vec2 p, EdgeListData list, Nearest nearest) {
     float along = on_edge(p, list, nearest).along;
     return along <= 0.0 ? first_vertex_flag : (along >= 1.0 ? last_vertex_flag : 0u);
 }

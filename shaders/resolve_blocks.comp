@@ -1,5 +1,6 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_GOOGLE_include_directive : require
 
 // The signed distance at every cell of a field (section 2.2.2 of the paper), from the segments that
 // can be nearest in the cell's block. Eight threads per block, two columns per thread: each segment
@@ -9,15 +10,17 @@
 // along the segment and one across it. The distance is the one across, combined beyond an end with
 // the distance along to that end. Both coordinates change by constant steps from row to row.
 
-layout(local_size_x = 64) in;
+#include "compute_work.h"
+#include "layout.h"
+#include "push.h"
 
-// plan::BlockData
+layout(local_size_x = group_size) in;
+
 layout(std430, set = 0, binding = 0) readonly buffer Blocks {
-    uvec4 blocks[];  // two per block, in the order of plan::BlockData
+    uvec4 blocks[];  // two per BlockData
 };
-// plan::SegmentData
 layout(std430, set = 0, binding = 1) readonly buffer Segments {
-    vec4 segments[];
+    vec4 segments[];  // one per SegmentData
 };
 layout(std430, set = 0, binding = 2) readonly buffer Scratch {
     uint scratch[];
@@ -26,13 +29,9 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
 
-layout(push_constant) uniform Push {
-    uint first;  // first thread; eight per block
-    uint end;
-} push;
+layout(push_constant) uniform Push { ResolveBlocksPush push; };
 
-const uint threads_per_block = 8u;
-const float columns_apart = 8.0;
+const float columns_apart = float(threads_per_block);
 const vec4 rows = vec4(0.0, 1.0, 2.0, 3.0);
 
 // Squared distances of 16 cells above each other, as bits: non-negative floats have the same order
@@ -79,25 +78,10 @@ void consider_segment(uint index, vec2 cell, inout Column left, inout Column rig
     consider(from_middle + vec2(columns_apart, 0.0), way, squared * inverse, right);
 }
 
-// Some drivers end a loop after 65,535 turns, without notice: engine/plan/compute_batch_builder.cpp
-// limits the list.
-const uint segments_per_turn = 4u;
-
-struct Block {
-    uint first_segment;
-    uint end_segment;
-    uvec2 size;
-    uint tile_width;
-    uint value;
-    uint sign;
-    uint first_sign;
-    uint words_per_row;
-};
-
-Block block_at(uint index) {
+BlockData block_at(uint index) {
     uvec4 a = blocks[2u * index];
     uvec4 b = blocks[2u * index + 1u];
-    return Block(a.x, a.x + a.y, uvec2(a.z & 0xffffu, a.z >> 16), a.w, b.x, b.y, b.z, b.w);
+    return BlockData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
 void write(uint word, uint squared, bool inside) {
@@ -105,14 +89,14 @@ void write(uint word, uint squared, bool inside) {
     field.words[word] = floatBitsToUint(inside ? -value : value);
 }
 
-void write_rows(Block block, uint row, uint x, uvec4 left, uvec4 right) {
+void write_rows(BlockData block, uvec2 size, uint row, uint x, uvec4 left, uvec4 right) {
     uint beside = x + threads_per_block;
     for (uint i = 0u; i < 4u; ++i) {
-        if (row + i < block.size.y) {
+        if (row + i < size.y) {
             uint signs = scratch[block.sign + (row + i) * block.words_per_row] >> block.first_sign;
             uint word = block.value + (row + i) * block.tile_width + x;
             write(word, left[i], (signs >> x & 1u) != 0u);
-            if (beside < block.size.x) {
+            if (beside < size.x) {
                 write(word + threads_per_block, right[i], (signs >> beside & 1u) != 0u);
             }
         }
@@ -124,23 +108,25 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    Block block = block_at(index / threads_per_block);
+    BlockData block = block_at(index / threads_per_block);
     uint x = index % threads_per_block;
-    if (x >= block.size.x) {
+    uvec2 size = unpacked(block.size);
+    if (x >= size.x) {
         return;
     }
     Column left = nothing_near;
     Column right = nothing_near;
     vec2 cell = vec2(float(x) + 0.5, 0.5);
-    for (uint i = block.first_segment; i < block.end_segment; i += segments_per_turn) {
+    uint end = block.first_segment + block.segments;
+    for (uint i = block.first_segment; i < end; i += segments_per_turn) {
         [[unroll]] for (uint k = 0u; k < segments_per_turn; ++k) {
-            if (i + k < block.end_segment) {
+            if (i + k < end) {
                 consider_segment(i + k, cell, left, right);
             }
         }
     }
-    write_rows(block, 0u, x, left.rows_0, right.rows_0);
-    write_rows(block, 4u, x, left.rows_4, right.rows_4);
-    write_rows(block, 8u, x, left.rows_8, right.rows_8);
-    write_rows(block, 12u, x, left.rows_12, right.rows_12);
+    write_rows(block, size, 0u, x, left.rows_0, right.rows_0);
+    write_rows(block, size, 4u, x, left.rows_4, right.rows_4);
+    write_rows(block, size, 8u, x, left.rows_8, right.rows_8);
+    write_rows(block, size, 12u, x, left.rows_12, right.rows_12);
 }

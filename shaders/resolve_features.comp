@@ -4,27 +4,24 @@
 // The nearest feature at every cell of a field, one thread per cell of a block.
 
 #include "layout.glsl"
+#include "push.h"
 #include "nearest.glsl"
 #include "blocks.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint resident;  // 1: features are resident and flag nearest vertices
-} push;
+layout(push_constant) uniform Push { ResolveFeaturesPush push; };
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
     if (index >= push.end) {
         return;
     }
-    Tile block = tile_at(index / (block_side * block_side));
+    TileData block = tile_at(index / (block_side * block_side));
     uvec2 in_block = uvec2(index % block_side, index / block_side % block_side);
     if (block.first_feature == not_asked || in_block.x >= block.width ||
         in_block.y >= block.height) {

@@ -4,9 +4,10 @@
 // The requested outputs at every cell of a field tile: signed distance, nearest feature.
 
 #include "layout.glsl"
+#include "push.h"
 #include "nearest.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = field_group_side, local_size_y = field_group_side) in;
 
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
@@ -14,22 +15,16 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 layout(set = 0, binding = 4) uniform usampler2D feature_image;
 layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
-layout(push_constant) uniform Push {
-    uint first_group;
-    uint sign_mask;
-    uint resident;  // 1: features are resident and flag nearest vertices
-} push;
+layout(push_constant) uniform Push { ResolveFieldPush push; };
 
 #include "field.glsl"
-
-const uint not_asked = 0xffffffffu;
 
 void main() {
     CellGroup group = group_at(push.first_group + gl_WorkGroupID.x);
     uint first_value = group.first;     // first word of the tile's values, or not_asked
     uint first_feature = group.second;  // first word of its features, or not_asked
-    Tile tile = tile_at(group.tile);
-    ivec2 cell = ivec2(group.cell + gl_LocalInvocationID.xy);
+    TileData tile = tile_at(group.tile);
+    ivec2 cell = ivec2(unpacked(group.cell) + gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(tile.width, tile.height)))) {
         return;
     }

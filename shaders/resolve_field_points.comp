@@ -6,18 +6,13 @@
 // those.
 
 #include "layout.glsl"
+#include "push.h"
 #include "nearest.glsl"
 
-layout(local_size_x = 64) in;
-
-struct Point {
-    vec2 position;
-    uint tile;
-    uint cell;  // the low one of the four cells around it, column | row << 16
-};
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    Point points[];
+    PointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
@@ -25,15 +20,7 @@ layout(std430, set = 0, binding = 3) writeonly buffer Field {
 layout(set = 0, binding = 4) uniform usampler2D feature_image;
 layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint sign_mask;
-    uint first_word;       // first word of point `origin`
-    uint origin;
-    uint words_per_point;  // plan::FieldParts
-    uint cells_per_point;  // 4, or 12 for central differences
-} push;
+layout(push_constant) uniform Push { ResolveFieldPointsPush push; };
 
 #include "field.glsl"
 #include "around.glsl"
@@ -43,10 +30,10 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    Point point = points[index];
-    Tile tile = tile_at(point.tile);
+    PointData point = points[index];
+    TileData tile = tile_at(point.tile);
     ivec2 last = ivec2(tile.width, tile.height) - 1;
-    ivec2 low = ivec2(point.cell & 0xffffu, point.cell >> 16);
+    ivec2 low = ivec2(unpacked(point.cell));
     uint word = push.first_word + (index - push.origin) * push.words_per_point;
     ivec2 own = clamp(ivec2(floor(point.position)), ivec2(0), last);
     Nearest nearest;

@@ -5,27 +5,20 @@
 // resolve_field_points.comp, but from edge lists and fill masks in place of images.
 
 #include "layout.glsl"
+#include "push.h"
 #include "nearest.glsl"
 #include "blocks.glsl"
 #include "around.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint end;
-    uint points;           // where they start in the geometry array; even
-    uint first_word;       // first word of point `origin`
-    uint origin;
-    uint words_per_point;  // plan::FieldParts
-    uint cells_per_point;  // 4, or 12 for central differences
-} push;
+layout(push_constant) uniform Push { ResolveFieldPointsByListsPush push; };
 
-float value_at(Tile block, ivec2 cell) {
+float value_at(TileData block, ivec2 cell) {
     vec2 p = vec2(cell) + 0.5;
     float nearest = infinity;
     for (uint first = 0u; first < block.nearest.count; first += cluster_size) {
@@ -34,7 +27,7 @@ float value_at(Tile block, ivec2 cell) {
         }
         uint end = min(first + cluster_size, block.nearest.count);
         for (uint i = first; i < end; ++i) {
-            Edge edge = list_edge(block.nearest, i);
+            EdgeData edge = list_edge(block.nearest, i);
             nearest = min(nearest, distance_to_segment(p, edge.a, edge.b));
         }
     }
@@ -48,9 +41,9 @@ void main() {
     }
     vec4 point = pairs[push.points / 2u + index];
     vec2 p = point.xy;
-    Tile block = tile_at(floatBitsToUint(point.z));
+    TileData block = tile_at(floatBitsToUint(point.z));
     uint corner = floatBitsToUint(point.w);
-    ivec2 low = ivec2(corner & 0xffffu, corner >> 16);
+    ivec2 low = ivec2(unpacked(corner));
     uint word = push.first_word + (index - push.origin) * push.words_per_point;
     Nearest nearest;
     field.words[word] = feature_at(block, p, uvec2(floor(p)), nearest);

@@ -6,18 +6,13 @@
 // for the nearest feature. The rest is decided on B's own edges.
 
 #include "layout.glsl"
+#include "push.h"
 #include "nearest.glsl"
 
-layout(local_size_x = 64) in;
-
-struct Point {
-    vec2 position;
-    uint tile;
-    uint cell;  // fields only
-};
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) readonly buffer Points {
-    Point points[];
+    PointData points[];
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Results {
     uint results[];
@@ -25,16 +20,12 @@ layout(std430, set = 0, binding = 3) writeonly buffer Results {
 layout(set = 0, binding = 4) uniform usampler2D feature_image;
 layout(set = 0, binding = 5) uniform usampler2D sign_image;
 
-layout(push_constant) uniform Push {
-    uint first;
-    uint count;
-    uint details;  // first word of the details in the results, or no_details
-} push;
+layout(push_constant) uniform Push { ResolvePointsPush push; };
 
 #include "details.glsl"
 
-uint resolve(uint index, Point point) {
-    Tile tile = tile_at(point.tile);
+uint resolve(uint index, PointData point) {
+    TileData tile = tile_at(point.tile);
     vec2 p = point.position;
     ivec2 cell = clamp(ivec2(floor(p)), ivec2(0), ivec2(tile.width, tile.height) - 1);
     ivec2 texel = ivec2(tile.atlas_x, tile.atlas_y) + cell;
@@ -44,7 +35,7 @@ uint resolve(uint index, Point point) {
     bool settled = false;
     bool inside = texelFetch(sign_image, texel, 0).x != 0u;
     if (feature != no_feature) {
-        Edge edge = list_edge(tile.nearest, feature);
+        EdgeData edge = list_edge(tile.nearest, feature);
         settled = distance_to_segment(vec2(cell) + 0.5, edge.a, edge.b) > tile.settled;
         if (settled && !inside && tile.outside == 0u) {
             return 0u;
@@ -59,13 +50,13 @@ uint resolve(uint index, Point point) {
     }
     nearest = find_nearest(p, tile.nearest, nearest);
     write_details(index, p, nearest, tile);
-    uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : unique_flag;
-    return resolved_flag | (inside ? inside_flag : 0u) | unique | nearest.edge;
+    uint unique = has_rival(p, tile.nearest, nearest, tile.margin) ? 0u : point_unique;
+    return point_resolved | (inside ? point_inside : 0u) | unique | nearest.edge;
 }
 
 void main() {
     uint index = push.first + gl_GlobalInvocationID.x;
-    if (index < push.count) {
+    if (index < push.end) {
         results[index] = resolve(index, points[index]);
     }
 }

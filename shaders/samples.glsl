@@ -1,19 +1,12 @@
-// The output of an intersection: a summary per tile (plan::TileSummary) and a list of samples.
+// The output of an intersection: a summary per tile and a list of samples (layout.h).
 
-struct Summary {
-    uint count;
-    uint low_column;
-    uint low_row;
-    uint high_column;
-    uint high_row;
-    uint passed;  // 0: the occlusion query found no sample
-};
+#include "layout.h"
 
 layout(std430, set = 0, binding = 2) buffer Summaries {
-    Summary summaries[];  // one per tile
+    TileSummary summaries[];  // one per tile
 };
 
 layout(std430, set = 0, binding = 3) buffer Samples {
     uint count;
-    uint words[];  // plan::SampleData: three words per sample
+    uint words[];  // words_of_sample per sample
 } samples;

@@ -1,6 +1,8 @@
-// The search for boundary points: the structures of engine/plan/point_search.hpp (std430), and
-// walks over a shape's boxes. All positions and lengths are in B's frame, relative to its centre, in
-// its units.
+// The search for boundary points (search.h): access to its input, and walks over a shape's boxes.
+// All positions and lengths are in B's frame, relative to its centre, in its units.
+
+#include "push.h"
+#include "search.h"
 
 layout(std430, set = 0, binding = 0) readonly buffer Input {
     uvec4 units[];
@@ -15,27 +17,10 @@ layout(std430, set = 0, binding = 1) buffer ScratchUnits {
     uvec4 scratch_units[];  // the same memory
 };
 
-layout(push_constant) uniform Push {
-    uint first;           // item of this dispatch
-    uint items;           // pieces of eight edges of A, of all directions
-    uint directions;      // first unit
-    uint direction_count;
-    uint item_blocks;     // first words, and first units, of arrays in the scratch memory
-    uint edge_blocks;
-    uint point_blocks;
-    uint item_words;
-    uint edge_units;
-    uint point_units;
-    uint stage;           // of search_scan.comp
-    uint capacity;        // of the elements that the stage counts
-} push;
+layout(push_constant) uniform Push { SearchPush push; };
 
-const uint block_size = 64u;  // elements with one sum; one workgroup
-const uint chunk_size = 8u;   // edges per box, and boxes per box of the next level
-const uint max_levels = 8u;
-const uint no_parts = 0xffffffffu;
-const uint points_per_thread = 4u;  // of search_points.comp
-const uint local_shift = 24u;  // beside a thread's first direction: points found before it
+// Beside the direction of a thread's first point, from this bit on: the points found before it.
+const uint local_shift = 24u;
 const float infinity = 1.0 / 0.0;
 
 // The parts of the input. Some devices read texels several times as fast, and others allow too few.
@@ -51,52 +36,42 @@ uint word_at(uint word) {
     return unit_at(word >> 2)[word & 3u];
 }
 
-// The counts at the start of the scratch memory.
-const uint edge_total = 0u;
-const uint point_total = 1u;
-const uint record_total = 2u;
-
 uint dispatched_index() {
-    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * block_size +
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * search_block +
            gl_LocalInvocationID.x;
 }
 
-struct Direction {
-    mat2 rotation;  // from A's frame to B's, with the ratio of their units
-    vec2 translation;
-    uint shape_a;  // first units
-    uint shape_b;
-    uint parts;  // first word: of each edge of A, its number of parts; no_parts: one each
-    uint first_item;
-    float reach;   // farther from B's boundary than this, points outside are not asked for
-    float margin;  // bound on the errors of single precision
-    float rival;   // a second point that is farther by no more makes the nearest not unique
-    bool outside;  // points outside B are asked for as well
-    float doubt;   // a second edge that is farther by no more leaves the nearest one in doubt;
-                   // negative: none does
-};
-
-Direction direction_at(uint index) {
-    uint unit = push.directions + 4u * index;
+SearchDirectionData direction_at(uint index) {
+    uint unit = push.directions + units_of_direction * index;
     vec4 place = floats_at(unit);
     uvec4 shapes = unit_at(unit + 1u);
     vec4 lengths = floats_at(unit + 2u);
-    return Direction(mat2(place.x, place.y, -place.y, place.x), place.zw, shapes.x, shapes.y,
-                     shapes.z, shapes.w, lengths.x, lengths.y, lengths.z, lengths.w != 0.0,
-                     floats_at(unit + 3u).x);
+    return SearchDirectionData(place.xy, place.zw, shapes.x, shapes.y, shapes.z, shapes.w,
+                               lengths.x, lengths.y, lengths.z, lengths.w,
+                               floats_at(unit + 3u).x, float[3](0.0, 0.0, 0.0));
+}
+
+// From A's frame to B's, with the ratio of their units.
+mat2 rotation_of(SearchDirectionData direction) {
+    return mat2(direction.axis.x, direction.axis.y, -direction.axis.y, direction.axis.x);
+}
+
+// A point of A's frame in B's.
+vec2 placed(SearchDirectionData direction, vec2 point) {
+    return rotation_of(direction) * point + direction.offset;
 }
 
 // The direction that an item belongs to.
 uint direction_of(uint item) {
     // The first directions of blocks of items follow the directions.
-    uint blocks = 4u * (push.directions + 4u * push.direction_count);
-    uint block = item / block_size;
+    uint blocks = 4u * (push.directions + units_of_direction * push.direction_count);
+    uint block = item / search_block;
     uint low = word_at(blocks + block);
-    uint count = (block_size * (block + 1u) < push.items ? word_at(blocks + block + 1u) + 1u
+    uint count = (search_block * (block + 1u) < push.items ? word_at(blocks + block + 1u) + 1u
                                                          : push.direction_count) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (unit_at(push.directions + 4u * (low + half_count) + 1u).w <= item) {
+        if (unit_at(push.directions + units_of_direction * (low + half_count) + 1u).w <= item) {
             low += half_count;
             count -= half_count;
         } else {
@@ -109,19 +84,18 @@ uint direction_of(uint item) {
 struct Shape {
     uint chunks;
     uint levels;
-    uint edges;  // first unit: one per edge, eight per chunk
-    uint infos;  // first word: of each chunk, its first edge << 4 | its number of edges; then, of
-                 // each place along the rings, its chunk
+    uint edges;  // first unit
+    uint infos;  // first word
     uint first_boxes;  // first word: of each level, its first unit
 };
 
 Shape shape_at(uint unit) {
     uvec4 head = unit_at(unit);
-    return Shape(head.x, head.y, head.z, head.w, 4u * (unit + 2u));
+    return Shape(head.x, head.y, head.z, head.w, 4u * (unit + unit_of_first_boxes));
 }
 
 vec4 box_of_shape(uint unit) {
-    return floats_at(unit + 1u);
+    return floats_at(unit + unit_of_box);
 }
 
 // The chunk at a place along the rings of the shape.
@@ -139,7 +113,7 @@ uint number_of(Shape shape, uint slot) {
     return (word_at(shape.infos + slot / chunk_size) >> 4) + slot % chunk_size;
 }
 
-uint parts_of(Direction direction, uint edge) {
+uint parts_of(SearchDirectionData direction, uint edge) {
     return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
 
@@ -161,7 +135,7 @@ uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) 
 
 // The block of elements that counts an element of the next stage. `elements`: of all blocks.
 uint block_of(uint index, uint first_block, uint elements) {
-    return last_at_most(index, first_block, (elements + block_size - 1u) / block_size, 1u, 0u);
+    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u, 0u);
 }
 
 vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {

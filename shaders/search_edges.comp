@@ -8,7 +8,7 @@
 #include "search.glsl"
 #include "block_sum.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 struct Item {
     uint direction;
@@ -94,15 +94,15 @@ bool find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides, out Stret
 Item item_of(uint index) {
     uint block = block_of(index, push.item_blocks, push.items);
     uint rest = index - scratch[push.item_blocks + block];
-    uint low = block * block_size;
-    low += last_at_most(rest, push.item_words + low, min(block_size, push.items - low), 1u, 8u);
+    uint low = block * search_block;
+    low += last_at_most(rest, push.item_words + low, min(search_block, push.items - low), 1u, 8u);
     uint word = scratch[push.item_words + low];
     uint mask = word & 255u;
     for (uint skip = rest - (word >> 8); skip > 0u; --skip) {
         mask &= mask - 1u;
     }
     uint direction = direction_of(low);
-    uvec4 shapes = unit_at(push.directions + 4u * direction + 1u);
+    uvec4 shapes = unit_at(push.directions + units_of_direction * direction + 1u);
     uint chunk = chunk_along_rings(shape_at(shapes.x), low - shapes.w);
     return Item(direction, chunk_size * chunk + findLSB(mask));
 }
@@ -117,15 +117,15 @@ struct Points {
 };
 
 Points points_of(Item item) {
-    Direction direction = direction_at(item.direction);
+    SearchDirectionData direction = direction_at(item.direction);
     Shape a = shape_at(direction.shape_a);
     Shape b = shape_at(direction.shape_b);
     vec4 edge = floats_at(a.edges + item.slot);
     uint parts = parts_of(direction, number_of(a, item.slot));
-    vec2 from = direction.rotation * edge.xy + direction.translation;
-    vec2 end = direction.rotation * edge.zw + direction.translation;
+    vec2 from = placed(direction, edge.xy);
+    vec2 end = placed(direction, edge.zw);
     vec2 to = parts == 1u ? from : from + (end - from) * (float(parts - 1u) / float(parts));
-    bool sides = !direction.outside;
+    bool sides = direction.outside == 0.0;
     Stretch stretch;
     if (!find_stretch(from, to, b, direction.reach + 2.0 * direction.margin, sides, stretch)) {
         return Points(0u, parts, 0u, parts);
@@ -152,7 +152,7 @@ void main() {
         item = item_of(index);
         points = points_of(item);
     }
-    uint before = sum_before(points.count, push.edge_blocks + index / block_size);
+    uint before = sum_before(points.count, push.edge_blocks + index / search_block);
     if (exists) {
         uint unit = push.edge_units + 2u * index;
         scratch_units[unit] = uvec4(item.direction, item.slot, points.first, before);

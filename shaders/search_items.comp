@@ -7,22 +7,23 @@
 #include "search.glsl"
 #include "block_sum.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 bool overlap(vec4 a, vec4 b) {
     return all(lessThanEqual(a.xy, b.zw)) && all(lessThanEqual(b.xy, a.zw));
 }
 
 // The box, in B's frame, of a box in A's.
-vec4 transformed(Direction direction, vec4 box) {
-    vec2 centre = direction.rotation * (0.5 * (box.xy + box.zw)) + direction.translation;
+vec4 transformed(SearchDirectionData direction, vec4 box) {
+    mat2 rotation = rotation_of(direction);
+    vec2 centre = placed(direction, 0.5 * (box.xy + box.zw));
     vec2 half_size = 0.5 * (box.zw - box.xy);
-    vec2 reach = abs(direction.rotation[0]) * half_size.x + abs(direction.rotation[1]) * half_size.y;
+    vec2 reach = abs(rotation[0]) * half_size.x + abs(rotation[1]) * half_size.y;
     return vec4(centre - reach, centre + reach);
 }
 
 uint edges_of(uint item) {
-    Direction direction = direction_at(direction_of(item));
+    SearchDirectionData direction = direction_at(direction_of(item));
     Shape a = shape_at(direction.shape_a);
     uint chunk = chunk_along_rings(a, item - direction.first_item);
     float grow = direction.reach + 2.0 * direction.margin;
@@ -34,8 +35,8 @@ uint edges_of(uint item) {
     uint mask = 0u;
     for (uint i = 0u; i < (info & 15u); ++i) {
         vec4 edge = floats_at(a.edges + chunk_size * chunk + i);
-        vec2 from = direction.rotation * edge.xy + direction.translation;
-        vec2 to = direction.rotation * edge.zw + direction.translation;
+        vec2 from = placed(direction, edge.xy);
+        vec2 to = placed(direction, edge.zw);
         if (overlap(vec4(min(from, to), max(from, to)), near) &&
             parts_of(direction, (info >> 4) + i) > 0u) {
             mask |= 1u << i;
@@ -47,7 +48,7 @@ uint edges_of(uint item) {
 void main() {
     uint item = push.first + dispatched_index();
     uint mask = item < push.items ? edges_of(item) : 0u;
-    uint before = sum_before(bitCount(mask), push.item_blocks + item / block_size);
+    uint before = sum_before(bitCount(mask), push.item_blocks + item / search_block);
     if (item < push.items) {
         scratch[push.item_words + item] = mask | before << 8;
     }

@@ -6,7 +6,7 @@
 
 #include "search.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = group_size) in;
 
 layout(std430, set = 0, binding = 2) writeonly buffer Records {
     uvec4 records[];  // direction, edge of A, sample on it, word
@@ -16,7 +16,7 @@ void main() {
     uint thread = dispatched_index();
     uint begin = points_per_thread * thread;
     uint end = min(begin + points_per_thread, scratch[point_total]);
-    uint target = scratch[push.point_blocks + thread / block_size];
+    uint target = scratch[push.point_blocks + thread / search_block];
     for (uint i = begin; i < end; ++i) {
         uvec4 record = scratch_units[push.point_units + i];
         if (i == begin) {

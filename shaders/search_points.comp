@@ -8,12 +8,7 @@
 #include "search.glsl"
 #include "block_sum.glsl"
 
-layout(local_size_x = 64) in;
-
-const uint inside_flag = 1u << 31;
-const uint unique_flag = 1u << 30;
-const uint resolved_flag = 1u << 29;
-const uint doubt_flag = 1u << 28;
+layout(local_size_x = group_size) in;
 
 // Four points, in B's frame, and a disc that holds them.
 struct Points {
@@ -181,7 +176,7 @@ struct Rivals {
 // more than twice as far from it as one straight edge explains. A second edge that is as near, up to
 // rounding, leaves both in doubt, except for a neighbour with the same nearest point.
 void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uvec4 edge,
-                   Direction direction, inout Rivals rivals) {
+                   SearchDirectionData direction, inout Rivals rivals) {
     vec4 limit = near + direction.rival;
     vec4 along_wall = direction.rival * (limit + near);  // limit^2 - distance^2
     vec4 in_doubt = near + direction.doubt;
@@ -205,7 +200,7 @@ void compare_chunk(Points p, Shape b, uint chunk, Nearest nearest, vec4 near, uv
     }
 }
 
-Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction direction,
+Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, SearchDirectionData direction,
                    inout bool too_long) {
     Rivals rivals = Rivals(bvec4(false), bvec4(false));
     vec4 near = sqrt(nearest.squared);
@@ -232,12 +227,12 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, Direction dir
 }
 
 // Returns the words of four points; 0 for those that are not asked for.
-uvec4 resolve(Points p, bvec4 asked, Direction direction) {
+uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction) {
     Shape b = shape_at(direction.shape_b);
     bool too_long = false;
     bvec4 inside = find_inside(p, asked, b, too_long);
     float near_boundary = 2.0 * direction.margin;
-    vec4 limit = direction.outside ? vec4(direction.reach + near_boundary)
+    vec4 limit = direction.outside != 0.0 ? vec4(direction.reach + near_boundary)
                                    : mix(vec4(near_boundary), vec4(infinity), inside);
     Nearest nearest = find_nearest(p, b, limit, too_long);
     uvec4 found = uvec4(notEqual(nearest.slot, uvec4(no_parts)));
@@ -250,12 +245,12 @@ uvec4 resolve(Points p, bvec4 asked, Direction direction) {
         rivals = find_rivals(p, b, nearest, edge, direction, too_long);
     }
     if (too_long) {
-        return resolved_flag | doubt_flag | edge;
+        return point_resolved | point_doubtful | edge;
     }
     uvec4 doubtful = uvec4(rivals.doubtful) |
                      uvec4(lessThanEqual(nearest.squared, vec4(near_boundary * near_boundary)));
-    return found * (resolved_flag | uvec4(inside) * inside_flag |
-                    uvec4(not(rivals.exist)) * unique_flag | doubtful * doubt_flag | edge);
+    return found * (point_resolved | uvec4(inside) * point_inside |
+                    uvec4(not(rivals.exist)) * point_unique | doubtful * point_doubtful | edge);
 }
 
 // A place among the points that the step before has found: an edge of A, and a point on it.
@@ -277,11 +272,11 @@ Place place_of(uint index) {
     uint edges = scratch[edge_total];
     uint block = block_of(index, push.edge_blocks, edges);
     uint rest = index - scratch[push.edge_blocks + block];
-    uint low = block * block_size;
+    uint low = block * search_block;
     // The last word of the first of two units.
     uint first = 4u * (push.edge_units + 2u * low) + 3u;
     Place place;
-    place.element = low + last_at_most(rest, first, min(block_size, edges - low), 8u, 0u);
+    place.element = low + last_at_most(rest, first, min(search_block, edges - low), 8u, 0u);
     load(place);
     place.point += rest - place.edge.w;
     return place;
@@ -325,7 +320,7 @@ Batch batch_at(uint index, uint count) {
 // Resolves the points from `first` on that have the same direction, and moves `first` behind them.
 void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, inout uvec4 words) {
     uint index = batch.direction[first];
-    Direction direction = direction_at(index);
+    SearchDirectionData direction = direction_at(index);
     Shape a = shape_at(direction.shape_a);
     vec4 x, y;
     bvec4 asked;
@@ -337,8 +332,8 @@ void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, i
         vec4 edge = floats_at(a.edges + batch.slot[source]);
         uint number = number_of(a, batch.slot[source]);
         float along = float(batch.number[source]) / float(parts_of(direction, number));
-        vec2 from = direction.rotation * edge.xy + direction.translation;
-        vec2 end = direction.rotation * edge.zw + direction.translation;
+        vec2 from = placed(direction, edge.xy);
+        vec2 end = placed(direction, edge.zw);
         vec2 p = from + along * (end - from);
         x[i] = p.x;
         y[i] = p.y;
@@ -367,7 +362,7 @@ void main() {
     }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
     uint before = sum_before(found.x + found.y + found.z + found.w,
-                             push.point_blocks + thread / block_size);
+                             push.point_blocks + thread / search_block);
     for (uint i = 0u; i < count; ++i) {
         scratch_units[push.point_units + index + i] =
             uvec4(batch.direction[i] | (i == 0u ? before << local_shift : 0u), edges[i],

@@ -15,8 +15,6 @@ layout(std430, set = 0, binding = 3) buffer Arguments {
 
 shared uint sums[256];
 
-const uint max_groups = 65535u;
-
 // Of the steps that look at points.
 uint threads_for(uint points) {
     return (points + points_per_thread - 1u) / points_per_thread;
@@ -29,7 +27,7 @@ void main() {
     uint elements = push.stage == edge_total     ? push.items
                     : push.stage == record_total ? threads_for(scratch[point_total])
                                                  : scratch[edge_total];
-    uint blocks = (elements + block_size - 1u) / block_size;
+    uint blocks = (elements + search_block - 1u) / search_block;
     uint share = (blocks + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(gl_LocalInvocationID.x * share, blocks);
     uint end = min(begin + share, blocks);
@@ -47,10 +45,10 @@ void main() {
         uint total = before + sum;
         uint room = min(total, push.capacity);
         uint threads = push.stage == point_total ? threads_for(room) : room;
-        uint groups = (threads + block_size - 1u) / block_size;
-        uint rows = (groups + max_groups - 1u) / max_groups;
+        uint groups = (threads + search_block - 1u) / search_block;
+        uint rows = (groups + max_workgroups - 1u) / max_workgroups;
         scratch[push.stage] = room;
-        arguments[push.stage] = uvec4(min(groups, max_groups), rows, 1u, total);
+        arguments[push.stage] = uvec4(min(groups, max_workgroups), rows, 1u, total);
     }
     for (uint i = begin; i < end; ++i) {
         uint own = scratch[first + i];

@@ -3,9 +3,10 @@
 #include <engine/cpu/common_point.hpp>
 #include <engine/narrowphase/closest_pair.hpp>
 #include <engine/narrowphase/overlap_test.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <nearfield/result.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 #include <span>

@@ -1,10 +1,11 @@
 #include <engine/base/interruption.hpp>
 #include <engine/cpu/exact_field.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/tile_edges.hpp>
 #include <engine/records/field_features.hpp>
 #include <engine/records/field_reconstruction.hpp>
 #include <engine/records/nearest_feature.hpp>
+
+#include <shaders/layout.h>
 
 #include <algorithm>
 #include <array>

@@ -29,7 +29,7 @@ private:
     double solve_points(const plan::Plan& plan, const plan::PlannedQuery& planned,
                         DistanceFieldResult& result);
 
-    /// The word the device would write for a point (gpu_layout.hpp). `guess`: an edge that may be
+    /// The word the device would write for a point (shaders/layout.h). `guess`: an edge that may be
     /// near.
     [[nodiscard]] std::uint32_t word_at(const geometry::Vector& point, std::uint32_t guess,
                                         double cell);

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <engine/grid/coverage.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/plan/tile_edges.hpp>
 #include <nearfield/result.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,8 @@
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/asked_points.hpp>
 #include <engine/plan/error_budget.hpp>
-#include <engine/plan/gpu_layout.hpp>
+
+#include <shaders/layout.h>
 
 #include <algorithm>
 #include <numbers>

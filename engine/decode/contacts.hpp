@@ -1,9 +1,10 @@
 #pragma once
 
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/records/found_contacts.hpp>
 #include <engine/records/point_resolver.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 #include <span>

@@ -52,7 +52,7 @@ void BlockEdges::append(std::uint32_t block, std::vector<SegmentData>& segments)
     for (std::size_t i = 0; i < count; ++i) {
         const float half_x = 0.5F * along_x[i];
         const float half_y = 0.5F * along_y[i];
-        added[i] = {start_x[i] + x + half_x, start_y[i] + y + half_y, half_x, half_y};
+        added[i] = {{start_x[i] + x + half_x, start_y[i] + y + half_y}, {half_x, half_y}};
     }
 }
 

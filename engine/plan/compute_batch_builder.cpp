@@ -33,10 +33,6 @@ std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
     return static_cast<std::int32_t>(coordinate * grid.steps);
 }
 
-/// Edges in the list of a block at most. Some drivers end the loops of a shader after 65,535 turns,
-/// without notice; resolve_blocks.comp looks at four edges in a turn.
-constexpr std::uint32_t max_block_segments = 4 * 65000;
-
 void require_few(std::uint32_t segments) {
     if (segments > max_block_segments) {
         throw StatusException(

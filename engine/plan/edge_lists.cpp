@@ -45,10 +45,10 @@ std::optional<TileEdge> cut(const TileEdge& edge, double extent) {
 
 EdgeData straight(const TileEdge& edge) {
     EdgeData data;
-    data.ax = static_cast<float>(edge.a.x());
-    data.ay = static_cast<float>(edge.a.y());
-    data.bx = static_cast<float>(edge.b.x());
-    data.by = static_cast<float>(edge.b.y());
+    data.a.x = static_cast<float>(edge.a.x());
+    data.a.y = static_cast<float>(edge.a.y());
+    data.b.x = static_cast<float>(edge.b.x());
+    data.b.y = static_cast<float>(edge.b.y());
     return data;
 }
 
@@ -127,10 +127,10 @@ EdgeListData EdgeListWriter::write_list() {
         const std::size_t end = std::min<std::size_t>(first + cluster_size, list_.size());
         for (std::size_t i = first; i < end; ++i) {
             const EdgeData& edge = list_[i];
-            low.x = std::min(low.x, std::min(edge.ax, edge.bx) - edge.deviation);
-            low.y = std::min(low.y, std::min(edge.ay, edge.by) - edge.deviation);
-            high.x = std::max(high.x, std::max(edge.ax, edge.bx) + edge.deviation);
-            high.y = std::max(high.y, std::max(edge.ay, edge.by) + edge.deviation);
+            low.x = std::min(low.x, std::min(edge.a.x, edge.b.x) - edge.deviation);
+            low.y = std::min(low.y, std::min(edge.a.y, edge.b.y) - edge.deviation);
+            high.x = std::max(high.x, std::max(edge.a.x, edge.b.x) + edge.deviation);
+            high.y = std::max(high.y, std::max(edge.a.y, edge.b.y) + edge.deviation);
         }
         geometry_.push_back(low);
         geometry_.push_back(high);

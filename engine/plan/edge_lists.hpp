@@ -1,7 +1,8 @@
 #pragma once
 
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/tile_edges.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 #include <vector>

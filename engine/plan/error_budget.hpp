@@ -13,10 +13,6 @@ inline constexpr double uniqueness_margin = 1e-3;
 /// the CPU which of several edges is the nearest.
 inline constexpr double search_precision = 1.0 / 16384.0;
 
-/// A point inside a shape penetrates it if it is deeper than this fraction of d. Otherwise it
-/// touches, whatever the technique. Far above what single precision leaves undecided.
-inline constexpr double touching_depth = 0x1p-10;
-
 /// Relative error of a field's distance due to single precision, for every technique.
 inline constexpr double far_rounding = 0x1p-19;
 

@@ -2,7 +2,8 @@
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
 #include <engine/plan/field_planner.hpp>
-#include <engine/plan/gpu_layout.hpp>
+
+#include <shaders/layout.h>
 
 #include <algorithm>
 #include <cmath>

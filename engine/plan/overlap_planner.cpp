@@ -1,9 +1,10 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/overlap_planner.hpp>
 #include <nearfield/resident.hpp>
+
+#include <shaders/layout.h>
 
 #include <algorithm>
 #include <cmath>

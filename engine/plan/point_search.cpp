@@ -19,9 +19,6 @@ using geometry::Vector;
 
 namespace {
 
-// Of the header of a shape: numbers, box, first boxes by level.
-constexpr std::uint32_t header_units = 4;
-
 using FloatBox = std::array<float, 4>;  // low corner, high corner
 
 SearchUnit unit_of(const FloatBox& floats) {
@@ -194,8 +191,8 @@ std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
         }
         if (key.spacing == 0.0) {
             // The header's places are relative to the shape until here.
-            for (const std::size_t place : {std::size_t{2}, std::size_t{3}}) {
-                for (std::uint32_t& first_box : made_[place]) {
+            for (std::size_t i = unit_of_first_boxes; i < units_of_header; ++i) {
+                for (std::uint32_t& first_box : made_[i]) {
                     first_box += entry.first;
                 }
             }
@@ -239,11 +236,11 @@ void PointSearchBuilder::make_shape(const Polygon& polygon) {
     for (const OrderedRing& ring : rings_) {
         chunks += chunks_of(polygon, ring.ring);
     }
-    made_.resize(header_units);
+    made_.resize(units_of_header);
     std::uint32_t levels = 0;
-    std::uint32_t end = header_units;
+    std::uint32_t end = units_of_header;
     for (std::uint32_t boxes = chunks;; boxes = (boxes + chunk_size - 1) / chunk_size) {
-        made_[2 + levels / 4][levels % 4] = end;
+        made_[unit_of_first_boxes + levels / 4][levels % 4] = end;
         ++levels;
         end += boxes;
         if (boxes <= chunk_size) {
@@ -257,12 +254,12 @@ void PointSearchBuilder::make_shape(const Polygon& polygon) {
     boxes_.assign(chunks, empty_box);
     add_chunks(polygon, edges, infos);
     for (std::uint32_t level = 0; level < levels; ++level) {
-        add_level(made_[2 + level / 4][level % 4]);
+        add_level(made_[unit_of_first_boxes + level / 4][level % 4]);
     }
     for (std::size_t i = 1; i < boxes_.size(); ++i) {
         extend(boxes_.front(), boxes_[i]);
     }
-    made_[1] = unit_of(boxes_.front());
+    made_[unit_of_box] = unit_of(boxes_.front());
 }
 
 void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,

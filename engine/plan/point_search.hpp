@@ -3,6 +3,8 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/plan/plan.hpp>
 
+#include <shaders/search.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,49 +16,10 @@ namespace nearfield::plan {
 
 /// The search for boundary points by the compute technique: the device finds the points of A's
 /// boundary that a query asks for, the side of B's boundary on which they lie, and the nearest edge
-/// of B, with nothing planned on the CPU. Structures in the layout of shaders/search.glsl (std430).
-///
-/// A shape is given in its own frame, relative to its centre, in units of a power of two near its
-/// radius, in chunks of edges that are consecutive on one ring: a box per chunk, and levels of
-/// boxes above, until at most one group is left. Many rings, which may come in any order, are in
-/// Morton order.
+/// of B, with nothing planned on the CPU (shaders/search.h).
 
 /// Sixteen bytes of the search's input.
 using SearchUnit = std::array<std::uint32_t, 4>;
-
-/// Edges per chunk, and boxes per box of the next level.
-inline constexpr std::uint32_t chunk_size = 8;
-/// Elements that the device sums at once: those of one workgroup.
-inline constexpr std::uint32_t search_block = 64;
-/// Points that one of the device's threads resolves.
-inline constexpr std::uint32_t points_per_thread = 4;
-/// Replaces the first word of the numbers of parts: one point per edge, its first vertex.
-inline constexpr std::uint32_t no_parts = UINT32_MAX;
-
-/// The points of A's boundary in the field of B. Lengths in units of B's frame.
-struct SearchDirectionData {
-    std::array<float, 2> axis{1.0F, 0.0F};   ///< A's x axis, of a unit of A's frame, in B's
-    std::array<float, 2> offset{};           ///< A's centre in B's frame
-    std::uint32_t shape_a = 0, shape_b = 0;  ///< first units in the input
-    std::uint32_t parts = no_parts;          ///< first word of the numbers of parts of A's edges
-    std::uint32_t first_item = 0;            ///< an item is a chunk of A in one direction
-    float reach = 0.0F;                      ///< from B's boundary to points outside
-    float margin = 0.0F;                     ///< bound on the errors of single precision
-    float rival = 0.0F;    ///< a second point farther by no more: the nearest is not unique
-    float outside = 0.0F;  ///< 1: points outside B are asked for as well
-    float doubt = 0.0F;    ///< a second edge farther by no more: in doubt; < 0: never
-    float unused[3]{};
-};
-static_assert(sizeof(SearchDirectionData) == 4 * sizeof(SearchUnit));
-
-/// A point that the device has found.
-struct FoundPointData {
-    std::uint32_t direction = 0;
-    std::uint32_t edge = 0;    ///< of A
-    std::uint32_t number = 0;  ///< among the points of the edge
-    std::uint32_t word = 0;    ///< B's nearest edge and flags, as point_inside
-};
-static_assert(sizeof(FoundPointData) == 16);
 
 /// The point of A's boundary that the device has found.
 [[nodiscard]] BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found);

@@ -3,27 +3,14 @@
 #include <engine/geometry/vector.hpp>
 #include <nearfield/resident.hpp>
 
+#include <shaders/export.h>
+
 #include <cstdint>
 #include <vector>
 
 namespace nearfield::plan {
 
-/// The outputs of a batch that stay on the device, in the form that the export passes take
-/// (shaders/export_field.comp, export_records.comp, export_samples.comp).
-
-/// Points from which one thread makes records, one after the other.
-inline constexpr std::uint32_t points_per_block = 32;
-
-/// Counts for such a block, or for all blocks before it.
-struct RecordBlockData {
-    std::uint32_t count = 0;
-    std::uint32_t deepest = 0;
-    float depth = 0.0F;
-    std::uint32_t unused = 0;
-    float low[2]{};
-    float high[2]{};
-};
-static_assert(sizeof(RecordBlockData) == 32);
+/// The outputs of a batch that stay on the device, in the form that the export passes take.
 
 /// Rings of a polygon in the tables: the first edge of each ring, then the number of all edges.
 struct RingTable {
@@ -63,12 +50,9 @@ struct PointRunOutput {
     std::uint32_t first = 0;  ///< in TileBatch::points
     std::uint32_t count = 0;
     std::uint32_t first_block = 0;  ///< of the query's
-    /// Where they lie in the tables, four words each: the position relative to the query's origin
-    /// (two floats), B's normal if it is B's point (packSnorm2x16), the place among the points of
-    /// the query.
-    std::uint32_t table = 0;
-    RingTable rings;          ///< of the shape whose features they name
-    std::uint32_t flags = 0;  ///< resident_flags of their records
+    std::uint32_t table = 0;        ///< where they lie in the tables, words_of_point each
+    RingTable rings;                ///< of the shape whose features they name
+    std::uint32_t flags = 0;        ///< resident_flags of their records
 
     [[nodiscard]] std::uint32_t blocks() const {
         return (count + points_per_block - 1) / points_per_block;
@@ -89,39 +73,6 @@ struct RecordsOutput {
     std::uint32_t run_count = 0;
     std::uint32_t block_count = 0;
 };
-
-/// Replaces the word of something that does not exist.
-inline constexpr std::uint32_t no_word = UINT32_MAX;
-
-/// A tile of an intersection, as stored in the tables. The hits in its cells lie in the words of
-/// its tile batch: one word per cell where drawn, two masks by the compute technique.
-struct SampleTileData {
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    /// Each row of cells is one of the query's blocks, starting at the lowest row; `block_step`
-    /// blocks lie between one row and the next, for the rows of the tiles beside it.
-    std::uint32_t first_block = 0;
-    std::uint32_t block_step = 0;
-    std::uint32_t hits = 0;             ///< word of the first cell's hit, or of the mask of B
-    std::uint32_t mask_a = no_word;     ///< word of the mask of A; no_word where it was drawn
-    std::uint32_t words_per_row = 0;    ///< of the masks
-    std::uint32_t runs = no_word;       ///< with masks: word of the first cell's run of A's edges
-    std::uint32_t run_table = no_word;  ///< word of the tables where the batch's runs start, two
-                                        ///< words each; no_word where A takes part by its volume
-    std::uint32_t summary = 0;          ///< index among the summaries of its tile batch
-    std::uint32_t region = 0;
-    float corner_x = 0.0F;  ///< low corner of the tile, relative to the query's origin
-    float corner_y = 0.0F;
-};
-static_assert(sizeof(SampleTileData) == 52);
-
-/// Box of a tile's samples, before the counts of all rows.
-struct SampleBoxData {
-    std::uint32_t count = 0;
-    float low[2]{};
-    float high[2]{};
-};
-static_assert(sizeof(SampleBoxData) == 20);
 
 /// Tiles of one intersection in one tile batch.
 struct SampleRunOutput {

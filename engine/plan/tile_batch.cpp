@@ -325,8 +325,9 @@ void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBa
             position.emplace(TransformedPolygon(*query->a, query->pose_a));
         }
         const Vector local = ((*position)(point.point) - origin) / tile.grid.cell;
-        batch.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
-                                tile_of_plan_[index], 0});
+        batch.points.push_back({{static_cast<float>(local.x()), static_cast<float>(local.y())},
+                                tile_of_plan_[index],
+                                0});
         batch.point_index.push_back(i);
     }
 }

@@ -5,12 +5,13 @@
 #include <engine/plan/compute_batch_builder.hpp>
 #include <engine/plan/compute_work.hpp>
 #include <engine/plan/edge_lists.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/nearest_edges.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/simplified_shapes.hpp>
 #include <engine/plan/tile_edges.hpp>
 #include <engine/plan/tile_meshes.hpp>
+
+#include <shaders/layout.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/records/field_features.hpp>
 #include <engine/records/nearest_feature.hpp>
+
+#include <shaders/layout.h>
 
 #include <cmath>
 

@@ -9,7 +9,7 @@
 /// Derives field features, in double precision, from the edge found nearest to a point of a field.
 namespace nearfield::records {
 
-/// The decoded word of a cell or a point (gpu_layout.hpp).
+/// The decoded word of a cell or a point (shaders/layout.h).
 struct FieldFeature {
     Feature feature;
     geometry::Vector gradient = geometry::Vector::Zero();  ///< analytic

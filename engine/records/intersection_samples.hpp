@@ -1,9 +1,10 @@
 #pragma once
 
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <nearfield/result.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 

@@ -5,6 +5,8 @@
 #include <engine/plan/plan.hpp>
 #include <nearfield/result.hpp>
 
+#include <shaders/layout.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,9 +15,12 @@
 namespace nearfield::records {
 
 /// The device decides on which side of the boundary a point lies in single precision, in cells of a
-/// tile. Closer to the boundary than this distance, the side is undecided: the point touches.
+/// tile. Closer to the boundary than this distance, the side is undecided: the point touches. In
+/// larger tiles than those of points, coordinates are rounded more.
 [[nodiscard]] inline double touching_distance(double cell, std::uint32_t tile_side) {
-    return cell * std::ldexp(std::max(tile_side, 64U), -21);
+    constexpr std::uint32_t side_of_points = 64;
+    constexpr double touching = double{plan::touching} / side_of_points;
+    return cell * (std::max(tile_side, side_of_points) * touching);
 }
 [[nodiscard]] inline double touching_distance(const plan::Tile& tile) {
     return touching_distance(tile.grid.cell, std::max(tile.width, tile.height));

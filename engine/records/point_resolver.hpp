@@ -2,11 +2,12 @@
 
 #include <engine/narrowphase/boundary.hpp>
 #include <engine/narrowphase/located_points.hpp>
-#include <engine/plan/gpu_layout.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/simd/point_list.hpp>
 #include <engine/simd/transformed_edges.hpp>
 #include <nearfield/result.hpp>
+
+#include <shaders/layout.h>
 
 #include <cstdint>
 #include <optional>

@@ -12,9 +12,9 @@ void BatchResources::lay_out_output() {
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         const plan::TileBatch& batch = *on_device.context.batch;
-        const std::uint64_t point_bytes =
-            batch.points.size() *
-            (sizeof(std::uint32_t) + (batch.resident ? sizeof(plan::PointDetails) : 0));
+        const std::uint64_t point_bytes = batch.points.size() *
+                                          (1 + (batch.resident ? plan::words_of_details : 0)) *
+                                          sizeof(std::uint32_t);
         const std::uint64_t field_bytes = batch.field_words * sizeof(std::uint32_t);
         const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =

@@ -34,8 +34,8 @@ std::uint64_t bytes_of_blocks(const plan::RecordsOutput& records) {
 }
 
 std::uint64_t bytes_of_blocks(const plan::SamplesOutput& samples) {
-    return std::uint64_t{samples.tile_count} * sizeof(plan::SampleBoxData) +
-           std::uint64_t{samples.block_count} * sizeof(std::uint32_t);
+    return (std::uint64_t{samples.tile_count} * plan::words_of_box + samples.block_count) *
+           sizeof(std::uint32_t);
 }
 
 /// Removes the first `count` of the remaining sets and returns them.
@@ -217,14 +217,14 @@ void ResidentBuffers::bind_headers() {
     std::span<const VkDescriptorSet> sets = std::span(sets_).last(
         resident_->fields.size() + resident_->records.size() + resident_->samples.size());
     const auto add = [&](const geometry::Vector& origin, double cell, const Place& place,
-                         const BufferPart& summary) -> passes::ExportHeaders::Header& {
+                         const BufferPart& summary) -> plan::ExportHeaderPush& {
         const VkDescriptorSet set = take(sets, 1).front();
         layout_->write_buffer(set, Layout::records, summary.buffer, summary.offset, smallest_part);
         layout_->write_buffer(set, Layout::record_blocks, records_.handle(), place.header,
                               sizeof(ResidentHeaderData));
-        return headers_.emplace_back(passes::ExportHeaders::Header{
-            {static_cast<float>(origin.x()), static_cast<float>(origin.y())},
-            static_cast<float>(cell)});
+        return headers_.emplace_back(
+            plan::ExportHeaderPush{{static_cast<float>(origin.x()), static_cast<float>(origin.y())},
+                                   static_cast<float>(cell)});
     };
     for (std::size_t i = 0; i < resident_->fields.size(); ++i) {
         const plan::FieldOutputs& field = resident_->fields[i];
@@ -278,9 +278,8 @@ void ResidentBuffers::bind_points(std::span<const Words> words, const BufferPart
             const plan::PointRunOutput& run = resident_->point_runs[number++];
             bind_words(set, words[run.tile_batch].points);
             bind_records(set, places_[i], range_of(i, records));
-            constexpr std::uint32_t words_of_details =
-                sizeof(plan::PointDetails) / sizeof(std::uint32_t);
-            details_.push_back(words[run.tile_batch].point_count + words_of_details * run.first);
+            details_.push_back(words[run.tile_batch].point_count +
+                               plan::words_of_details * run.first);
         }
         const VkDescriptorSet last = take(sets, 1).front();
         bind_words(last, none);

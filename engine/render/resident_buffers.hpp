@@ -119,11 +119,11 @@ private:
     std::vector<Views> views_;    // by field; of the images written
     // What was reserved stays, so that handles and offsets do: a batch uses the first ones of each.
     std::vector<Place> field_places_;
-    std::vector<Place> places_;                           // by records
-    std::vector<Place> sample_places_;                    // by samples
-    std::uint64_t revision_ = 0;                          // see ResidentSlot
-    std::vector<std::uint32_t> details_;                  // by run of points
-    std::vector<passes::ExportHeaders::Header> headers_;  // of fields, records, samples
+    std::vector<Place> places_;                    // by records
+    std::vector<Place> sample_places_;             // by samples
+    std::uint64_t revision_ = 0;                   // see ResidentSlot
+    std::vector<std::uint32_t> details_;           // by run of points
+    std::vector<plan::ExportHeaderPush> headers_;  // of fields, records, samples
     // Fields, records and samples each have their own, so that everything that a set was ever bound
     // to is bound anew with every use: lavapipe reads bindings that no shader uses, and the objects
     // they refer to may be gone.

@@ -11,13 +11,8 @@ namespace {
 
 constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
 
-// Of the arguments: by stage, three numbers of workgroups and the count.
-constexpr std::uint64_t argument_words = 4;
 constexpr std::uint64_t argument_bytes =
-    SearchCounts{}.size() * argument_words * sizeof(std::uint32_t);
-
-// The shader keeps three counts at the start of its scratch memory.
-constexpr std::uint32_t header_words = 4;
+    plan::stages * plan::words_of_arguments * sizeof(std::uint32_t);
 
 std::uint32_t blocks_for(std::uint32_t elements) {
     return (elements + plan::search_block - 1) / plan::search_block + 1;
@@ -87,7 +82,7 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
         layout.capacities[i] = std::min(expected[i], max_counts_[i]);
     }
     const auto [edges, points, found] = layout.capacities;
-    std::uint32_t word = header_words;
+    std::uint32_t word = plan::words_of_totals;
     const auto words = [&word](std::uint32_t count) {
         const std::uint32_t first = word;
         word += (count + 3) / 4 * 4;
@@ -131,7 +126,7 @@ void SearchBuffers::read_back() {
     arguments_.invalidate();
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         std::memcpy(&counts_[i],
-                    arguments_.data() + (argument_words * i + 3) * sizeof(std::uint32_t),
+                    arguments_.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
                     sizeof(counts_[i]));
     }
     for (std::size_t i = 0; i < counts_.size(); ++i) {

@@ -15,7 +15,7 @@
 namespace nearfield::render {
 
 /// The numbers of edges, points, and points found of a search.
-using SearchCounts = std::array<std::uint32_t, 3>;
+using SearchCounts = std::array<std::uint32_t, plan::stages>;
 
 /// The memory of one search for boundary points, with its descriptor set. It only grows.
 class SearchBuffers {

@@ -70,6 +70,8 @@ struct NearfieldIntersectionSample {
     uint region;  // the region that the cell belongs to
 };
 
+#ifndef __cplusplus  // the declarations above are C++, too
+
 uint nearfield_index(uint feature) {
     return feature & nearfield_index_mask;
 }
@@ -125,5 +127,7 @@ float nearfield_signed_distance(texture2D field, sampler with, ivec2 size, vec2 
                                   texelFetch(sampler2D(field, with), at.xw, 0).x,
                                   texelFetch(sampler2D(field, with), at.zw, 0).x), texel);
 }
+
+#endif  // __cplusplus
 
 #endif

@@ -65,6 +65,8 @@ struct NearfieldIntersectionSample {
     uint region;
 };
 
+#ifndef __cplusplus  // the declarations above are C++, too
+
 uint nearfield_index(uint feature) {
     return feature & nearfield_index_mask;
 }
@@ -100,5 +102,7 @@ float nearfield_signed_distance(Texture2D<float> field, int2 size, float2 texel)
     float above = lerp(field.Load(int3(first.x, last.y, 0)), field.Load(int3(last, 0)), way.x);
     return lerp(below, above, way.y);
 }
+
+#endif  // __cplusplus
 
 #endif

@@ -21,9 +21,10 @@ double distance(const Vector& point, const TileEdge& edge) {
 }
 
 TileEdge as_edge(const SegmentData& segment) {
-    const Vector middle(static_cast<double>(segment.middle_x),
-                        static_cast<double>(segment.middle_y));
-    const Vector half(static_cast<double>(segment.half_x), static_cast<double>(segment.half_y));
+    const Vector middle(static_cast<double>(segment.middle.x),
+                        static_cast<double>(segment.middle.y));
+    const Vector half(static_cast<double>(segment.half_way.x),
+                      static_cast<double>(segment.half_way.y));
     return {middle - half, middle + half, 0};
 }
 

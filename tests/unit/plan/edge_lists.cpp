@@ -76,9 +76,9 @@ void expect_run(const List& list, std::uint32_t i, const TileBoundary& boundary)
         const Vector truth = boundary.to_cells()(vertices[vertex]);
         const Vector written = list.at(edge.run + k);
         ASSERT_LE((written - truth).norm(), 1e-3) << "vertex " << k << " of edge " << i;
-        const double distance =
-            std::sqrt(geometry::nearest_on_segment(truth, {edge.ax, edge.ay}, {edge.bx, edge.by})
-                          .squared_distance);
+        const double distance = std::sqrt(
+            geometry::nearest_on_segment(truth, {edge.a.x, edge.a.y}, {edge.b.x, edge.b.y})
+                .squared_distance);
         ASSERT_LE(distance, edge.deviation) << "vertex " << k << " of edge " << i;
         ASSERT_TRUE(list.is_in_cluster_of(i, written)) << "vertex " << k << " of edge " << i;
     }

@@ -1,0 +1,89 @@
+#include <nearfield/resident.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+// The structures and constants of resident.hpp are those of nearfield.glsl and nearfield.hlsl,
+// which stand alone for hosts that copy one of the three. Their declarations are C++ as well.
+namespace nearfield::resident {
+namespace {
+
+using uint = std::uint32_t;
+template <class Number, std::size_t count>
+struct alignas(count * sizeof(Number)) Several {  // as in std430
+    Number numbers[count];
+};
+
+namespace glsl {
+using vec2 = Several<float, 2>;  // NOLINT(readability-identifier-naming)
+using uvec4 = Several<uint, 4>;  // NOLINT(readability-identifier-naming)
+#include <nearfield/nearfield.glsl>
+}  // namespace glsl
+
+namespace hlsl {
+using float2 = Several<float, 2>;  // NOLINT(readability-identifier-naming)
+using uint4 = Several<uint, 4>;    // NOLINT(readability-identifier-naming)
+#define position point             // the one member that has another name in HLSL
+#include <nearfield/nearfield.hlsl>
+#undef position
+}  // namespace hlsl
+
+#define NEARFIELD_SAME_MEMBER(ours, theirs, member)                           \
+    static_assert(offsetof(ours, member) == offsetof(glsl::theirs, member) && \
+                  offsetof(ours, member) == offsetof(hlsl::theirs, member) && \
+                  sizeof(ours::member) == sizeof(glsl::theirs::member) &&     \
+                  sizeof(ours::member) == sizeof(hlsl::theirs::member))
+
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, points);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, quads);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, groups);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, count);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, origin);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, cell);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, overflow);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, width);
+NEARFIELD_SAME_MEMBER(ResidentHeaderData, NearfieldHeader, height);
+
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, count);
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, capacity);
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, deepest);
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, depth);
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, low);
+NEARFIELD_SAME_MEMBER(SummaryData, NearfieldSummary, high);
+
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, point);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, nearest);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, normal);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, distance);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, feature);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, flags);
+NEARFIELD_SAME_MEMBER(RecordData, NearfieldRecord, place);
+
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, count);
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, capacity);
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, area);
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, cell);
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, low);
+NEARFIELD_SAME_MEMBER(IntersectionSummaryData, NearfieldIntersectionSummary, high);
+
+NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, point);
+NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, edge);
+NEARFIELD_SAME_MEMBER(IntersectionSampleData, NearfieldIntersectionSample, region);
+
+#undef NEARFIELD_SAME_MEMBER
+
+#define NEARFIELD_SAME_CONSTANT(ours, theirs) \
+    static_assert((ours) == glsl::theirs && (ours) == hlsl::theirs)
+
+NEARFIELD_SAME_CONSTANT(resident_feature::index_mask, nearfield_index_mask);
+NEARFIELD_SAME_CONSTANT(resident_feature::vertex, nearfield_vertex_flag);
+NEARFIELD_SAME_CONSTANT(resident_feature::unique, nearfield_unique_flag);
+NEARFIELD_SAME_CONSTANT(resident_feature::inside, nearfield_inside_flag);
+NEARFIELD_SAME_CONSTANT(resident_flags::on_b, nearfield_on_b_flag);
+NEARFIELD_SAME_CONSTANT(resident_flags::touching, nearfield_touching_flag);
+NEARFIELD_SAME_CONSTANT(no_record, nearfield_no_record);
+NEARFIELD_SAME_CONSTANT(no_edge, nearfield_no_edge);
+#undef NEARFIELD_SAME_CONSTANT
+
+}  // namespace
+}  // namespace nearfield::resident

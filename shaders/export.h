@@ -1,0 +1,68 @@
+// What the export passes read from the tables and keep between their steps (resident outputs), for
+// shaders and for C++ (see shared.h).
+#ifndef NEARFIELD_SHADERS_EXPORT_H
+#define NEARFIELD_SHADERS_EXPORT_H
+
+#include "layout.h"
+
+NEARFIELD_SHARED_BEGIN
+
+// The steps of the passes that write packed records or samples. The first is that of samples only.
+const uint box_step = 0u;
+const uint count_step = 1u;
+const uint place_step = 2u;
+const uint write_step = 3u;
+
+// Points from which one thread makes records, one after the other.
+const uint points_per_block = 32u;
+// A point in the tables: its position relative to the query's origin (two floats), B's normal if it
+// is B's point (packSnorm2x16), its place among the points of the query.
+const uint words_of_point = 4u;
+
+// Counts for such a block, or for all blocks before it.
+struct RecordBlockData {
+    // Records; after the second step, records of the blocks before it
+    uint count NEARFIELD_DEFAULT(0);
+    uint deepest NEARFIELD_DEFAULT(0);  // index among them
+    float depth NEARFIELD_DEFAULT(0.0F);
+    uint unused NEARFIELD_DEFAULT(0);
+    vec2 low;
+    vec2 high;
+};
+NEARFIELD_CHECK(sizeof(RecordBlockData) == 32)
+
+// Replaces the word of something that does not exist.
+const uint no_word = 0xffffffffu;
+
+// A tile of an intersection, as stored in the tables. The hits in its cells lie in the words of its
+// tile batch: one word per cell where drawn, two masks by the compute technique.
+struct SampleTileData {
+    uint width NEARFIELD_DEFAULT(0);
+    uint height NEARFIELD_DEFAULT(0);
+    // Each row of cells is one of the query's blocks, starting at the lowest row; `block_step`
+    // blocks lie between one row and the next, for the rows of the tiles beside it.
+    uint first_block NEARFIELD_DEFAULT(0);
+    uint block_step NEARFIELD_DEFAULT(0);
+    uint hits NEARFIELD_DEFAULT(0);           // word of the first cell's hit, or of the mask of B
+    uint mask_a NEARFIELD_DEFAULT(no_word);   // word of the mask of A; no_word where it was drawn
+    uint words_per_row NEARFIELD_DEFAULT(0);  // of the masks
+    uint runs NEARFIELD_DEFAULT(no_word);  // with masks: word of the first cell's run of A's edges
+    // Word of the tables where the batch's runs start, two words each; no_word where A takes part
+    // by its volume.
+    uint run_table NEARFIELD_DEFAULT(no_word);
+    uint summary NEARFIELD_DEFAULT(0);  // index among the summaries of its tile batch
+    uint region NEARFIELD_DEFAULT(0);
+    // Low corner of the tile, relative to the query's origin
+    float corner_x NEARFIELD_DEFAULT(0.0F);
+    float corner_y NEARFIELD_DEFAULT(0.0F);
+};
+const uint words_of_tile = 13u;
+NEARFIELD_CHECK(sizeof(SampleTileData) == 4 * words_of_tile)
+
+// The number of a tile's samples, and the low and high corner of their box. They come before the
+// counts of all rows.
+const uint words_of_box = 5u;
+
+NEARFIELD_SHARED_END
+
+#endif

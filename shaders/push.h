@@ -1,0 +1,182 @@
+// The push constants of all passes, for shaders and for C++ (see shared.h). Those of a dispatch
+// with one thread per element begin with its first element and the end of all.
+#ifndef NEARFIELD_SHADERS_PUSH_H
+#define NEARFIELD_SHADERS_PUSH_H
+
+#include "shared.h"
+
+NEARFIELD_SHARED_BEGIN
+
+struct MeshPush {
+    vec2 scale;
+    vec2 bias;
+    float depth_scale;
+    uint value;
+};
+
+const uint gradient_push_offset = 32u;  // bytes; behind those of the mesh
+NEARFIELD_CHECK(sizeof(MeshPush) <= gradient_push_offset)
+struct GradientPush {
+    int shift;  // 0: write the factor
+    float factor;
+    float largest;  // maximum magnitude that the format holds
+};
+
+struct CollectPush {
+    uint first_group;
+    uint capacity;  // space for samples
+};
+
+struct CollectMasksPush {
+    uint first;
+    uint end;
+    uint rows;  // first word in the work buffer
+    uint masks;
+    uint overlaps;
+    uint runs;      // first word of the cells' runs in the scratch memory
+    uint capacity;  // space for samples
+};
+
+struct CollectGradientsPush {
+    uint first;  // cell of the tile, or cell around a point (four per point)
+    uint end;
+    uint first_word;  // first word of cell 0, or of point `origin`
+    uint origin;
+    uint words_per_point;  // 0: a whole tile
+    uint tile;
+};
+
+struct MaskEdgesPush {
+    uint first;
+    uint end;
+    uint edges;  // first word in the work buffer
+    uint masks;
+    uint bits;  // bits of sub-pixel precision
+};
+
+struct MaskRowsPush {
+    uint first;
+    uint end;
+    uint rows;  // first word in the work buffer
+};
+
+struct MaskPolygonsPush {
+    uint first;
+    uint end;
+    uint polygons;  // first word in the work buffer
+    uint masks;
+    uint overlaps;
+    uint runs;     // first word of the cells' runs in the scratch memory
+    uint bits_of;  // bits of sub-pixel precision; plus polygons_of_a: the polygons are A's
+};
+
+struct ResolveBlocksPush {
+    uint first;  // thread
+    uint end;
+};
+
+struct ResolveFeaturesPush {
+    uint first;
+    uint end;
+    uint resident;  // 1: features are resident and flag nearest vertices
+};
+
+struct ResolveFieldPush {
+    uint first_group;
+    uint sign_mask;
+    uint resident;  // 1: features are resident and flag nearest vertices
+};
+
+struct ResolveFieldPointsPush {
+    uint first;
+    uint end;
+    uint sign_mask;
+    uint first_word;  // first word of point `origin`
+    uint origin;
+    uint words_per_point;  // plan::FieldParts
+    uint cells_per_point;  // 4, or 12 for central differences
+};
+
+struct ResolveFieldPointsByListsPush {
+    uint first;
+    uint end;
+    uint points;      // where they start in the geometry array; even
+    uint first_word;  // as above
+    uint origin;
+    uint words_per_point;
+    uint cells_per_point;
+};
+
+struct ResolvePointsPush {
+    uint first;
+    uint end;
+    uint details;  // first word of the details in the results, or not_asked
+};
+
+struct SearchPush {
+    uint first;       // item of this dispatch
+    uint items;       // pieces of eight edges of A, of all directions
+    uint directions;  // first unit
+    uint direction_count;
+    uint item_blocks;  // first words, and first units, of arrays in the scratch memory
+    uint edge_blocks;
+    uint point_blocks;
+    uint item_words;
+    uint edge_units;
+    uint point_units;
+    uint stage;     // of search_scan.comp
+    uint capacity;  // of the elements that the stage counts
+};
+
+struct ExportFieldPush {
+    uint value;    // word of the first cell's value
+    uint feature;  // word of its feature
+    uint stride;   // words per row
+    uint width;    // cells to copy
+    uint height;
+    int column;  // of the first cell, in the images
+    int row;
+    uint rings;
+    uint ring_count;
+    float cell;
+};
+
+struct ExportHeaderPush {
+    vec2 origin;
+    float cell;
+    uint width NEARFIELD_DEFAULT(0);  // of a field, in cells; otherwise 0
+    uint height NEARFIELD_DEFAULT(0);
+};
+
+struct ExportRecordsPush {
+    uint step;
+    uint first_block;  // first block of this run of points
+    uint block_count;  // of the run; in the second step, of all runs
+    uint point_count;  // of the run
+    uint word;         // position of the run's first point
+    uint details;      // position of its details
+    uint points;       // position of the run's points in the tables
+    uint rings;
+    uint ring_count;
+    uint flags;  // of the run's records
+    float cell;
+    float nearby;  // contacts: maximum distance, world units; negative: only points inside
+    uint capacity;
+};
+
+struct ExportSamplesPush {
+    uint step;
+    uint table;        // position of the tile, or of the first one, in the tables
+    uint first_tile;   // its index among the query's tiles
+    uint tile_count;   // of the tile batch in the first step, of the query in the others
+    uint block_count;  // of all rows; 0 if samples are omitted
+    uint capacity;
+    uint rings;  // of A
+    uint ring_count;
+    uint vertices;  // of A
+    float cell;
+};
+
+NEARFIELD_SHARED_END
+
+#endif
