@@ -15,6 +15,7 @@ struct Bit {
 };
 
 constexpr std::array stage_bits = {
+    Bit{VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, "indirect"},
     Bit{VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, "vertex-input"},
     Bit{VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, "vertex"},
     Bit{VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, "early-tests"},
@@ -27,6 +28,7 @@ constexpr std::array stage_bits = {
 };
 
 constexpr std::array access_bits = {
+    Bit{VK_ACCESS_INDIRECT_COMMAND_READ_BIT, "indirect-read"},
     Bit{VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT, "vertex-read"},
     Bit{VK_ACCESS_SHADER_READ_BIT, "shader-read"},
     Bit{VK_ACCESS_SHADER_WRITE_BIT, "shader-write"},
