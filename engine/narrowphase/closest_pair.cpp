@@ -25,6 +25,11 @@ double square_longer(double squared, double by) {
     return longer * longer;
 }
 
+/// Pairs in any fixed order.
+auto order_of(const simd::VertexAndEdge& pair) {
+    return std::tie(pair.vertex_of_first, pair.vertex, pair.edge);
+}
+
 }  // namespace
 
 std::uint32_t ClosestPairFinder::first_vertex() const {
@@ -74,12 +79,16 @@ ClosestPair ClosestPairFinder::find(const simd::TransformedEdges& a,
         margin = 0.0;
         least = keep_near(least, 2.0 * rounding, std::numeric_limits<std::size_t>::max());
     }
-    return pick(least, margin);
+    const double loose = square_longer(least, 2.0 * rounding + margin);
+    std::erase_if(near_,
+                  [loose](const simd::VertexAndEdge& found) { return found.squared > loose; });
+    return pick(least);
 }
 
 ClosestPair ClosestPairFinder::find_of_few(const simd::TransformedEdges& a,
                                            const simd::TransformedEdges& b,
-                                           const simd::AabbTree& tree_b, double at_most) {
+                                           const simd::AabbTree& tree_b, double at_most,
+                                           const Vector& direction) {
     a_ = &a;
     b_ = &b;
     const auto keep = [](void* user, const simd::VertexAndEdge& found) {
@@ -87,35 +96,31 @@ ClosestPair ClosestPairFinder::find_of_few(const simd::TransformedEdges& a,
         return true;
     };
     near_.clear();
-    return pick(
-        simd::kernels::for_closest_to_few(a, geometry::extent_of(a.box), tree_b, at_most * at_most,
-                                          2.0 * (a.rounding + b.rounding), {keep, &near_}),
-        0.0);
+    const simd::FewEdges few{a, geometry::extent_of(a.box), {direction.x(), direction.y()}};
+    return pick(simd::kernels::for_closest_to_few(few, tree_b, at_most * at_most,
+                                                  2.0 * (a.rounding + b.rounding), {keep, &near_}));
 }
 
-ClosestPair ClosestPairFinder::pick(double least, double margin) {
-    const double rounding = a_->rounding + b_->rounding;
-    const double loose = square_longer(least, 2.0 * rounding + margin);
-    std::erase_if(near_,
-                  [loose](const simd::VertexAndEdge& found) { return found.squared > loose; });
-    // The order in which pairs arrive depends on the vector width.
-    std::sort(near_.begin(), near_.end(),
-              [](const simd::VertexAndEdge& i, const simd::VertexAndEdge& j) {
-                  return std::tie(i.vertex_of_first, i.vertex, i.edge) <
-                         std::tie(j.vertex_of_first, j.vertex, j.edge);
-              });
+ClosestPair ClosestPairFinder::pick(double least) const {
     // The closest of the candidates that the kernels cannot distinguish.
-    const double close = square_longer(least, rounding);
-    ClosestPair best;
+    const double close = square_longer(least, a_->rounding + b_->rounding);
+    const simd::VertexAndEdge* best = nullptr;
+    NearestOnSegment nearest;
+    nearest.squared_distance = infinity;
     for (const simd::VertexAndEdge& found : near_) {
-        if (found.squared <= close) {
-            const ClosestPair pair = pair_of(found);
-            if (pair.squared_distance < best.squared_distance) {
-                best = pair;
-            }
+        if (found.squared > close) {
+            continue;
+        }
+        const NearestOnSegment other = nearest_of(found);
+        // The order in which pairs arrive depends on the vector width.
+        if (other.squared_distance < nearest.squared_distance ||
+            (best != nullptr && other.squared_distance == nearest.squared_distance &&
+             order_of(found) < order_of(*best))) {
+            best = &found;
+            nearest = other;
         }
     }
-    return best;
+    return best == nullptr ? ClosestPair() : pair_of(*best, nearest);
 }
 
 double ClosestPairFinder::keep_near(double most, double margin, std::size_t max_pairs) {
@@ -132,12 +137,16 @@ double ClosestPairFinder::keep_near(double most, double margin, std::size_t max_
     return simd::kernels::for_closest(*tree_a_, *tree_b_, most, margin, {keep, &kept});
 }
 
-ClosestPair ClosestPairFinder::pair_of(const simd::VertexAndEdge& found) const {
+NearestOnSegment ClosestPairFinder::nearest_of(const simd::VertexAndEdge& found) const {
     const simd::TransformedEdges& vertices = found.vertex_of_first ? *a_ : *b_;
     const simd::TransformedEdges& edges = found.vertex_of_first ? *b_ : *a_;
-    const Vector vertex = vertices.start(found.vertex);
-    const NearestOnSegment nearest =
-        geometry::nearest_on_segment(vertex, edges.start(found.edge), edges.end(found.edge));
+    return geometry::nearest_on_segment(vertices.start(found.vertex), edges.start(found.edge),
+                                        edges.end(found.edge));
+}
+
+ClosestPair ClosestPairFinder::pair_of(const simd::VertexAndEdge& found,
+                                       const NearestOnSegment& nearest) const {
+    const Vector vertex = (found.vertex_of_first ? *a_ : *b_).start(found.vertex);
     if (found.vertex_of_first) {
         return {found.vertex,
                 found.edge,
@@ -158,7 +167,7 @@ bool ClosestPairFinder::is_unique(const ClosestPair& closest, Side side, double 
     // If more than one pair is closest, another one contains a vertex: the distance of two straight
     // edges is least at an end of one of them, and if not only there, they are parallel.
     auto is_rival = [&](const simd::VertexAndEdge& found) {
-        const ClosestPair other = pair_of(found);
+        const ClosestPair other = pair_of(found, nearest_of(found));
         const bool elsewhere = (other.point_a - closest.point_a).squaredNorm() > squared_apart ||
                                (side == Side::either &&
                                 (other.point_b - closest.point_b).squaredNorm() > squared_apart);

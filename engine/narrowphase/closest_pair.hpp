@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/geometry/segment.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstddef>
@@ -37,9 +38,11 @@ public:
                      double at_most, double margin);
 
     /// The same for a shape A of at most simd::max_few_edges edges, whose boxes are not needed, and
-    /// a shape B with its tree; not to be followed by is_unique().
+    /// a shape B with its tree; not to be followed by is_unique(). `direction`: as that of
+    /// simd::FewEdges.
     ClosestPair find_of_few(const simd::TransformedEdges& a, const simd::TransformedEdges& b,
-                            const simd::AabbTree& tree_b, double at_most);
+                            const simd::AabbTree& tree_b, double at_most,
+                            const geometry::Vector& direction);
 
     /// For the pair returned by the last find(): false if two other boundary points have a distance
     /// at most `margin` above the pair's, and the one on A, or either one, is more than `apart`
@@ -48,14 +51,17 @@ public:
                                  double apart) const;
 
 private:
-    /// A vertex and an edge as points of A and B.
-    [[nodiscard]] ClosestPair pair_of(const simd::VertexAndEdge& found) const;
+    /// The point of an edge nearest to a vertex.
+    [[nodiscard]] geometry::NearestOnSegment nearest_of(const simd::VertexAndEdge& found) const;
+    /// The two as points of A and B.
+    [[nodiscard]] ClosestPair pair_of(const simd::VertexAndEdge& found,
+                                      const geometry::NearestOnSegment& nearest) const;
     /// A vertex of A near B.
     [[nodiscard]] std::uint32_t first_vertex() const;
     /// An upper bound from some vertices and edges near them; at most the one that is known.
     [[nodiscard]] double squared_bound(double known) const;
-    /// The closest of those kept, which are within `margin` and the rounding of the least distance.
-    [[nodiscard]] ClosestPair pick(double least, double margin);
+    /// The closest of those kept.
+    [[nodiscard]] ClosestPair pick(double least) const;
     /// Keeps the pairs within `margin` of the closest, and some more; stops once there are more
     /// than `max_pairs`. Returns the square of the least distance so far.
     [[nodiscard]] double keep_near(double most, double margin, std::size_t max_pairs);

@@ -27,6 +27,15 @@ struct BoundedEdgeSink {
 /// Up to this many edges are tested together against each box of a tree.
 inline constexpr std::uint32_t max_few_edges = 32;
 
+/// A shape of at most that many edges, with inverse lengths.
+struct FewEdges {
+    const EdgeArrays& edges;
+    Extent box;  ///< around them
+    /// Of at most unit length: the nearer it is to the direction towards the closest edge of
+    /// others, the fewer of those are looked at. (0, 0) if nothing is known.
+    double direction[2];
+};
+
 /// One number for each of eight boxes.
 using BoxKeys = std::array<double, AabbTree::fan_out>;
 
@@ -42,11 +51,10 @@ void for_edges_along(const AabbTree& tree, const Path& path, double margin, doub
 void for_edges_near(const AabbTree& tree, double x, double y, double bound,
                     const BoundedEdgeSink& sink);
 
-/// As for_closest(), for a shape of at most max_few_edges edges, with inverse lengths, instead of a
-/// first tree; `box`: its bounding box. The order is from the nearest box on, so the bound falls
-/// quickly.
-double for_closest_to_few(const EdgeArrays& few, const Extent& box, const AabbTree& tree,
-                          double most, double margin, const VertexAndEdgeSink& sink);
+/// As for_closest(), for a shape of few edges instead of a first tree. The order is from the
+/// nearest box on, so the bound falls quickly. `margin`: covers the rounding of all vertices, too.
+double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most, double margin,
+                          const VertexAndEdgeSink& sink);
 
 /// Writes the squared distances of eight boxes from a box.
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,

@@ -97,17 +97,18 @@ bool PoseQueries::intersects_guess() {
                                                                 : intersects(guess_.instance);
 }
 
-double PoseQueries::distance_of_guess() {
+Vector PoseQueries::way_to_guess() {
     const simd::TransformedEdges& own = searched_edges();
     const simd::TransformedEdges& other = instances_->edges(guess_.instance);
     const auto from = [](const simd::TransformedEdges& of_vertex, std::uint32_t vertex,
                          const simd::TransformedEdges& of_edge, std::uint32_t edge) {
-        return std::sqrt(geometry::nearest_on_segment(of_vertex.start(vertex), of_edge.start(edge),
-                                                      of_edge.end(edge))
-                             .squared_distance);
+        const Vector start = of_vertex.start(vertex);
+        return Vector(
+            geometry::nearest_on_segment(start, of_edge.start(edge), of_edge.end(edge)).point -
+            start);
     };
     return guess_.vertex_of_shape ? from(own, guess_.vertex, other, guess_.edge)
-                                  : from(other, guess_.edge, own, guess_.vertex);
+                                  : Vector(-from(other, guess_.edge, own, guess_.vertex));
 }
 
 void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
@@ -170,14 +171,17 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     const simd::TransformedEdges& other = instances_->edges(index);
     const double rounding = edges().rounding + other.rounding;
     double known = std::min(best_.distance, max_clearance);
+    Vector direction = Vector::Zero();
     if (index == guess_.instance) {
-        // What was nearest at the pose before is still near.
-        known = std::min(known, distance_of_guess());
+        // What was nearest at the pose before is still near, and in about the same direction.
+        const Vector way = way_to_guess();
+        known = std::min(known, way.norm());
+        direction = (1.0 - 1e-12) * way.stableNormalized();
     }
     const double at_most = with_slack(known, 4.0 * rounding);
     const narrowphase::ClosestPair pair =
         edges().count <= simd::max_few_edges
-            ? closest_pair_.find_of_few(edges(), other, instances_->tree(index), at_most)
+            ? closest_pair_.find_of_few(edges(), other, instances_->tree(index), at_most, direction)
             : closest_pair_.find(complete_edges(), other, at_most, 0.0);
     const double distance = std::sqrt(pair.squared_distance);
     if (distance > max_clearance || !replaces(distance, index)) {

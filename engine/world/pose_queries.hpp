@@ -56,8 +56,8 @@ private:
     /// The same for the instance of the guess, quickly if the shape has moved less than it was
     /// distant or deep.
     [[nodiscard]] bool intersects_guess();
-    /// An upper bound on the distance from the instance of the guess.
-    [[nodiscard]] double distance_of_guess();
+    /// From a point of the shape to one of the instance of the guess that is near it.
+    [[nodiscard]] geometry::Vector way_to_guess();
     /// Takes an instance into account if it is nearer, or deeper, than the best so far.
     void measure(std::uint32_t index, bool intersects, const ClearanceQuery& query);
     [[nodiscard]] bool replaces(double distance, std::uint32_t index) const;

@@ -231,5 +231,49 @@ TEST(ClosestPair, IsTheSameOnEveryInstructionSet) {
     }
 }
 
+void expect_equal(const ClosestPair& found, const ClosestPair& expected) {
+    EXPECT_EQ(found.edge_a, expected.edge_a);
+    EXPECT_EQ(found.edge_b, expected.edge_b);
+    EXPECT_EQ(found.point_a, expected.point_a);
+    EXPECT_EQ(found.point_b, expected.point_b);
+    EXPECT_EQ(found.squared_distance, expected.squared_distance);
+}
+
+TEST(ClosestPair, OfFewEdgesIsTheSameInAnyDirectionOnEveryInstructionSet) {
+    samples::Random random(92);
+    ClosestPairFinder finder;
+    for (int i = 0; i < 400; ++i) {
+        const auto size = [&](double most) {
+            return static_cast<std::uint32_t>(random.between(3.0, most));
+        };
+        const Polygon a = samples::polygon({samples::star(random, size(33.0), 0.3, 1.0)});
+        const double inner = random.between(0.1, 0.9);
+        const Polygon b = samples::polygon({samples::star(random, size(20.0), inner, 1.0)});
+        const double away = i % 4 == 0 ? 3e7 : 1.0;
+        const double turn = random.between(0.0, 6.0);
+        const PlacedPair pair(a, {{away, -away}, turn}, b,
+                              {{away + 2.01 * std::cos(turn), -away + 2.01 * std::sin(turn)},
+                               random.between(0.0, 6.0)});
+        const ClosestPair expected = finder.find(pair.a(), pair.b(), 10.0, 0.0);
+        const Vector towards = (expected.point_b - expected.point_a).stableNormalized();
+        const Vector beside(-towards.y(), towards.x());
+        for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+            hwy::SetSupportedTargetsForTest(left & ~(left - 1));
+            hwy::GetChosenTarget().DeInit();
+            for (const Vector& direction :
+                 {Vector(0.0, 0.0), Vector(0.999 * towards), beside, Vector(-0.5 * towards),
+                  Vector(1.0, 0.0), Vector(0.0, -1.0)}) {
+                for (const double at_most : {10.0, 1.0001 * std::sqrt(expected.squared_distance)}) {
+                    expect_equal(
+                        finder.find_of_few(pair.a(), pair.b(), pair.b().tree(), at_most, direction),
+                        expected);
+                }
+            }
+            hwy::SetSupportedTargetsForTest(0);
+            hwy::GetChosenTarget().DeInit();
+        }
+    }
+}
+
 }  // namespace
 }  // namespace nearfield::narrowphase
