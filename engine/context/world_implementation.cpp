@@ -11,6 +11,7 @@ namespace nearfield {
 namespace {
 
 using geometry::number;
+using geometry::TransformedPolygon;
 
 /// The number of poses, points or segments that a job takes at a time: neighbours help each other.
 constexpr std::size_t part = 128;
@@ -104,22 +105,41 @@ const geometry::Polygon& World::Implementation::shape(ShapeHandle handle, const 
     return *polygon;
 }
 
+template <class Answer>
+void World::Implementation::divide_poses(const geometry::Polygon& shape, const WorldFilter& filter,
+                                         std::span<const Pose> poses, const Answer& answer) {
+    // Sines and cosines of several poses are computed at the same time; those of one alone would
+    // have to be waited for.
+    constexpr std::size_t together = 16;
+    expect_answers(poses.size());
+    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
+        world::PoseQueries& queries = scratch_[job].poses;
+        std::vector<TransformedPolygon>& placed = scratch_[job].placed;
+        queries.begin(instances_, shape, filter);
+        for (std::size_t i = first; i < end; ++i) {
+            checkpoint();
+            if ((i - first) % together == 0) {
+                placed.clear();
+                for (const Pose& pose : poses.subspan(i, std::min(together, end - i))) {
+                    placed.emplace_back(shape, pose);
+                }
+            }
+            answer(queries, placed[(i - first) % together], i);
+        }
+        finish_answers(end - first);
+    });
+}
+
 void World::Implementation::test_poses(const PoseTestQuery& query, std::span<const Pose> poses,
                                        std::span<std::uint8_t> intersects) {
     require_lengths("test_poses", "poses", poses.size(), intersects.size());
     const geometry::Polygon& polygon = shape(query.shape, "test_poses");
     require_poses("test_poses", poses);
     prepare(query.filter, "test_poses");
-    expect_answers(poses.size());
-    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::PoseQueries& queries = scratch_[job].poses;
-        queries.begin(instances_, polygon, query.filter);
-        for (std::size_t i = first; i < end; ++i) {
-            checkpoint();
-            intersects[i] = queries.intersects(poses[i]) ? 1 : 0;
-        }
-        finish_answers(end - first);
-    });
+    divide_poses(polygon, query.filter, poses,
+                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
+                     intersects[i] = queries.intersects(placed) ? 1 : 0;
+                 });
 }
 
 void World::Implementation::find_clearances(const ClearanceQuery& query,
@@ -134,16 +154,10 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
     }
     require_poses("find_clearances", poses);
     prepare(query.filter, "find_clearances");
-    expect_answers(poses.size());
-    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::PoseQueries& queries = scratch_[job].poses;
-        queries.begin(instances_, polygon, query.filter);
-        for (std::size_t i = first; i < end; ++i) {
-            checkpoint();
-            clearances[i] = queries.clearance(poses[i], query);
-        }
-        finish_answers(end - first);
-    });
+    divide_poses(polygon, query.filter, poses,
+                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
+                     clearances[i] = queries.clearance(placed, query);
+                 });
 }
 
 template <class Place, class Result, class Begin, class Answer>
@@ -197,17 +211,11 @@ void World::Implementation::find_nearest(const ShapeNearestQuery& query,
     const geometry::Polygon& polygon = shape(query.shape, "find_nearest");
     require_poses("find_nearest", poses);
     prepare(query.filter, "find_nearest");
-    expect_answers(poses.size());
-    jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::PoseQueries& queries = scratch_[job].poses;
-        queries.begin(instances_, polygon, query.filter);
-        for (std::size_t i = first; i < end; ++i) {
-            checkpoint();
-            queries.find_nearest(poses[i], query.max_distance,
-                                 nearest.subspan(i * query.count, query.count));
-        }
-        finish_answers(end - first);
-    });
+    divide_poses(polygon, query.filter, poses,
+                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
+                     queries.find_nearest(placed, query.max_distance,
+                                          nearest.subspan(i * query.count, query.count));
+                 });
 }
 
 void World::Implementation::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,

@@ -63,6 +63,7 @@ private:
     /// What one job needs. Kept, so that a frame like the one before allocates nothing.
     struct Job {
         world::PoseQueries poses;
+        std::vector<geometry::TransformedPolygon> placed;
         world::NearestQueries nearest;
         world::RayQueries rays;
         world::OverlapQueries overlaps;
@@ -103,6 +104,11 @@ private:
     template <class Place, class Result, class Begin, class Answer>
     void divide_places(std::size_t count, std::size_t at_a_time, const Place& place,
                        const Result& result, const Begin& begin, const Answer& answer);
+    /// Divides poses of a shape among the jobs: calls answer(queries, placed, i) with the shape at
+    /// pose i.
+    template <class Answer>
+    void divide_poses(const geometry::Polygon& shape, const WorldFilter& filter,
+                      std::span<const Pose> poses, const Answer& answer);
     /// Writes one list per entry; `find(job, i, found)` appends the instances of entry i, in any
     /// order.
     template <class Find>

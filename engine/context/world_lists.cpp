@@ -87,7 +87,7 @@ void World::Implementation::find_overlaps(const PoseTestQuery& query, std::span<
     }
     write_lists(poses.size(), lists,
                 [&](Job& job, std::size_t i, std::vector<std::uint32_t>& found) {
-                    job.poses.find_intersecting(poses[i], found);
+                    job.poses.find_intersecting({polygon, poses[i]}, found);
                 });
 }
 

@@ -35,8 +35,7 @@ void PoseQueries::begin(const Instances& instances, const geometry::Polygon& sha
     guess_ = {};
 }
 
-void PoseQueries::place(const Pose& pose) {
-    const TransformedPolygon placed(*shape_, pose);
+void PoseQueries::place(const TransformedPolygon& placed) {
     if (!shape_edges_.move(0, placed)) {
         shape_edges_.clear();
         static_cast<void>(shape_edges_.place(placed));
@@ -52,8 +51,18 @@ const simd::TransformedEdges& PoseQueries::searched_edges() {
     return edges().count <= simd::max_few_edges ? edges() : complete_edges();
 }
 
-geometry::Box PoseQueries::search_box() const {
-    return geometry::grown(edges().box, edges().rounding + instances_->max_rounding());
+void PoseQueries::find_candidates(const TransformedPolygon& placed) {
+    // Around all turns of the shape: to know that nothing is near takes no look at its vertices.
+    const Vector reach = Vector::Constant(shape_->radius());
+    const geometry::Box around(placed.translation() - reach, placed.translation() + reach);
+    const double rounding =
+        localize::placement_rounding(placed, around) + instances_->max_rounding();
+    candidates_.clear();
+    instances_->boxes().for_meeting(geometry::grown(around, rounding), [this](std::uint32_t index) {
+        if (instances_->passes(index, filter_)) {
+            candidates_.push_back(index);
+        }
+    });
 }
 
 bool PoseQueries::intersects(std::uint32_t index) {
@@ -66,18 +75,18 @@ bool PoseQueries::intersects(std::uint32_t index) {
         is_small(edges()) && is_small(other) ? edges() : complete_edges(), other);
 }
 
-bool PoseQueries::intersects(const Pose& pose) {
-    place(pose);
-    // What was hit before is likely to be hit again.
-    if (guess_.instance != BoxHierarchy::nowhere && intersects(guess_.instance)) {
-        return true;
+bool PoseQueries::intersects(const TransformedPolygon& placed) {
+    find_candidates(placed);
+    if (candidates_.empty()) {
+        guess_.instance = BoxHierarchy::nowhere;
+        return false;
     }
-    candidates_.clear();
-    instances_->boxes().for_meeting(search_box(), [this](std::uint32_t index) {
-        if (index != guess_.instance && instances_->passes(index, filter_)) {
-            candidates_.push_back(index);
-        }
-    });
+    place(placed);
+    // What was hit before is likely to be hit again.
+    const auto before = std::find(candidates_.begin(), candidates_.end(), guess_.instance);
+    if (before != candidates_.end()) {
+        std::iter_swap(candidates_.begin(), before);
+    }
     const auto hit = std::find_if(candidates_.begin(), candidates_.end(),
                                   [this](std::uint32_t index) { return intersects(index); });
     guess_.instance = hit == candidates_.end() ? BoxHierarchy::nowhere : *hit;
@@ -111,13 +120,15 @@ Vector PoseQueries::way_to_guess() {
                                   : Vector(-from(other, guess_.edge, own, guess_.vertex));
 }
 
-void PoseQueries::find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found) {
-    place(pose);
-    instances_->boxes().for_meeting(search_box(), [&](std::uint32_t index) {
-        if (instances_->passes(index, filter_) && intersects(index)) {
-            found.push_back(index);
-        }
-    });
+void PoseQueries::find_intersecting(const TransformedPolygon& placed,
+                                    std::vector<std::uint32_t>& found) {
+    find_candidates(placed);
+    if (candidates_.empty()) {
+        return;
+    }
+    place(placed);
+    std::copy_if(candidates_.begin(), candidates_.end(), std::back_inserter(found),
+                 [this](std::uint32_t index) { return intersects(index); });
 }
 
 bool PoseQueries::replaces(double distance, std::uint32_t index) const {
@@ -214,8 +225,8 @@ void PoseQueries::measure(std::uint32_t index, bool intersects, const ClearanceQ
     }
 }
 
-Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) {
-    place(pose);
+Clearance PoseQueries::clearance(const TransformedPolygon& placed, const ClearanceQuery& query) {
+    place(placed);
     best_ = {};
     nearest_ = BoxHierarchy::nowhere;
     const std::uint32_t guess = guess_.instance;
@@ -233,7 +244,6 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
             measure(index, intersects(index), query);
         }
     });
-    const TransformedPolygon& placed = edges().placed;
     guess_ = {nearest_,
               nearest_vertex_,
               nearest_edge_,
@@ -253,9 +263,9 @@ Clearance PoseQueries::clearance(const Pose& pose, const ClearanceQuery& query) 
     return best_;
 }
 
-void PoseQueries::find_nearest(const Pose& pose, double max_distance,
+void PoseQueries::find_nearest(const TransformedPolygon& placed, double max_distance,
                                std::span<Clearance> nearest) {
-    place(pose);
+    place(placed);
     guess_ = {};
     std::size_t count = 0;
     // What is farther away comes after all that are wanted.

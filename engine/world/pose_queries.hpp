@@ -21,12 +21,17 @@ public:
     void begin(const Instances& instances, const geometry::Polygon& shape,
                const WorldFilter& filter);
 
-    [[nodiscard]] bool intersects(const Pose& pose);
+    // `placed`: the shape at a pose.
+
+    [[nodiscard]] bool intersects(const geometry::TransformedPolygon& placed);
     /// Appends the instances that the shape intersects, in any order.
-    void find_intersecting(const Pose& pose, std::vector<std::uint32_t>& found);
-    [[nodiscard]] Clearance clearance(const Pose& pose, const ClearanceQuery& query);
+    void find_intersecting(const geometry::TransformedPolygon& placed,
+                           std::vector<std::uint32_t>& found);
+    [[nodiscard]] Clearance clearance(const geometry::TransformedPolygon& placed,
+                                      const ClearanceQuery& query);
     /// Fills `nearest`, of which there are as many as are wanted.
-    void find_nearest(const Pose& pose, double max_distance, std::span<Clearance> nearest);
+    void find_nearest(const geometry::TransformedPolygon& placed, double max_distance,
+                      std::span<Clearance> nearest);
 
 private:
     /// What is known of the pose before, a first bound for the next one.
@@ -44,14 +49,14 @@ private:
         double rounding = 0.0;  // of the shape's vertices
     };
 
-    /// Puts the shape at a pose.
-    void place(const Pose& pose);
+    void place(const geometry::TransformedPolygon& placed);
     /// The shape's edges at the pose, with or without the boxes over them.
     [[nodiscard]] const simd::TransformedEdges& edges() const { return shape_edges_[0]; }
     [[nodiscard]] const simd::TransformedEdges& complete_edges();
     /// The shape's edges, complete unless they are few enough to do without.
     [[nodiscard]] const simd::TransformedEdges& searched_edges();
-    [[nodiscard]] geometry::Box search_box() const;
+    /// Lists the instances that the shape may intersect, in any order.
+    void find_candidates(const geometry::TransformedPolygon& placed);
     [[nodiscard]] bool intersects(std::uint32_t index);
     /// The same for the instance of the guess, quickly if the shape has moved less than it was
     /// distant or deep.
