@@ -106,10 +106,12 @@ void World::Implementation::answer_new_pairs(PairTable<Query>& table) {
     table.answered_.records.clear();
     Query query = table.query_;
     query.technique = Technique::cpu;
-    batch_.clear();
-    candidates_.clear();
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (pairs[i].before == world::PairList::none) {
+    const auto fresh = table.state_->list.new_pairs();
+    for (std::size_t first = 0; first < fresh.size(); first += queries_at_a_time) {
+        batch_.clear();
+        candidates_.clear();
+        const std::size_t count = std::min(queries_at_a_time, fresh.size() - first);
+        for (const std::uint32_t i : fresh.subspan(first, count)) {
             query.a = instance_of(pairs[i].a);
             query.b = instance_of(pairs[i].b);
             if constexpr (requires { query.end_a; }) {
@@ -119,13 +121,8 @@ void World::Implementation::answer_new_pairs(PairTable<Query>& table) {
             batch_.add(query);
             candidates_.push_back({i, pairs[i].b});
         }
-        if (candidates_.size() == queries_at_a_time ||
-            (i + 1 == pairs.size() && !candidates_.empty())) {
-            run_batch();
-            append_rows(table);
-            batch_.clear();
-            candidates_.clear();
-        }
+        run_batch();
+        append_rows(table);
     }
 }
 
@@ -172,6 +169,9 @@ void append(const Content& from, std::size_t first, std::size_t end, Content& to
                    from.rows.begin() + static_cast<std::ptrdiff_t>(end));
     to.records.insert(to.records.end(), from.records.begin() + static_cast<std::ptrdiff_t>(record),
                       from.records.begin() + static_cast<std::ptrdiff_t>(end_record));
+    if (to_record == record) {
+        return;  // always so without records
+    }
     for (std::size_t i = row; i < to.rows.size(); ++i) {
         to.rows[i].first_record += static_cast<std::uint32_t>(to_record - record);
     }
@@ -186,15 +186,15 @@ void World::Implementation::merge_rows(PairTable<Query>& table) {
     auto& merged = table.before_;
     merged.rows.clear();
     merged.records.clear();
-    state.row_of_before.clear();
+    state.row_of_before.resize(pairs.size());
     std::size_t next_answered = 0;
     for (std::size_t i = 0; i < pairs.size();) {
         if (pairs[i].before == none) {
             const PairRow<Query>& row = table.answered_.rows[next_answered++];
             const bool is_listed =
                 !table.selection_.hits_only || is_hit(row, table.selection_.reach);
-            state.row_of_before.push_back(is_listed ? static_cast<std::uint32_t>(merged.rows.size())
-                                                    : none);
+            state.row_of_before[i] =
+                is_listed ? static_cast<std::uint32_t>(merged.rows.size()) : none;
             append(table.answered_, next_answered - 1, next_answered - (is_listed ? 0 : 1), merged);
             ++i;
             continue;
@@ -210,7 +210,7 @@ void World::Implementation::merge_rows(PairTable<Query>& table) {
                 first = std::min(first, row);
                 end = row + 1;
             }
-            state.row_of_before.push_back(row == none ? none : to_row + row - first);
+            state.row_of_before[i] = row == none ? none : to_row + row - first;
         }
         append(table.now_, std::min(first, end), end, merged);
     }

@@ -8,6 +8,7 @@ namespace nearfield::world {
 void PairList::clear() {
     last_change_ = 0;
     pairs_.clear();
+    new_pairs_.clear();
     generations_.clear();
 }
 
@@ -89,10 +90,12 @@ void PairList::find_pairs(const Instances& instances, const Boxes& boxes, double
     pairs_before_.resize(kept);
     // Few are new, so most pairs are copied in long runs.
     pairs_.clear();
+    new_pairs_.clear();
     auto next = pairs_before_.cbegin();
     for (const Pair& pair : found_) {
         const auto end = std::lower_bound(next, pairs_before_.cend(), pair, comes_before);
         pairs_.insert(pairs_.end(), next, end);
+        new_pairs_.push_back(static_cast<std::uint32_t>(pairs_.size()));
         pairs_.push_back(pair);
         next = end;
     }

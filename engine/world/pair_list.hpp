@@ -30,6 +30,8 @@ public:
     void update(const Instances& instances, const Motions& motions, double reach);
     /// In ascending order of the instances' numbers.
     [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
+    /// Those of them, in ascending order, that were not in the list before or have changed since.
+    [[nodiscard]] std::span<const std::uint32_t> new_pairs() const { return new_pairs_; }
     /// Forgets all.
     void clear();
 
@@ -46,7 +48,8 @@ private:
     std::uint64_t last_change_ = 0;  // of the instances, at the last update
     std::vector<Pair> pairs_;
     std::vector<Pair> pairs_before_;
-    std::vector<Pair> found_;                 // of instances that changed
+    std::vector<Pair> found_;  // of instances that changed
+    std::vector<std::uint32_t> new_pairs_;
     std::vector<std::uint32_t> generations_;  // by index, at the last update
     std::vector<std::uint8_t> has_changed_;   // by index
 };
