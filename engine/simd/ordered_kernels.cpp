@@ -83,10 +83,14 @@ private:
         if (left == 0) {
             return;
         }
-        // The nearest without branches: which box it is cannot be predicted.
-        const Lanes nearest_key = hn::Set(tag, min_lane(least));
-        std::uint32_t nearest = first_of(bits_of_eight(
-            [&](std::size_t i) HWY_ATTR { return hn::Eq(hn::LoadU(tag, keys + i), nearest_key); }));
+        std::uint32_t nearest = first_of(left);
+        if ((left & (left - 1)) != 0) {
+            // The nearest without branches: which box it is cannot be predicted.
+            const Lanes nearest_key = hn::Set(tag, min_lane(least));
+            nearest = first_of(bits_of_eight([&](std::size_t i) HWY_ATTR {
+                return hn::Eq(hn::LoadU(tag, keys + i), nearest_key);
+            }));
+        }
         for (;;) {
             Enter(level, first + nearest);
             left &= ~(1U << nearest);
