@@ -67,12 +67,7 @@ void MappedBuffer::create_buffer(std::uint64_t bytes) {
     share(info, families_);
     // Composed first: if this allocation fails, no buffer may leak.
     const std::string what = "buffer '" + name_ + "'";
-    VkBuffer buffer = VK_NULL_HANDLE;
-    check(device_->functions().vkCreateBuffer(device_->handle(), &info, device_->allocator(),
-                                              &buffer),
-          "vkCreateBuffer", what);
-    buffer_ = Owned<VkBuffer>(*device_, buffer);
-    device_->name_object(VK_OBJECT_TYPE_BUFFER, buffer, name_);
+    buffer_ = make_object(*device_, info, what, name_);
 }
 
 void MappedBuffer::allocate_memory() {
@@ -124,12 +119,7 @@ Owned<VkBufferView> make_texel_view(const Device& device, const MappedBuffer& bu
     info.format = VK_FORMAT_R32G32B32A32_UINT;
     info.range = texel_bytes * std::min<std::uint64_t>(buffer.capacity() / texel_bytes,
                                                        device.limits().maxTexelBufferElements);
-    VkBufferView view = VK_NULL_HANDLE;
-    check(device.functions().vkCreateBufferView(device.handle(), &info, device.allocator(), &view),
-          "vkCreateBufferView", name);
-    Owned<VkBufferView> owned(device, view);
-    device.name_object(VK_OBJECT_TYPE_BUFFER_VIEW, view, name);
-    return owned;
+    return make_object(device, info, name, name);
 }
 
 }  // namespace nearfield::gpu

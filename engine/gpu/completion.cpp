@@ -10,13 +10,7 @@ Owned<VkSemaphore> make_timeline_semaphore(const Device& device) {
     VkSemaphoreCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
     info.pNext = &type;
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    check(device.functions().vkCreateSemaphore(device.handle(), &info, device.allocator(),
-                                               &semaphore),
-          "vkCreateSemaphore", "a submission");
-    Owned<VkSemaphore> owned(device, semaphore);
-    device.name_object(VK_OBJECT_TYPE_SEMAPHORE, semaphore, "nearfield completion");
-    return owned;
+    return make_object(device, info, "a submission", "nearfield completion");
 }
 
 /// Signalled, so that waiting before the first submission returns at once.
@@ -24,12 +18,7 @@ Owned<VkFence> make_fence(const Device& device) {
     VkFenceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-    VkFence fence = VK_NULL_HANDLE;
-    check(device.functions().vkCreateFence(device.handle(), &info, device.allocator(), &fence),
-          "vkCreateFence", "a submission");
-    Owned<VkFence> owned(device, fence);
-    device.name_object(VK_OBJECT_TYPE_FENCE, fence, "nearfield fence");
-    return owned;
+    return make_object(device, info, "a submission", "nearfield fence");
 }
 
 }  // namespace

@@ -40,12 +40,7 @@ void KeptImage::create_image(VkExtent2D extent) {
         VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     share(info, device_->resident_families());
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImage image = VK_NULL_HANDLE;
-    check(
-        device_->functions().vkCreateImage(device_->handle(), &info, device_->allocator(), &image),
-        "vkCreateImage", name_);
-    image_ = Owned<VkImage>(*device_, image);
-    device_->name_object(VK_OBJECT_TYPE_IMAGE, image, name_);
+    image_ = make_object(*device_, info, name_, name_);
 }
 
 void KeptImage::allocate_memory() {
@@ -66,12 +61,7 @@ void KeptImage::create_view() {
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     info.format = format_;
     info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check(device_->functions().vkCreateImageView(device_->handle(), &info, device_->allocator(),
-                                                 &view),
-          "vkCreateImageView", name_);
-    view_ = Owned<VkImageView>(*device_, view);
-    device_->name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name_);
+    view_ = make_object(*device_, info, name_, name_);
 }
 
 }  // namespace nearfield::gpu

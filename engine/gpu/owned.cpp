@@ -2,29 +2,29 @@
 
 namespace nearfield::gpu {
 
-#define NEARFIELD_DESTROY(Type, function)                                         \
-    void destroy(const Device& device, Type object) {                             \
-        device.functions().function(device.handle(), object, device.allocator()); \
+#define NEARFIELD_OBJECT(Object, TYPE)                                                        \
+    void destroy(const Device& device, Vk##Object object) {                                   \
+        device.functions().vkDestroy##Object(device.handle(), object, device.allocator());    \
+    }                                                                                         \
+    Owned<Vk##Object> make_object(const Device& device, const Vk##Object##CreateInfo& info,   \
+                                  std::string_view what, const std::string& name) {           \
+        Vk##Object object = VK_NULL_HANDLE;                                                   \
+        check(device.functions().vkCreate##Object(device.handle(), &info, device.allocator(), \
+                                                  &object),                                   \
+              "vkCreate" #Object, what);                                                      \
+        Owned<Vk##Object> owned(device, object);                                              \
+        device.name_object(VK_OBJECT_TYPE_##TYPE, object, name);                              \
+        return owned;                                                                         \
     }
+NEARFIELD_OBJECTS(NEARFIELD_OBJECT)
+#undef NEARFIELD_OBJECT
 
-NEARFIELD_DESTROY(VkBuffer, vkDestroyBuffer)
-NEARFIELD_DESTROY(VkBufferView, vkDestroyBufferView)
-NEARFIELD_DESTROY(VkCommandPool, vkDestroyCommandPool)
-NEARFIELD_DESTROY(VkDescriptorPool, vkDestroyDescriptorPool)
-NEARFIELD_DESTROY(VkDescriptorSetLayout, vkDestroyDescriptorSetLayout)
-NEARFIELD_DESTROY(VkDeviceMemory, vkFreeMemory)
-NEARFIELD_DESTROY(VkFence, vkDestroyFence)
-NEARFIELD_DESTROY(VkFramebuffer, vkDestroyFramebuffer)
-NEARFIELD_DESTROY(VkImage, vkDestroyImage)
-NEARFIELD_DESTROY(VkImageView, vkDestroyImageView)
-NEARFIELD_DESTROY(VkPipeline, vkDestroyPipeline)
-NEARFIELD_DESTROY(VkPipelineLayout, vkDestroyPipelineLayout)
-NEARFIELD_DESTROY(VkQueryPool, vkDestroyQueryPool)
-NEARFIELD_DESTROY(VkRenderPass, vkDestroyRenderPass)
-NEARFIELD_DESTROY(VkSampler, vkDestroySampler)
-NEARFIELD_DESTROY(VkSemaphore, vkDestroySemaphore)
-NEARFIELD_DESTROY(VkShaderModule, vkDestroyShaderModule)
+void destroy(const Device& device, VkDeviceMemory object) {
+    device.functions().vkFreeMemory(device.handle(), object, device.allocator());
+}
 
-#undef NEARFIELD_DESTROY
+void destroy(const Device& device, VkPipeline object) {
+    device.functions().vkDestroyPipeline(device.handle(), object, device.allocator());
+}
 
 }  // namespace nearfield::gpu

@@ -51,13 +51,7 @@ Owned<VkShaderModule> make_shader_module(const Device& device, Spirv built,
     info.codeSize = shader.size_bytes();
     info.pCode = shader.data();
     const std::string what = in_words(name);
-    VkShaderModule shader_module = VK_NULL_HANDLE;
-    check(device.functions().vkCreateShaderModule(device.handle(), &info, device.allocator(),
-                                                  &shader_module),
-          "vkCreateShaderModule", what);
-    Owned<VkShaderModule> owned(device, shader_module);
-    device.name_object(VK_OBJECT_TYPE_SHADER_MODULE, shader_module, name);
-    return owned;
+    return make_object(device, info, what, name);
 }
 
 VkPipelineShaderStageCreateInfo shader_stage(VkShaderStageFlagBits stage,
@@ -188,10 +182,15 @@ VkPipelineColorBlendAttachmentState color_attachment(const GraphicsPipelineDescr
     return state;
 }
 
-void report(const Device& device, const std::string& name, const Stopwatch& start) {
+/// Owns a new pipeline, names it, and tells the host how long it took.
+Owned<VkPipeline> finished(const Device& device, VkPipeline pipeline, const std::string& name,
+                           const Stopwatch& start) {
+    Owned<VkPipeline> owned(device, pipeline);
+    device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
     device.log(LogLevel::information, [&] {
         return "pipeline '" + name + "' made in " + std::to_string(start.milliseconds()) + " ms";
     });
+    return owned;
 }
 
 }  // namespace
@@ -215,10 +214,7 @@ Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout l
     check(device.functions().vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1,
                                                       &info, device.allocator(), &pipeline),
           "vkCreateComputePipelines", what);
-    Owned<VkPipeline> owned(device, pipeline);
-    device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
-    report(device, name, start);
-    return owned;
+    return finished(device, pipeline, name, start);
 }
 
 Owned<VkPipeline> make_graphics_pipeline(const Device& device,
@@ -267,10 +263,7 @@ Owned<VkPipeline> make_graphics_pipeline(const Device& device,
     check(device.functions().vkCreateGraphicsPipelines(device.handle(), device.pipeline_cache(), 1,
                                                        &info, device.allocator(), &pipeline),
           "vkCreateGraphicsPipelines", words);
-    Owned<VkPipeline> owned(device, pipeline);
-    device.name_object(VK_OBJECT_TYPE_PIPELINE, pipeline, what.name);
-    report(device, what.name, start);
-    return owned;
+    return finished(device, pipeline, what.name, start);
 }
 
 }  // namespace nearfield::gpu

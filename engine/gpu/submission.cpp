@@ -38,15 +38,11 @@ Submission::Submission(const Device& device) : device_(&device), completion_(dev
     VkCommandPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool_info.queueFamilyIndex = device.queue_family();
-    VkCommandPool pool = VK_NULL_HANDLE;
-    check(functions.vkCreateCommandPool(device.handle(), &pool_info, device.allocator(), &pool),
-          "vkCreateCommandPool", "a submission");
-    pool_ = Owned<VkCommandPool>(device, pool);
-    device.name_object(VK_OBJECT_TYPE_COMMAND_POOL, pool, "nearfield command pool");
+    pool_ = make_object(device, pool_info, "a submission", "nearfield command pool");
 
     VkCommandBufferAllocateInfo commands_info{};
     commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-    commands_info.commandPool = pool;
+    commands_info.commandPool = pool_.get();
     commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands_info.commandBufferCount = 1;
     check(functions.vkAllocateCommandBuffers(device.handle(), &commands_info, &commands_),

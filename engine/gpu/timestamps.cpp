@@ -29,11 +29,7 @@ Timestamps::Timestamps(const Device& device, std::uint32_t capacity, bool on)
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = 2 * capacity;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    check(device.functions().vkCreateQueryPool(device.handle(), &info, device.allocator(), &pool),
-          "vkCreateQueryPool", "the timestamps of the passes");
-    pool_ = Owned<VkQueryPool>(device, pool);
-    device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "timestamps");
+    pool_ = make_object(device, info, "the timestamps of the passes", "timestamps");
 }
 
 void Timestamps::reserve(std::uint32_t capacity) {

@@ -73,12 +73,7 @@ gpu::Owned<VkImage> make_image(const gpu::Device& device, const ImageDescription
     info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
     const std::string name = "nearfield image " + description.name;
-    VkImage image = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateImage(device.handle(), &info, device.allocator(), &image),
-               "vkCreateImage", name);
-    gpu::Owned<VkImage> owned(device, image);
-    device.name_object(VK_OBJECT_TYPE_IMAGE, image, name);
-    return owned;
+    return gpu::make_object(device, info, name, name);
 }
 
 gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
@@ -91,13 +86,7 @@ gpu::Owned<VkImageView> make_view(const gpu::Device& device, VkImage image,
     info.format = format;
     info.subresourceRange = {aspects, 0, 1, 0, 1};
     const std::string name = "nearfield image " + description.name + " as " + purpose;
-    VkImageView view = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateImageView(device.handle(), &info, device.allocator(), &view),
-        "vkCreateImageView", name);
-    gpu::Owned<VkImageView> owned(device, view);
-    device.name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
-    return owned;
+    return gpu::make_object(device, info, name, name);
 }
 
 gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPass render_pass,
@@ -112,13 +101,7 @@ gpu::Owned<VkFramebuffer> make_framebuffer(const gpu::Device& device, VkRenderPa
     info.height = extent.height;
     info.layers = 1;
     const std::string name = "nearfield framebuffer " + pass_name;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateFramebuffer(device.handle(), &info, device.allocator(),
-                                                      &framebuffer),
-               "vkCreateFramebuffer", name);
-    gpu::Owned<VkFramebuffer> owned(device, framebuffer);
-    device.name_object(VK_OBJECT_TYPE_FRAMEBUFFER, framebuffer, name);
-    return owned;
+    return gpu::make_object(device, info, name, name);
 }
 
 }  // namespace

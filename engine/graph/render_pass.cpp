@@ -82,13 +82,7 @@ gpu::Owned<VkRenderPass> make_render_pass(const gpu::Device& device, const Graph
     info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
     info.pDependencies = dependencies.data();
     const std::string name = "nearfield render pass " + graph.passes()[pass.pass].name;
-    VkRenderPass render_pass = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateRenderPass(device.handle(), &info, device.allocator(),
-                                                     &render_pass),
-               "vkCreateRenderPass", name);
-    gpu::Owned<VkRenderPass> owned(device, render_pass);
-    device.name_object(VK_OBJECT_TYPE_RENDER_PASS, render_pass, name);
-    return owned;
+    return gpu::make_object(device, info, name, name);
 }
 
 }  // namespace nearfield::graph

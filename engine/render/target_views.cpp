@@ -25,13 +25,7 @@ gpu::Owned<VkImageView> TargetViews::make(const ResidentImageTarget& target) con
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     info.format = target.format;
     info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, target.level, 1, target.layer, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    gpu::check(device_->functions().vkCreateImageView(device_->handle(), &info,
-                                                      device_->allocator(), &view),
-               "vkCreateImageView", name);
-    gpu::Owned<VkImageView> owned(*device_, view);
-    device_->name_object(VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
-    return owned;
+    return gpu::make_object(*device_, info, name, name);
 }
 
 }  // namespace nearfield::render

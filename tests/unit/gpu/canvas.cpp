@@ -5,9 +5,6 @@
 
 namespace nearfield::test_support {
 
-using gpu::check;
-using gpu::Owned;
-
 Canvas::Canvas(const gpu::Device& device)
     : device_(&device),
       color_(make_image(VK_FORMAT_R32_UINT,
@@ -37,35 +34,22 @@ Canvas::Image Canvas::make_image(VkFormat format, VkImageUsageFlags usage,
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = usage;
     Image result;
-    VkImage image = VK_NULL_HANDLE;
-    check(functions.vkCreateImage(device_->handle(), &info, nullptr, &image), "vkCreateImage",
-          "a canvas");
-    result.image = Owned<VkImage>(*device_, image);
-
+    result.image = gpu::make_object(*device_, info, "a canvas", "a canvas");
     VkMemoryRequirements needs{};
-    functions.vkGetImageMemoryRequirements(device_->handle(), image, &needs);
-    VkMemoryAllocateInfo memory_info{};
-    memory_info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
-    memory_info.allocationSize = needs.size;
-    memory_info.memoryTypeIndex =
-        device_->memory_type(needs.memoryTypeBits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(functions.vkAllocateMemory(device_->handle(), &memory_info, nullptr, &memory),
-          "vkAllocateMemory", "a canvas");
-    result.memory = Owned<VkDeviceMemory>(*device_, memory);
-    check(functions.vkBindImageMemory(device_->handle(), image, memory, 0), "vkBindImageMemory",
-          "a canvas");
+    functions.vkGetImageMemoryRequirements(device_->handle(), result.image.get(), &needs);
+    result.memory = device_->memory().allocate(needs, {0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
+                                               gpu::MemoryKind::image, "a canvas");
+    gpu::check(functions.vkBindImageMemory(device_->handle(), result.image.get(),
+                                           result.memory.get(), result.memory.offset()),
+               "vkBindImageMemory", "a canvas");
 
     VkImageViewCreateInfo view_info{};
     view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view_info.image = image;
+    view_info.image = result.image.get();
     view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = format;
     view_info.subresourceRange = {aspect, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check(functions.vkCreateImageView(device_->handle(), &view_info, nullptr, &view),
-          "vkCreateImageView", "a canvas");
-    result.view = Owned<VkImageView>(*device_, view);
+    result.view = gpu::make_object(*device_, view_info, "a canvas", "a canvas");
     return result;
 }
 
@@ -100,10 +84,7 @@ void Canvas::make_render_pass() {
     info.pSubpasses = &subpass;
     info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
     info.pDependencies = dependencies.data();
-    VkRenderPass render_pass = VK_NULL_HANDLE;
-    check(device_->functions().vkCreateRenderPass(device_->handle(), &info, nullptr, &render_pass),
-          "vkCreateRenderPass", "a canvas");
-    render_pass_ = Owned<VkRenderPass>(*device_, render_pass);
+    render_pass_ = gpu::make_object(*device_, info, "a canvas", "a canvas");
 }
 
 void Canvas::make_framebuffer() {
@@ -116,19 +97,13 @@ void Canvas::make_framebuffer() {
     info.width = size;
     info.height = size;
     info.layers = 1;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(device_->functions().vkCreateFramebuffer(device_->handle(), &info, nullptr, &framebuffer),
-          "vkCreateFramebuffer", "a canvas");
-    framebuffer_ = Owned<VkFramebuffer>(*device_, framebuffer);
+    framebuffer_ = gpu::make_object(*device_, info, "a canvas", "a canvas");
 }
 
 void Canvas::make_layout() {
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(device_->functions().vkCreatePipelineLayout(device_->handle(), &info, nullptr, &layout),
-          "vkCreatePipelineLayout", "a canvas");
-    layout_ = Owned<VkPipelineLayout>(*device_, layout);
+    layout_ = gpu::make_object(*device_, info, "a canvas", "a canvas");
 }
 
 void Canvas::begin_render_pass(VkCommandBuffer commands) const {

@@ -2,6 +2,7 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/memory.hpp>
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 
@@ -26,7 +27,7 @@ public:
 
 private:
     struct Image {
-        gpu::Owned<VkDeviceMemory> memory;
+        gpu::DeviceMemory memory;
         gpu::Owned<VkImage> image;
         gpu::Owned<VkImageView> view;
     };

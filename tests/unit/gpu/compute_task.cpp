@@ -15,7 +15,6 @@ ComputeTask::ComputeTask(const gpu::Device& device) : device_(&device) {
 }
 
 void ComputeTask::make_layouts() {
-    const gpu::Functions& functions = device_->functions();
     std::array<VkDescriptorSetLayoutBinding, 2> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
         bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT,
@@ -25,42 +24,32 @@ void ComputeTask::make_layouts() {
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set_info.pBindings = bindings.data();
-    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    gpu::check(
-        functions.vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout),
-        "vkCreateDescriptorSetLayout", "a test");
-    set_layout_ = gpu::Owned<VkDescriptorSetLayout>(*device_, set_layout);
+    set_layout_ = gpu::make_object(*device_, set_info, "a test", "a test");
 
     VkPipelineLayoutCreateInfo layout_info{};
     layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     layout_info.setLayoutCount = 1;
+    const VkDescriptorSetLayout set_layout = set_layout_.get();
     layout_info.pSetLayouts = &set_layout;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(functions.vkCreatePipelineLayout(device_->handle(), &layout_info, nullptr, &layout),
-               "vkCreatePipelineLayout", "a test");
-    layout_ = gpu::Owned<VkPipelineLayout>(*device_, layout);
+    layout_ = gpu::make_object(*device_, layout_info, "a test", "a test");
 }
 
 void ComputeTask::make_descriptor_set() {
-    const gpu::Functions& functions = device_->functions();
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
     VkDescriptorPoolCreateInfo pool_info{};
     pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool_info.maxSets = 1;
     pool_info.poolSizeCount = 1;
     pool_info.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check(functions.vkCreateDescriptorPool(device_->handle(), &pool_info, nullptr, &pool),
-               "vkCreateDescriptorPool", "a test");
-    pool_ = gpu::Owned<VkDescriptorPool>(*device_, pool);
+    pool_ = gpu::make_object(*device_, pool_info, "a test", "a test");
 
     const VkDescriptorSetLayout set_layout = set_layout_.get();
     VkDescriptorSetAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-    info.descriptorPool = pool;
+    info.descriptorPool = pool_.get();
     info.descriptorSetCount = 1;
     info.pSetLayouts = &set_layout;
-    gpu::check(functions.vkAllocateDescriptorSets(device_->handle(), &info, &set_),
+    gpu::check(device_->functions().vkAllocateDescriptorSets(device_->handle(), &info, &set_),
                "vkAllocateDescriptorSets", "a test");
 }
 
