@@ -61,7 +61,7 @@ public:
     void dispatch_groups(VkCommandBuffer commands, const plan::TileBatch& batch, std::size_t list,
                          Words... words) const {
         const std::uint32_t begin = batch.first_group(list);
-        const auto end = begin + static_cast<std::uint32_t>(batch.groups[list].size());
+        const auto end = begin + static_cast<std::uint32_t>(batch.raster.groups[list].size());
         for (std::uint32_t first = begin; first < end; first += plan::max_workgroups) {
             push(commands, Push{first, words...});
             dispatch(commands, std::min(end - first, plan::max_workgroups));

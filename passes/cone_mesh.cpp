@@ -44,8 +44,8 @@ void ConeMesh::record(VkCommandBuffer commands, const RecordContext& context) co
     const TileRenderer renderer(*device_, layout_, commands, context);
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
-    renderer.draw(context.batch->meshes.range(plan::rectangles_of(SignEncoding::stencil),
-                                              plan::rectangles_of(SignEncoding::color)),
+    renderer.draw(context.batch->raster.meshes.range(plan::rectangles_of(SignEncoding::stencil),
+                                                     plan::rectangles_of(SignEncoding::color)),
                   1.0F, plan::no_feature);
     renderer.bind(draw_.get());
     renderer.draw(plan::TileMeshId::distances);

@@ -19,7 +19,7 @@ EarlyOut::EarlyOut(const gpu::Device& device) : device_(&device) {
 }
 
 void EarlyOut::reset(VkCommandBuffer commands, const RecordContext& context) const {
-    const auto count = static_cast<std::uint32_t>(context.batch->watched.size());
+    const auto count = static_cast<std::uint32_t>(context.batch->raster.watched.size());
     if (count > 0) {
         device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0, count);
     }
@@ -48,7 +48,7 @@ graph::Handle EarlyOut::declare(TileGraph& graph, graph::Handle samples,
 
 void EarlyOut::record(VkCommandBuffer commands, const RecordContext& context,
                       IntersectionStrategy strategy) const {
-    const std::vector<plan::WatchedTile>& watched = context.batch->watched;
+    const std::vector<plan::WatchedTile>& watched = context.batch->raster.watched;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {
             const VkDeviceSize offset = context.summaries_offset +

@@ -70,7 +70,7 @@ graph::Handle FeatureBit::declare(TileGraph& graph, graph::Handle mesh, VkExtent
 
 void FeatureBit::record(VkCommandBuffer commands, const RecordContext& context) const {
     const TileRenderer renderer(*device_, layout_, commands, context);
-    const plan::TileMeshes& meshes = context.batch->meshes;
+    const plan::TileMeshes& meshes = context.batch->raster.meshes;
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::feature_bit)), 1.0F,

@@ -56,7 +56,7 @@ void ResolveField::record(VkCommandBuffer commands, const RecordContext& context
     shader_.bind(commands);
     for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         const auto sign = static_cast<SignEncoding>(encoding);
-        if (!context.batch->groups[plan::group_list(sign)].empty()) {
+        if (!context.batch->raster.groups[plan::group_list(sign)].empty()) {
             shader_.bind_set(commands, context.field_set(sign));
             shader_.dispatch_groups<plan::ResolveFieldPush>(commands, *context.batch,
                                                             plan::group_list(sign), sign_mask(sign),

@@ -40,7 +40,7 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
 TileRenderer::TileRenderer(const gpu::Device& device, VkPipelineLayout layout,
                            VkCommandBuffer commands, const RecordContext& context)
     : functions_(&device.functions()), layout_(layout), commands_(commands), context_(&context) {
-    const plan::TileSize extent = context.batch->extent;
+    const plan::TileSize extent = context.batch->raster.extent;
     const VkRect2D scissor{{0, 0}, {extent.width, extent.height}};
     functions_->vkCmdSetViewport(commands_, 0, 1, &viewport);
     functions_->vkCmdSetScissor(commands_, 0, 1, &scissor);
@@ -63,7 +63,7 @@ void TileRenderer::draw(plan::DrawRange range, float depth_scale, std::uint32_t 
 }
 
 void TileRenderer::draw(plan::TileMeshId mesh) const {
-    draw_from(context_->tile_mesh_offset, context_->batch->meshes.range(mesh), 1.0F, 0);
+    draw_from(context_->tile_mesh_offset, context_->batch->raster.meshes.range(mesh), 1.0F, 0);
 }
 
 void TileRenderer::draw_from(VkDeviceSize offset, plan::DrawRange range, float depth_scale,

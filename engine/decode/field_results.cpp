@@ -49,14 +49,12 @@ float FieldDecoder::in_world(std::uint32_t word, const Tile& tile) {
 
 void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& batch,
                        std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
-    for (const plan::TileDraw& draw : batch.distance_draws) {
+    for (const plan::FieldTile& field : batch.field_tiles) {
         checkpoint();
-        if (draw.field) {
-            const Tile& tile = plan.tiles[batch.tile_index[draw.tile]];
-            const plan::QueryTimer timer(plan.times, tile.query, &QueryTime::answer);
-            add_tile(plan.queries[tile.query], tile, draw, words,
-                     std::get<DistanceFieldResult>(results[tile.query]));
-        }
+        const Tile& tile = plan.tiles[batch.tile_index[field.tile]];
+        const plan::QueryTimer timer(plan.times, tile.query, &QueryTime::answer);
+        add_tile(plan.queries[tile.query], tile, field, words,
+                 std::get<DistanceFieldResult>(results[tile.query]));
     }
     for (const plan::FieldPointRun& run : batch.field_point_runs) {
         const plan::PlannedQuery& planned = plan.queries[run.query];
@@ -76,23 +74,23 @@ void FieldDecoder::add(const plan::Plan& plan, const plan::TileBatch& batch,
 }
 
 void FieldDecoder::add_tile(const plan::PlannedQuery& planned, const Tile& tile,
-                            const plan::TileDraw& draw, std::span<const std::uint32_t> words,
+                            const plan::FieldTile& field, std::span<const std::uint32_t> words,
                             DistanceFieldResult& result) {
     const auto& query = std::get<DistanceFieldQuery>(*planned.query);
     if (planned.field().parts.host_values) {
-        add_values(tile, words.subspan(draw.first_value), query.values, result);
+        add_values(tile, words.subspan(field.first_value), query.values, result);
     }
     if (planned.field().parts.host_features) {
-        add_features(planned, tile, words.subspan(draw.first_feature), result);
+        add_features(planned, tile, words.subspan(field.first_feature), result);
     }
     if (planned.field().parts.gradients) {
-        const auto gradients = words.subspan(draw.first_gradient);
+        const auto gradients = words.subspan(field.first_gradient);
         for_cells(tile, result.width, [&](std::size_t drawn, std::size_t cell) {
             result.gradients[2 * cell] = from_word(gradients[2 * drawn]);
             result.gradients[2 * cell + 1] = from_word(gradients[2 * drawn + 1]);
         });
     } else if (query.gradients && query.gradient == GradientMethod::central_differences) {
-        const auto values = words.subspan(draw.first_value);
+        const auto values = words.subspan(field.first_value);
         const auto half_difference = [&](std::size_t high, std::size_t low) {
             return 0.5F * (from_word(values[high]) - from_word(values[low]));
         };

@@ -35,7 +35,7 @@ public:
 
 private:
     void add_tile(const plan::PlannedQuery& planned, const plan::Tile& tile,
-                  const plan::TileDraw& draw, std::span<const std::uint32_t> words,
+                  const plan::FieldTile& field, std::span<const std::uint32_t> words,
                   DistanceFieldResult& result);
     /// `keep`: store the values in the result; otherwise only track their magnitude.
     void add_values(const plan::Tile& tile, std::span<const std::uint32_t> words, bool keep,

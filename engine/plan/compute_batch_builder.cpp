@@ -132,7 +132,7 @@ void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork&
 }
 
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
-                                    const TileDraw& draw, SimplifiedShapes& shapes,
+                                    const FieldTile& field, SimplifiedShapes& shapes,
                                     TileBatch& batch) {
     ComputeWork& work = batch.compute;
     const TileBoundary boundary = boundary_of(query, tile, shapes);
@@ -142,10 +142,10 @@ void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
     const std::uint32_t mask = add_mask(tile, work);
     add_fill(tile, mask, work);
     if (query.field().parts.values) {
-        add_blocks(boundary, tile, work.masks[mask], draw.first_value, work);
+        add_blocks(boundary, tile, work.masks[mask], field.first_value, work);
     }
     if (query.field().parts.features || query.field().point_count > 0) {
-        add_feature_blocks(query, boundary, tile, work.masks[mask], draw.first_feature, batch);
+        add_feature_blocks(query, boundary, tile, work.masks[mask], field.first_feature, batch);
     }
 }
 
@@ -244,16 +244,16 @@ void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile
 }
 
 void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
-                                      const TileDraw& draw, SimplifiedShapes& shapes,
+                                      const OverlapTile& asked, SimplifiedShapes& shapes,
                                       TileBatch& batch) {
     ComputeWork& work = batch.compute;
     const double cell = tile.grid.cell;
     const double simplification = query.budget.simplification;
     const auto overlap = static_cast<std::uint32_t>(work.overlaps.size());
     OverlapData data;
-    data.tile = draw.tile;
-    data.list = draw.list ? 1 : 0;
-    const bool with_runs = (draw.list || draw.keeps_hits()) && draw.part_a == Part::boundary;
+    data.tile = asked.tile;
+    data.list = asked.lists ? 1 : 0;
+    const bool with_runs = (asked.lists || asked.keeps_hits) && asked.part_a == Part::boundary;
     data.first_run = with_runs ? static_cast<std::uint32_t>(work.run_words) : no_runs;
     if (with_runs) {
         work.run_words += std::uint64_t{tile.width} * tile.height;
@@ -270,8 +270,8 @@ void ComputeBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& til
         }
         return mask;
     };
-    data.mask_b = add(*query.b, query.pose_b, draw.part_b, false);
-    data.mask_a = add(*query.a, query.pose_a, draw.part_a, true);
+    data.mask_b = add(*query.b, query.pose_b, asked.part_b, false);
+    data.mask_a = add(*query.a, query.pose_a, asked.part_a, true);
     work.overlaps.push_back(data);
     for (std::uint32_t row = 0; row < tile.height; ++row) {
         work.overlap_rows.push_back({overlap, row});

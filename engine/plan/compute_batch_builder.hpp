@@ -13,8 +13,9 @@
 
 namespace nearfield::plan {
 
+struct FieldTile;
+struct OverlapTile;
 struct TileBatch;
-struct TileDraw;
 
 /// Turns the tiles of a tile batch of the compute technique into its work: masks, lists of near
 /// edges, blocks. Keeps its scratch memory.
@@ -26,13 +27,13 @@ public:
     /// left to the CPU.
     [[nodiscard]] bool add_points_tile(const PlannedQuery& query, const Tile& tile,
                                        SimplifiedShapes& shapes, TileData& data, TileBatch& batch);
-    /// Adds the mask of a field tile, and its blocks with their edge lists. `draw` says where in
+    /// Adds the mask of a field tile, and its blocks with their edge lists. `field` says where in
     /// the read-back the requested outputs go.
-    void add_field_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+    void add_field_tile(const PlannedQuery& query, const Tile& tile, const FieldTile& field,
                         SimplifiedShapes& shapes, TileBatch& batch);
-    /// Adds an overlap tile. `draw` says whether each shape takes part by its volume or its
+    /// Adds an overlap tile. `asked` says whether each shape takes part by its volume or its
     /// boundary.
-    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, const OverlapTile& asked,
                           SimplifiedShapes& shapes, TileBatch& batch);
     /// Adds a point of a field tile that has been added already. `first_block`: the tile's first
     /// block in ComputeWork::feature_blocks.

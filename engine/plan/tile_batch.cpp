@@ -35,39 +35,43 @@ TileEdge part_near(const TileEdge& edge, const Tile& tile, double border) {
 std::uint32_t TileBatch::first_group(std::size_t list) const {
     std::size_t first = tiles.size() * sizeof(TileData) / sizeof(CellGroup);
     for (std::size_t i = 0; i < list; ++i) {
-        first += groups[i].size();
+        first += raster.groups[i].size();
     }
     return static_cast<std::uint32_t>(first);
 }
 
-void TileBatch::clear() {
+void RasterWork::clear() {
     meshes.clear();
     extent = {};
-    tiles.clear();
     for (std::vector<CellGroup>& list : groups) {
         list.clear();
     }
+    for (std::vector<DrawnOverlap>& drawn : overlaps) {
+        drawn.clear();
+    }
+    watched.clear();
+    field_points.clear();
+    hit_words = 0;
+}
+
+void TileBatch::clear() {
+    tiles.clear();
+    tile_index.clear();
     lists.clear();
     points.clear();
     point_index.clear();
-    distance_draws.clear();
-    for (std::vector<TileDraw>& draws : overlap_draws) {
-        draws.clear();
-    }
-    tile_index.clear();
     runs.clear();
-    field_points.clear();
+    listed_cells = 0;
+    keeps_hits = false;
+    field_tiles.clear();
     field_point_index.clear();
     field_point_runs.clear();
     field_words = 0;
     field_read_back.clear();
     resident = false;
     by_compute = false;
+    raster.clear();
     compute.clear();
-    watched.clear();
-    listed_cells = 0;
-    hit_words = 0;
-    keeps_hits = false;
 }
 
 void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& batch) {
@@ -80,60 +84,55 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
         checkpoint();
         const Tile& tile = plan.tiles[i];
-        TileDraw draw;
-        draw.tile = static_cast<std::uint32_t>(batch.tiles.size());
-        draw.x = tile.place.x;
-        draw.y = tile.place.y;
-        draw.width = tile.width;
-        draw.height = tile.height;
-        tile_of_plan_[i] = draw.tile;
+        const PlannedQuery& query = plan.queries[tile.query];
+        tile_of_plan_[i] = static_cast<std::uint32_t>(batch.tiles.size());
         first_block_[i] = static_cast<std::uint32_t>(batch.compute.feature_blocks.size());
         batch.tile_index.push_back(i);
         left_to_cpu_.push_back(false);
-        batch.resident =
-            batch.resident || (tile.kind != TileKind::overlap && plan.queries[tile.query].resident);
+        batch.resident = batch.resident || (tile.kind != TileKind::overlap && query.resident);
         TileData& data = batch.tiles.emplace_back();
         data.atlas_x = tile.place.x;
         data.atlas_y = tile.place.y;
         data.width = tile.width;
         data.height = tile.height;
-        batch.extent.width = std::max(batch.extent.width, tile.place.x + tile.width);
-        batch.extent.height = std::max(batch.extent.height, tile.place.y + tile.height);
         if (batch.by_compute) {
-            add_compute_tile(plan.queries[tile.query], tile, draw, batch);
+            add_compute_tile(query, tile, batch);
         } else {
-            add_drawn_tile(plan.queries[tile.query], tile, draw, batch);
+            add_drawn_tile(query, tile, batch);
         }
     }
     add_points(plan, number, batch);
     add_field_points(plan, number, batch);
 }
 
-void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+void TileBatchBuilder::add_drawn_tile(const PlannedQuery& query, const Tile& tile,
                                       TileBatch& batch) {
+    TileSize& extent = batch.raster.extent;
+    extent.width = std::max(extent.width, tile.place.x + tile.width);
+    extent.height = std::max(extent.height, tile.place.y + tile.height);
     if (tile.kind == TileKind::overlap) {
-        add_overlap_tile(query, tile, draw, batch);
+        add_overlap_tile(query, tile, batch);
     } else {
-        add_distance_tile(query, tile, draw, batch);
+        add_distance_tile(query, tile, batch);
     }
 }
 
-void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
+void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& tile,
                                         TileBatch& batch) {
     switch (tile.kind) {
         case TileKind::points:
-            left_to_cpu_[draw.tile] =
-                !compute_.add_points_tile(query, tile, shapes_, batch.tiles[draw.tile], batch);
+            left_to_cpu_.back() =
+                !compute_.add_points_tile(query, tile, shapes_, batch.tiles.back(), batch);
             break;
         case TileKind::field:
-            nearest_.clear();
-            add_field_output(query, tile, draw, batch);
-            compute_.add_field_tile(query, tile, draw, shapes_, batch);
-            batch.distance_draws.push_back(draw);
+            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), shapes_,
+                                    batch);
             break;
         case TileKind::overlap:
-            describe_overlap(std::get<IntersectionQuery>(*query.query), tile, draw, batch);
-            compute_.add_overlap_tile(query, tile, draw, shapes_, batch);
+            compute_.add_overlap_tile(
+                query, tile,
+                describe_overlap(std::get<IntersectionQuery>(*query.query), tile, batch), shapes_,
+                batch);
             break;
     }
 }
@@ -202,11 +201,29 @@ void TileBatchBuilder::add_distance_mesh(const TileBoundary& boundary, const Til
     mesh.resize(static_cast<std::size_t>(next - mesh.data()));
 }
 
-void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                                        TileBatch& batch) const {
-    draw.field = true;
-    draw.sign = std::get<DistanceFieldQuery>(*query.query).sign;
-    if (draw.sign == SignEncoding::feature_bit && nearest_.size() >= max_signed_features) {
+const FieldTile& TileBatchBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
+                                                  TileBatch& batch) {
+    const FieldParts& parts = query.field().parts;
+    const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
+    FieldTile& field = batch.field_tiles.emplace_back();
+    field.tile = static_cast<std::uint32_t>(batch.tiles.size() - 1);
+    field.sign = std::get<DistanceFieldQuery>(*query.query).sign;
+    if (parts.values) {
+        field.first_value = add_field_words(cells, parts.host_values, batch);
+    }
+    if (parts.features) {
+        field.first_feature = add_field_words(cells, parts.host_features, batch);
+    }
+    if (parts.gradients) {
+        field.first_gradient = add_field_words(2 * cells, true, batch);
+    }
+    return field;
+}
+
+void TileBatchBuilder::add_drawn_field(const PlannedQuery& query, const Tile& tile,
+                                       TileBatch& batch) const {
+    const FieldTile& field = add_field_tile(query, tile, batch);
+    if (field.sign == SignEncoding::feature_bit && nearest_.size() >= max_signed_features) {
         throw StatusException(
             {StatusCode::too_large,
              std::to_string(nearest_.size()) +
@@ -214,20 +231,16 @@ void TileBatchBuilder::add_field_output(const PlannedQuery& query, const Tile& t
                  "carries the sign in its top bit has room for " +
                  std::to_string(max_signed_features)});
     }
-    const std::uint64_t cells = std::uint64_t{tile.width} * tile.height;
-    if (query.field().parts.values) {
-        draw.first_value = add_field_words(cells, query.field().parts.host_values, batch);
-    }
+    RasterWork& work = batch.raster;
     if (query.field().parts.blended) {
-        for (const geometry::MeshVertex& vertex : rectangle_of(tile, draw.first_value)) {
-            batch.meshes[TileMeshId::gradients].push_back(in_tile(tile, vertex));
+        for (const geometry::MeshVertex& vertex : rectangle_of(tile, field.first_value)) {
+            work.meshes[TileMeshId::gradients].push_back(in_tile(tile, vertex));
         }
     }
-    if (query.field().parts.features) {
-        draw.first_feature = add_field_words(cells, query.field().parts.host_features, batch);
-    }
-    if (query.field().parts.gradients) {
-        draw.first_gradient = add_field_words(2 * cells, true, batch);
+    if (field.first_value != not_asked || field.first_feature != not_asked) {
+        add_groups(tile, field_group_side, field_group_side,
+                   {field.tile, 0, field.first_value, field.first_feature},
+                   work.groups[group_list(field.sign)]);
     }
 }
 
@@ -247,7 +260,7 @@ std::uint32_t TileBatchBuilder::add_field_words(std::uint64_t count, bool for_ho
     return added.first;
 }
 
-void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& tile,
                                          TileBatch& batch) {
     const double cell = tile.grid.cell;
     const ErrorBudget& budget = query.budget;
@@ -267,7 +280,7 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
     finder_.find(boundary, tile.needed, simplification + mesh_error, nearest_);
     if (tile.kind == TileKind::points &&
         is_left_to_cpu(query, crossing_.size() + nearest_.size())) {
-        left_to_cpu_[draw.tile] = true;
+        left_to_cpu_.back() = true;
         return;
     }
     nearest_list_.clear();
@@ -276,22 +289,19 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
         nearest_list_.push_back(nearest.edge);
         largest_reach = std::max(largest_reach, nearest.reach());
     }
+    SignEncoding sign = SignEncoding::stencil;
     if (tile.kind == TileKind::field) {
-        add_field_output(query, tile, draw, batch);
-        if (draw.first_value != not_asked || draw.first_feature != not_asked) {
-            add_groups(draw, field_group_side, field_group_side,
-                       {draw.tile, 0, draw.first_value, draw.first_feature},
-                       batch.groups[group_list(draw.sign)]);
-        }
+        add_drawn_field(query, tile, batch);
+        sign = batch.field_tiles.back().sign;
     }
-    add_rectangle(tile, batch.meshes[rectangles_of(draw.sign)]);
-    add_fill(crossing_, tile, batch.meshes[fills_of(draw.sign)]);
-    add_distance_mesh(
-        boundary, tile, mesh_error,
-        batch.meshes[draw.sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
-                                                            : TileMeshId::distances]);
+    TileMeshes& meshes = batch.raster.meshes;
+    add_rectangle(tile, meshes[rectangles_of(sign)]);
+    add_fill(crossing_, tile, meshes[fills_of(sign)]);
+    add_distance_mesh(boundary, tile, mesh_error,
+                      meshes[sign == SignEncoding::feature_bit ? TileMeshId::signed_distances
+                                                               : TileMeshId::distances]);
 
-    TileData& data = batch.tiles[draw.tile];
+    TileData& data = batch.tiles.back();
     batch.lists.begin_tile(boundary);
     const double side = std::max(tile.width, tile.height);
     data.nearest = batch.lists.write(nearest_list_, side + 2.0 * largest_reach + 4.0);
@@ -302,7 +312,6 @@ void TileBatchBuilder::add_distance_tile(const PlannedQuery& query, const Tile& 
                                       2.0 * grid_.largest_move() + 0.01);
     data.margin = static_cast<float>(uniqueness_margin / std::numbers::sqrt2);
     data.outside = tile.kind == TileKind::points && query.points().outside ? 1 : 0;
-    batch.distance_draws.push_back(draw);
 }
 
 void TileBatchBuilder::add_points(const Plan& plan, std::uint32_t number, TileBatch& batch) {
@@ -349,9 +358,9 @@ void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, 
             ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, batch.compute);
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;
-            batch.field_points.push_back({static_cast<float>(local.x()),
-                                          static_cast<float>(local.y()), tile_of_plan_[point.tile],
-                                          point.column | point.row << 16U});
+            batch.raster.field_points.push_back(
+                {static_cast<float>(local.x()), static_cast<float>(local.y()),
+                 tile_of_plan_[point.tile], point.column | point.row << 16U});
         }
         batch.field_point_index.push_back(i);
         FieldPointRun& run = batch.field_point_runs.back();

@@ -39,25 +39,25 @@ struct WatchedTile {
     DrawRange a;  ///< in the mesh OverlapStep::watched_a of the strategy
 };
 
-/// What is drawn, or computed, in one tile.
-struct TileDraw {
+/// An overlap tile: which part of each shape takes part, and what becomes of its samples.
+struct OverlapTile {
     std::uint32_t tile = 0;  ///< in TileBatch::tiles
-    std::uint32_t x = 0;     ///< position in the atlas
-    std::uint32_t y = 0;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
     Part part_a = Part::volume;
     Part part_b = Part::volume;
-    bool list = false;  ///< overlap tiles: samples are listed, not only counted
-    /// Overlap tiles: where the hits of the cells are kept, one word per cell. The compute
-    /// technique keeps them in masks: there any number means that they are kept.
-    std::uint32_t first_hit = not_asked;
+    bool lists = false;       ///< samples are listed, not only counted
+    bool keeps_hits = false;  ///< the hits of the cells stay on the device
+};
 
-    /// Overlap tiles: the hits of the cells stay on the device.
-    [[nodiscard]] bool keeps_hits() const { return first_hit != not_asked; }
-    // Field tiles only: where the requested outputs at cells start, in 32-bit words of the field's
-    // read-back.
-    bool field = false;
+/// An overlap tile that is drawn.
+struct DrawnOverlap : OverlapTile {
+    /// Where the hits of the cells are kept, one word per cell.
+    std::uint32_t first_hit = not_asked;
+};
+
+/// A field tile: where the requested outputs at cells start, in 32-bit words of the field's
+/// read-back.
+struct FieldTile {
+    std::uint32_t tile = 0;  ///< in TileBatch::tiles
     SignEncoding sign = SignEncoding::stencil;
     std::uint32_t first_value = not_asked;     ///< one word per cell
     std::uint32_t first_feature = not_asked;   ///< one word per cell
@@ -90,33 +90,40 @@ struct WordRange {
 }
 inline constexpr std::size_t group_lists = sign_encodings + intersection_strategies;
 
-/// Tiles that fill the atlas once, in the form that the device takes.
-struct TileBatch {
+/// What is drawn in a tile batch of the raster technique.
+struct RasterWork {
     TileMeshes meshes;
     TileSize extent;  ///< of the atlas that the tiles take
-    std::vector<TileData> tiles;
     std::array<std::vector<CellGroup>, group_lists> groups;
+    std::array<std::vector<DrawnOverlap>, intersection_strategies> overlaps;  ///< by strategy
+    std::vector<WatchedTile> watched;  ///< by occlusion query
+    std::vector<PointData> field_points;
+    std::uint32_t hit_words = 0;  ///< for all overlap tiles whose hits are kept
+
+    void clear();
+};
+
+/// Tiles that the device works on at once, in the form that it takes.
+struct TileBatch {
+    std::vector<TileData> tiles;
+    std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
     EdgeListWriter lists;
     std::vector<PointData> points;
     std::vector<std::uint32_t> point_index;  ///< by point: its position in Plan::points
-    std::vector<TileDraw> distance_draws;
-    std::array<std::vector<TileDraw>, intersection_strategies> overlap_draws;  ///< by strategy
-    std::vector<std::uint32_t> tile_index;  ///< by tile: its position in Plan::tiles
-    std::vector<EdgeRun> runs;              ///< of A's edges, which offset polygons' ids refer to
-    std::vector<WatchedTile> watched;       ///< by occlusion query
-    std::uint64_t listed_cells = 0;         ///< cells of all overlap tiles whose samples are listed
-    std::uint32_t hit_words = 0;            ///< for all overlap tiles whose hits are kept
-    bool keeps_hits = false;                ///< there are such tiles
-    std::vector<PointData> field_points;
+    std::vector<EdgeRun> runs;               ///< of A's edges, which offset polygons' ids refer to
+    std::uint64_t listed_cells = 0;  ///< cells of all overlap tiles whose samples are listed
+    bool keeps_hits = false;         ///< there are overlap tiles whose hits are kept
+    std::vector<FieldTile> field_tiles;
     std::vector<std::uint32_t> field_point_index;  ///< by point: in Plan::field_points
     std::vector<FieldPointRun> field_point_runs;
     std::uint64_t field_words = 0;           ///< for all fields together
     std::vector<WordRange> field_read_back;  ///< those that the host reads
     /// Results of points or fields stay on the device; points then include details (PointDetails).
     bool resident = false;
-    /// A tile batch is either drawn or, by the compute technique, computed from this; then it has
-    /// no mesh.
+    /// A tile batch is either drawn or, by the compute technique, computed; the other work is
+    /// empty, and keeps its memory.
     bool by_compute = false;
+    RasterWork raster;
     ComputeWork compute;
 
     /// Position of a list's first group in the buffer of tiles, in units of a group.
@@ -136,27 +143,26 @@ public:
 private:
     /// Selects the largest tiles that are worth an occlusion query.
     void select_watched(const Plan& plan, std::uint32_t number);
-    void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                        TileBatch& batch);
-    void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                          TileBatch& batch);
-    void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                           TileBatch& batch);
+    /// Adds what only the technique of the batch needs for its last tile.
+    void add_drawn_tile(const PlannedQuery& query, const Tile& tile, TileBatch& batch);
+    void add_compute_tile(const PlannedQuery& query, const Tile& tile, TileBatch& batch);
+    void add_distance_tile(const PlannedQuery& query, const Tile& tile, TileBatch& batch);
     /// Reserves space in the read-back for the requested outputs at cells.
-    void add_field_output(const PlannedQuery& query, const Tile& tile, TileDraw& draw,
-                          TileBatch& batch) const;
+    static const FieldTile& add_field_tile(const PlannedQuery& query, const Tile& tile,
+                                           TileBatch& batch);
+    /// Adds what only fields have drawn; their tile is the last one.
+    void add_drawn_field(const PlannedQuery& query, const Tile& tile, TileBatch& batch) const;
     /// Appends words to those of the fields; returns the first one.
     static std::uint32_t add_field_words(std::uint64_t count, bool for_host, TileBatch& batch);
-    /// Sets which part of each shape takes part, and whether samples are listed.
-    static void describe_overlap(const IntersectionQuery& query, const Tile& tile, TileDraw& draw,
-                                 TileBatch& batch);
-    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
-                          TileBatch& batch);
+    /// Determines which part of each shape takes part, and whether samples are listed or kept.
+    static OverlapTile describe_overlap(const IntersectionQuery& query, const Tile& tile,
+                                        TileBatch& batch);
+    void add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileBatch& batch);
     void add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
                     geometry::Mesh& parity, geometry::Mesh& rectangles);
-    void add_overlap_b(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+    void add_overlap_b(const PlannedQuery& query, const Tile& tile, const OverlapTile& overlap,
                        TileBatch& batch);
-    void add_overlap_a(const PlannedQuery& query, const Tile& tile, const TileDraw& draw,
+    void add_overlap_a(const PlannedQuery& query, const Tile& tile, const OverlapTile& overlap,
                        TileBatch& batch);
     void add_points(const Plan& plan, std::uint32_t number, TileBatch& batch);
     void add_field_points(const Plan& plan, std::uint32_t number, TileBatch& batch);

@@ -52,19 +52,19 @@ void TileBatchBuilder::select_watched(const Plan& plan, std::uint32_t number) {
     }
 }
 
-void TileBatchBuilder::describe_overlap(const IntersectionQuery& query, const Tile& tile,
-                                        TileDraw& draw, TileBatch& batch) {
+OverlapTile TileBatchBuilder::describe_overlap(const IntersectionQuery& query, const Tile& tile,
+                                               TileBatch& batch) {
     const bool volumes = query.kind == IntersectionKind::volume_volume;
-    draw.part_a = volumes ? Part::volume : Part::boundary;
-    draw.part_b = query.kind == IntersectionKind::boundary_boundary ? Part::boundary : Part::volume;
-    draw.list = query.records;
-    batch.listed_cells += draw.list ? std::uint64_t{tile.width} * tile.height : 0;
-    if (query.resident && query.resident_samples) {
-        batch.keeps_hits = true;
-        draw.first_hit = batch.hit_words;
-        // The compute technique keeps hits in its masks.
-        batch.hit_words += batch.by_compute ? 0 : tile.width * tile.height;
-    }
+    const bool boundaries = query.kind == IntersectionKind::boundary_boundary;
+    OverlapTile overlap;
+    overlap.tile = static_cast<std::uint32_t>(batch.tiles.size() - 1);
+    overlap.part_a = volumes ? Part::volume : Part::boundary;
+    overlap.part_b = boundaries ? Part::boundary : Part::volume;
+    overlap.lists = query.records;
+    overlap.keeps_hits = query.resident && query.resident_samples;
+    batch.listed_cells += overlap.lists ? std::uint64_t{tile.width} * tile.height : 0;
+    batch.keeps_hits = batch.keeps_hits || overlap.keeps_hits;
+    return overlap;
 }
 
 void TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,
@@ -90,17 +90,22 @@ void TileBatchBuilder::add_boundary(const TileBoundary& boundary, const Tile& ti
     move_to_atlas(tile, first, mesh);
 }
 
-void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile, TileDraw draw,
+void TileBatchBuilder::add_overlap_tile(const PlannedQuery& query, const Tile& tile,
                                         TileBatch& batch) {
     const auto& asked = std::get<IntersectionQuery>(*query.query);
-    describe_overlap(asked, tile, draw, batch);
-    add_groups(draw, overlap_group_width, overlap_group_height,
-               {draw.tile, 0, draw.list ? 1U : 0U, draw.first_hit},
-               batch.groups[group_list(asked.strategy)]);
-    add_rectangle(tile, batch.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
-    add_overlap_b(query, tile, draw, batch);
-    add_overlap_a(query, tile, draw, batch);
-    batch.overlap_draws[static_cast<std::size_t>(asked.strategy)].push_back(draw);
+    RasterWork& work = batch.raster;
+    DrawnOverlap drawn{describe_overlap(asked, tile, batch)};
+    if (drawn.keeps_hits) {
+        drawn.first_hit = work.hit_words;
+        work.hit_words += tile.width * tile.height;
+    }
+    add_groups(tile, overlap_group_width, overlap_group_height,
+               {drawn.tile, 0, drawn.lists ? 1U : 0U, drawn.first_hit},
+               work.groups[group_list(asked.strategy)]);
+    add_rectangle(tile, work.meshes[overlaps_of(asked.strategy, OverlapStep::clear)]);
+    add_overlap_b(query, tile, drawn, batch);
+    add_overlap_a(query, tile, drawn, batch);
+    work.overlaps[static_cast<std::size_t>(asked.strategy)].push_back(drawn);
 }
 
 void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile, double slack,
@@ -112,15 +117,15 @@ void TileBatchBuilder::add_volume(const TileBoundary& boundary, const Tile& tile
 }
 
 void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& batch) {
+                                     const OverlapTile& overlap, TileBatch& batch) {
     const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
     const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return batch.meshes[overlaps_of(strategy, step)];
+        return batch.raster.meshes[overlaps_of(strategy, step)];
     };
     const double cell = tile.grid.cell;
     const TileBoundary boundary =
         overlap_boundary(*query.b, query.pose_b, query.budget, tile, shapes_);
-    if (draw.part_b == Part::boundary) {
+    if (overlap.part_b == Part::boundary) {
         add_boundary(boundary, tile, query.budget.offset / cell, nullptr,
                      mesh(OverlapStep::boundary_b));
     } else {
@@ -130,21 +135,21 @@ void TileBatchBuilder::add_overlap_b(const PlannedQuery& query, const Tile& tile
 }
 
 void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile,
-                                     const TileDraw& draw, TileBatch& batch) {
+                                     const OverlapTile& overlap, TileBatch& batch) {
     const auto strategy = std::get<IntersectionQuery>(*query.query).strategy;
     const auto mesh = [&](OverlapStep step) -> Mesh& {
-        return batch.meshes[overlaps_of(strategy, step)];
+        return batch.raster.meshes[overlaps_of(strategy, step)];
     };
-    const bool is_watched =
-        std::find(watched_.begin(), watched_.end(), batch.tile_index[draw.tile]) != watched_.end();
-    Mesh& drawn = is_watched                      ? mesh(OverlapStep::watched_a)
-                  : draw.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
-                                                  : mesh(OverlapStep::volume_a);
+    const bool is_watched = std::find(watched_.begin(), watched_.end(),
+                                      batch.tile_index[overlap.tile]) != watched_.end();
+    Mesh& drawn = is_watched                         ? mesh(OverlapStep::watched_a)
+                  : overlap.part_a == Part::boundary ? mesh(OverlapStep::boundary_a)
+                                                     : mesh(OverlapStep::volume_a);
     const auto first = static_cast<std::uint32_t>(drawn.size());
     const double cell = tile.grid.cell;
     const TileBoundary boundary =
         overlap_boundary(*query.a, query.pose_a, query.budget, tile, shapes_);
-    if (draw.part_a == Part::boundary) {
+    if (overlap.part_a == Part::boundary) {
         add_boundary(boundary, tile, query.budget.offset / cell, &batch.runs, drawn);
     } else {
         add_volume(boundary, tile, query.budget.simplification / cell, mesh(OverlapStep::parity_a),
@@ -152,7 +157,7 @@ void TileBatchBuilder::add_overlap_a(const PlannedQuery& query, const Tile& tile
     }
     if (is_watched) {
         const auto count = static_cast<std::uint32_t>(drawn.size()) - first;
-        batch.watched.push_back({draw.tile, strategy, draw.part_a, {first, count}});
+        batch.raster.watched.push_back({overlap.tile, strategy, overlap.part_a, {first, count}});
     }
 }
 

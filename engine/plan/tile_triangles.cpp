@@ -31,10 +31,10 @@ void move_to_atlas(const Tile& tile, std::size_t first, geometry::Mesh& mesh) {
     }
 }
 
-void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
+void add_groups(const Tile& tile, std::uint32_t width, std::uint32_t height, CellGroup first,
                 std::vector<CellGroup>& groups) {
-    for (std::uint32_t row = 0; row < draw.height; row += height) {
-        for (std::uint32_t column = 0; column < draw.width; column += width) {
+    for (std::uint32_t row = 0; row < tile.height; row += height) {
+        for (std::uint32_t column = 0; column < tile.width; column += width) {
             first.cell = column | row << 16U;
             groups.push_back(first);
         }

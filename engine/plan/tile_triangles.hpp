@@ -25,7 +25,7 @@ void move_to_atlas(const Tile& tile, std::size_t first, geometry::Mesh& mesh);
 }
 
 /// Appends groups of width x height cells that cover a tile; `first` describes the low one.
-void add_groups(const TileDraw& draw, std::uint32_t width, std::uint32_t height, CellGroup first,
+void add_groups(const Tile& tile, std::uint32_t width, std::uint32_t height, CellGroup first,
                 std::vector<CellGroup>& groups);
 
 }  // namespace nearfield::plan

@@ -35,7 +35,7 @@ std::uint64_t bytes_of_all(std::span<const std::vector<Element>> meshes) {
 }
 
 std::span<const std::vector<plan::CellGroup>> groups_of(const plan::TileBatch& batch) {
-    return batch.groups;
+    return batch.raster.groups;
 }
 
 /// One after the other.
@@ -150,7 +150,7 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
     const plan::TileBatch& batch = *on_device.context.batch;
     const auto& geometry = batch.lists.geometry();
     require_range(*device_, bytes_of(geometry), "the edges");
-    require_range(*device_, std::max(bytes_of(batch.points), bytes_of(batch.field_points)),
+    require_range(*device_, std::max(bytes_of(batch.points), bytes_of(batch.raster.field_points)),
                   "the points");
     InputParts& parts = on_device.input;
     parts.tiles = align(input_end);
@@ -158,11 +158,11 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
     parts.geometry = align(parts.groups_end);
     parts.points = align(parts.geometry + bytes_of(geometry));
     parts.field_points = align(parts.points + bytes_of(batch.points));
-    parts.end = parts.field_points + bytes_of(batch.field_points);
+    parts.end = parts.field_points + bytes_of(batch.raster.field_points);
     input_end = parts.end + smallest_part;
     on_device.context.tile_mesh_offset = mesh_end;
-    on_device.context.mesh_offset = mesh_end + bytes_of_all(batch.meshes.tile_meshes());
-    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(batch.meshes.meshes()));
+    on_device.context.mesh_offset = mesh_end + bytes_of_all(batch.raster.meshes.tile_meshes());
+    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(batch.raster.meshes.meshes()));
 }
 
 void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
@@ -172,9 +172,10 @@ void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
     copy_all_to(input_.data() + parts.tiles + bytes_of(batch.tiles), groups_of(batch));
     copy_to(input_.data() + parts.geometry, batch.lists.geometry());
     copy_to(input_.data() + parts.points, batch.points);
-    copy_to(input_.data() + parts.field_points, batch.field_points);
-    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset, batch.meshes.tile_meshes());
-    copy_all_to(mesh_.data() + on_device.context.mesh_offset, batch.meshes.meshes());
+    copy_to(input_.data() + parts.field_points, batch.raster.field_points);
+    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset,
+                batch.raster.meshes.tile_meshes());
+    copy_all_to(mesh_.data() + on_device.context.mesh_offset, batch.raster.meshes.meshes());
 }
 
 void BatchResources::run(std::uint32_t count) {

@@ -61,7 +61,8 @@ void BatchResources::lay_out_words(std::uint64_t end) {
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         const plan::TileBatch& batch = *on_device.context.batch;
-        const std::uint64_t hit_bytes = std::uint64_t{batch.hit_words} * sizeof(std::uint32_t);
+        const std::uint64_t hit_bytes =
+            std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t);
         require_range(*device_, hit_bytes, "the cells of intersections that stay");
         any_resident = any_resident || batch.resident || hit_bytes > 0;
         on_device.output.hits = align(end);
@@ -79,7 +80,7 @@ BufferPart BatchResources::hits_of(std::uint32_t number) const {
         return compute_[number]->scratch_part();
     }
     return {words_.handle(), on_device.output.hits,
-            std::max(std::uint64_t{batch.hit_words} * sizeof(std::uint32_t), smallest_part)};
+            std::max(std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t), smallest_part)};
 }
 
 VkBuffer BatchResources::words_of(const TileBatchOnDevice& on_device) const {
@@ -169,9 +170,9 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
                   output.samples);
             write(context.samples[i], Layout::output, read_back_.handle(), output.samples,
                   output.end);
-            if (batch.hit_words > 0) {
+            if (batch.raster.hit_words > 0) {
                 write(context.samples[i], Layout::kept_hits, words_.handle(), output.hits,
-                      output.hits + batch.hit_words * sizeof(std::uint32_t));
+                      output.hits + batch.raster.hit_words * sizeof(std::uint32_t));
             }
         }
     }

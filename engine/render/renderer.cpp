@@ -38,15 +38,14 @@ GraphKey key_of(const plan::TileBatch& batch) {
     needs.points = !batch.points.empty();
     needs.field_points = !batch.field_point_runs.empty();
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
-        needs.overlap[i] = !batch.overlap_draws[i].empty();
+        needs.overlap[i] = !batch.raster.overlaps[i].empty();
     }
-    for (const plan::TileDraw& draw : batch.distance_draws) {
-        const auto encoding = static_cast<std::size_t>(draw.sign);
-        needs.field[encoding] = needs.field[encoding] || draw.field;
-        needs.field_cells = needs.field_cells || draw.first_value != plan::not_asked ||
-                            draw.first_feature != plan::not_asked;
+    for (const plan::FieldTile& field : batch.field_tiles) {
+        needs.field[static_cast<std::size_t>(field.sign)] = true;
+        needs.field_cells = needs.field_cells || field.first_value != plan::not_asked ||
+                            field.first_feature != plan::not_asked;
     }
-    needs.blended = batch.meshes.range(plan::TileMeshId::gradients).count > 0;
+    needs.blended = batch.raster.meshes.range(plan::TileMeshId::gradients).count > 0;
     return needs;
 }
 

@@ -76,16 +76,16 @@ void ResidentOutputsBuilder::find_field_parts(const plan::Plan& plan,
         if (!batch.resident) {
             continue;
         }
-        for (const plan::TileDraw& draw : batch.distance_draws) {
-            const plan::Tile& tile = plan.tiles[batch.tile_index[draw.tile]];
-            if (!draw.field || !plan.queries[tile.query].resident) {
+        for (const plan::FieldTile& field : batch.field_tiles) {
+            const plan::Tile& tile = plan.tiles[batch.tile_index[field.tile]];
+            if (!plan.queries[tile.query].resident) {
                 continue;
             }
             const std::uint32_t corner = tile.halo * tile.width + tile.halo;
             plan::FieldPartOutput part;
             part.tile_batch = number;
-            part.value = draw.first_value + corner;
-            part.feature = draw.first_feature + corner;
+            part.value = field.first_value + corner;
+            part.feature = field.first_feature + corner;
             part.stride = tile.width;
             part.width = tile.width - 2 * tile.halo;
             part.height = tile.height - 2 * tile.halo;

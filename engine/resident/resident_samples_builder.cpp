@@ -105,12 +105,12 @@ void ResidentSamplesBuilder::find_tiles(const plan::Plan& plan,
 
 void ResidentSamplesBuilder::find_drawn(const plan::Plan& plan, const plan::TileBatch& batch,
                                         FoundTile found) {
-    for (const std::vector<plan::TileDraw>& draws : batch.overlap_draws) {
-        for (const plan::TileDraw& draw : draws) {
-            found.index = batch.tile_index[draw.tile];
+    for (const std::vector<plan::DrawnOverlap>& overlaps : batch.raster.overlaps) {
+        for (const plan::DrawnOverlap& drawn : overlaps) {
+            found.index = batch.tile_index[drawn.tile];
             if (plan.queries[plan.tiles[found.index].query].resident) {
-                found.data.summary = draw.tile;
-                found.data.hits = draw.first_hit;
+                found.data.summary = drawn.tile;
+                found.data.hits = drawn.first_hit;
                 tiles_.push_back(found);
             }
         }

@@ -139,10 +139,10 @@ void measure(const Scene& scene, int frames) {
         vertices = 0;
         for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
             builder.build(plan, number, batch);
-            for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
+            for (const geometry::Mesh& mesh : batch.raster.meshes.meshes()) {
                 vertices += mesh.size();
             }
-            for (const std::vector<plan::TileVertex>& mesh : batch.meshes.tile_meshes()) {
+            for (const std::vector<plan::TileVertex>& mesh : batch.raster.meshes.tile_meshes()) {
                 vertices += mesh.size();
             }
         }

@@ -23,20 +23,21 @@ struct Placed {
 };
 
 /// The triangles of a tile, in its cells: those that reach it or the gap around it.
-geometry::Mesh in_tile(const plan::TileDraw& draw, const geometry::Mesh& all) {
+geometry::Mesh in_tile(const plan::TileData& tile, const geometry::Mesh& all) {
     constexpr auto gap = static_cast<float>(plan::atlas_gap);
     geometry::Mesh mesh;
     for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
         const auto is_near = [&](const geometry::MeshVertex& vertex) {
-            const float x = vertex.x - static_cast<float>(draw.x);
-            const float y = vertex.y - static_cast<float>(draw.y);
-            return x >= -gap && y >= -gap && x <= static_cast<float>(draw.width) + gap &&
-                   y <= static_cast<float>(draw.height) + gap;
+            const float x = vertex.x - static_cast<float>(tile.atlas_x);
+            const float y = vertex.y - static_cast<float>(tile.atlas_y);
+            return x >= -gap && y >= -gap && x <= static_cast<float>(tile.width) + gap &&
+                   y <= static_cast<float>(tile.height) + gap;
         };
         if (is_near(all[i]) && is_near(all[i + 1]) && is_near(all[i + 2])) {
             for (std::size_t j = i; j < i + 3; ++j) {
-                mesh.push_back({all[j].x - static_cast<float>(draw.x),
-                                all[j].y - static_cast<float>(draw.y), all[j].distance, all[j].id});
+                mesh.push_back({all[j].x - static_cast<float>(tile.atlas_x),
+                                all[j].y - static_cast<float>(tile.atlas_y), all[j].distance,
+                                all[j].id});
             }
         }
     }
@@ -44,19 +45,20 @@ geometry::Mesh in_tile(const plan::TileDraw& draw, const geometry::Mesh& all) {
 }
 
 /// The triangles that decide where a shape is in a tile.
-geometry::Mesh mesh_of(const plan::TileBatch& batch, const plan::TileDraw& draw,
+geometry::Mesh mesh_of(const plan::TileBatch& batch, const plan::OverlapTile& overlap,
                        IntersectionStrategy strategy, bool is_a) {
     using plan::OverlapStep;
+    const plan::TileData& tile = batch.tiles[overlap.tile];
     const auto mesh = [&](OverlapStep step) -> const geometry::Mesh& {
-        return batch.meshes[plan::overlaps_of(strategy, step)];
+        return batch.raster.meshes[plan::overlaps_of(strategy, step)];
     };
-    if ((is_a ? draw.part_a : draw.part_b) == plan::Part::volume) {
-        return in_tile(draw, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
+    if ((is_a ? overlap.part_a : overlap.part_b) == plan::Part::volume) {
+        return in_tile(tile, mesh(is_a ? OverlapStep::parity_a : OverlapStep::parity_b));
     }
     geometry::Mesh found =
-        in_tile(draw, mesh(is_a ? OverlapStep::boundary_a : OverlapStep::boundary_b));
+        in_tile(tile, mesh(is_a ? OverlapStep::boundary_a : OverlapStep::boundary_b));
     if (is_a) {
-        const geometry::Mesh watched = in_tile(draw, mesh(OverlapStep::watched_a));
+        const geometry::Mesh watched = in_tile(tile, mesh(OverlapStep::watched_a));
         found.insert(found.end(), watched.begin(), watched.end());
     }
     return found;
@@ -81,13 +83,13 @@ std::vector<std::uint32_t> scan(const support::Tile& tile, const geometry::Mesh&
     return image;
 }
 
-void scan_tile(const plan::Plan& plan, const plan::TileBatch& batch, const plan::TileDraw& draw,
-               IntersectionStrategy strategy, geometry::SubpixelGrid grid,
-               std::vector<Placed>& found) {
-    const plan::Tile& planned = plan.tiles[batch.tile_index[draw.tile]];
-    const support::Tile tile{draw.width, draw.height, grid};
-    const auto a = scan(tile, mesh_of(batch, draw, strategy, true), draw.part_a);
-    const auto b = scan(tile, mesh_of(batch, draw, strategy, false), draw.part_b);
+void scan_tile(const plan::Plan& plan, const plan::TileBatch& batch,
+               const plan::OverlapTile& overlap, IntersectionStrategy strategy,
+               geometry::SubpixelGrid grid, std::vector<Placed>& found) {
+    const plan::Tile& planned = plan.tiles[batch.tile_index[overlap.tile]];
+    const support::Tile tile{planned.width, planned.height, grid};
+    const auto a = scan(tile, mesh_of(batch, overlap, strategy, true), overlap.part_a);
+    const auto b = scan(tile, mesh_of(batch, overlap, strategy, false), overlap.part_b);
     for (std::uint32_t row = 0; row < tile.height; ++row) {
         for (std::uint32_t column = 0; column < tile.width; ++column) {
             const std::size_t index = tile.index(column, row);
@@ -98,7 +100,7 @@ void scan_tile(const plan::Plan& plan, const plan::TileBatch& batch, const plan:
                                           static_cast<double>(planned.row + row) + 0.5);
             const geometry::Vector point = planned.grid.origin + planned.grid.cell * centre;
             plan::EdgeRun run{0, 0};
-            if (draw.part_a == plan::Part::boundary) {
+            if (overlap.part_a == plan::Part::boundary) {
                 run = batch.runs[a[index] >> plan::run_shift];
             }
             found.push_back({{planned.region, planned.row + row, planned.column + column},
@@ -135,9 +137,9 @@ std::vector<ReferenceSample> scan_intersection(geometry::SubpixelGrid grid, cons
     std::vector<Placed> found;
     for (std::uint32_t number = 0; number < plan.tile_batches; ++number) {
         builder.build(plan, number, batch);
-        for (const plan::TileDraw& draw :
-             batch.overlap_draws[static_cast<std::size_t>(query.strategy)]) {
-            scan_tile(plan, batch, draw, query.strategy, limits.subpixel, found);
+        for (const plan::DrawnOverlap& drawn :
+             batch.raster.overlaps[static_cast<std::size_t>(query.strategy)]) {
+            scan_tile(plan, batch, drawn, query.strategy, limits.subpixel, found);
         }
     }
     std::sort(found.begin(), found.end(),

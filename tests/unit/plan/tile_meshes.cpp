@@ -103,7 +103,7 @@ TEST_F(PlanTileMeshes, ReachNoOtherTile) {
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
             SCOPED_TRACE(seed);
             for (const TileBatch& batch : tile_batches(seed, steps)) {
-                for (const geometry::Mesh& mesh : batch.meshes.meshes()) {
+                for (const geometry::Mesh& mesh : batch.raster.meshes.meshes()) {
                     for (std::size_t i = 0; i < mesh.size(); i += 3) {
                         float least = 1e9F;
                         for (const TileData& tile : batch.tiles) {
@@ -123,7 +123,7 @@ TEST_F(PlanTileMeshes, CarryTheRectangleOfTheirTile) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE(seed);
         for (const TileBatch& batch : tile_batches(seed, 256.0)) {
-            for (const std::vector<TileVertex>& mesh : batch.meshes.tile_meshes()) {
+            for (const std::vector<TileVertex>& mesh : batch.raster.meshes.tile_meshes()) {
                 for (std::size_t i = 0; i < mesh.size(); i += 3) {
                     const auto is_its = [&](const TileData& tile) {
                         return std::all_of(&mesh[i], &mesh[i] + 3, [&](const TileVertex& vertex) {
@@ -148,19 +148,19 @@ TEST_F(PlanTileMeshes, FollowEachOtherInTheOrderOfTheirRanges) {
     for (const TileBatch& batch : tile_batches(1, 256.0)) {
         std::uint32_t end = 0;
         for (std::size_t i = 0; i < tile_batch_meshes; ++i) {
-            const DrawRange range = batch.meshes.range(MeshId{i});
+            const DrawRange range = batch.raster.meshes.range(MeshId{i});
             EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, batch.meshes.meshes()[i].size());
+            EXPECT_EQ(range.count, batch.raster.meshes.meshes()[i].size());
             end += range.count;
         }
-        const DrawRange all = batch.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
+        const DrawRange all = batch.raster.meshes.range(MeshId{0}, MeshId{tile_batch_meshes - 1});
         EXPECT_EQ(all.first, 0U);
         EXPECT_EQ(all.count, end);
         end = 0;
         for (std::size_t i = 0; i < tile_batch_tile_meshes; ++i) {
-            const DrawRange range = batch.meshes.range(static_cast<TileMeshId>(i));
+            const DrawRange range = batch.raster.meshes.range(static_cast<TileMeshId>(i));
             EXPECT_EQ(range.first, end);
-            EXPECT_EQ(range.count, batch.meshes.tile_meshes()[i].size());
+            EXPECT_EQ(range.count, batch.raster.meshes.tile_meshes()[i].size());
             end += range.count;
         }
     }

@@ -55,7 +55,7 @@ TEST(PlanWatch, LargeTilesOfStencilAndDepthOnly) {
     std::uint32_t vertices = 0;
     for (const TileBatch& batch : batches) {
         std::set<std::uint32_t> tiles;
-        for (const WatchedTile& watched : batch.watched) {
+        for (const WatchedTile& watched : batch.raster.watched) {
             EXPECT_TRUE(watched.strategy == S::stencil || watched.strategy == S::depth);
             const TileData& tile = batch.tiles[watched.tile];
             EXPECT_GE(tile.width * tile.height, 128U * 128U);
@@ -66,7 +66,8 @@ TEST(PlanWatch, LargeTilesOfStencilAndDepthOnly) {
         watched_tiles += tiles.size();
         for (std::size_t strategy = 0; strategy < intersection_strategies; ++strategy) {
             for (const OverlapStep step : {OverlapStep::volume_a, OverlapStep::watched_a}) {
-                vertices += batch.meshes.range(overlaps_of(static_cast<S>(strategy), step)).count;
+                vertices +=
+                    batch.raster.meshes.range(overlaps_of(static_cast<S>(strategy), step)).count;
             }
         }
     }
@@ -82,9 +83,9 @@ TEST(PlanWatch, TheLargestIfThereAreTooMany) {
         many[i].second = 0.02;
     }
     const TileBatch batch = tile_batches_of(many).front();
-    ASSERT_EQ(batch.watched.size(), max_watched);
+    ASSERT_EQ(batch.raster.watched.size(), max_watched);
     std::uint32_t large = 0;
-    for (const WatchedTile& watched : batch.watched) {
+    for (const WatchedTile& watched : batch.raster.watched) {
         large = std::max(large, batch.tiles[watched.tile].width);
         EXPECT_GE(batch.tiles[watched.tile].width * 3, large * 2);
         EXPECT_GT(batch.tiles[watched.tile].height, 300U);
