@@ -66,6 +66,37 @@ void TranslationFinder::project(const simd::TransformedEdges& edges,
     }
 }
 
+/// The position of an edge along the direction at two levels; both ends if the edge runs along it.
+std::pair<double, double> TranslationFinder::range_at(const Level& edge, double low, double high,
+                                                      double rounding) {
+    const double height = edge.high - edge.low;
+    if (height <= rounding) {
+        return {edge.along_low, edge.along_high};
+    }
+    const auto at = [&](double level) {
+        const double part = std::clamp((level - edge.low) / height, 0.0, 1.0);
+        return (1.0 - part) * edge.along_low + part * edge.along_high;
+    };
+    return {at(low), at(high)};
+}
+
+TranslationFinder::Interval TranslationFinder::interval_between(const Level& a, const Level& b,
+                                                                double rounding) {
+    const double low = std::max(a.low, b.low);
+    const double high = std::max(low, std::min(a.high, b.high));
+    const auto on_a = range_at(a, low, high, rounding);
+    const auto on_b = range_at(b, low, high, rounding);
+    if (a.high - a.low <= rounding || b.high - b.low <= rounding) {
+        return {std::min(on_b.first, on_b.second) - std::max(on_a.first, on_a.second),
+                std::max(on_b.first, on_b.second) - std::min(on_a.first, on_a.second),
+                {a.edge, b.edge}};
+    }
+    // Both are straight: their distance is linear in the level.
+    const double at_low = on_b.first - on_a.first;
+    const double at_high = on_b.second - on_a.second;
+    return {std::min(at_low, at_high), std::max(at_low, at_high), {a.edge, b.edge}};
+}
+
 bool TranslationFinder::add_intervals(double most, double rounding, WorkBudget& work) {
     std::sort(of_b_.begin(), of_b_.end(),
               [](const Level& i, const Level& j) { return i.low < j.low; });
@@ -73,18 +104,6 @@ bool TranslationFinder::add_intervals(double most, double rounding, WorkBudget& 
     for (const Level& b : of_b_) {
         highest = std::max(highest, b.high - b.low);
     }
-    // The position of an edge along the direction at a level; both ends if the edge runs along it.
-    const auto range_at = [rounding](const Level& edge, double low, double high) {
-        const double height = edge.high - edge.low;
-        if (height <= rounding) {
-            return std::pair(edge.along_low, edge.along_high);
-        }
-        const auto at = [&](double level) {
-            const double part = std::clamp((level - edge.low) / height, 0.0, 1.0);
-            return (1.0 - part) * edge.along_low + part * edge.along_high;
-        };
-        return std::pair(at(low), at(high));
-    };
     intervals_.clear();
     work.add(work_of_level * (of_a_.size() + of_b_.size()));
     SparseCheckpoint<16> checkpoint;
@@ -104,22 +123,7 @@ bool TranslationFinder::add_intervals(double most, double rounding, WorkBudget& 
                 std::min(b->along_low, b->along_high) - max_a > most) {
                 continue;
             }
-            const double low = std::max(a.low, b->low);
-            const double high = std::max(low, std::min(a.high, b->high));
-            const auto on_a = range_at(a, low, high);
-            const auto on_b = range_at(*b, low, high);
-            Interval interval{0.0, 0.0, {a.edge, b->edge}};
-            if (a.high - a.low <= rounding || b->high - b->low <= rounding) {
-                interval.from =
-                    std::min(on_b.first, on_b.second) - std::max(on_a.first, on_a.second);
-                interval.to = std::max(on_b.first, on_b.second) - std::min(on_a.first, on_a.second);
-            } else {
-                // Both are straight: their distance is linear in the level.
-                const double at_low = on_b.first - on_a.first;
-                const double at_high = on_b.second - on_a.second;
-                interval.from = std::min(at_low, at_high);
-                interval.to = std::max(at_low, at_high);
-            }
+            const Interval interval = interval_between(a, *b, rounding);
             if (interval.to >= 0.0 && interval.from <= most) {
                 intervals_.push_back(interval);
                 pairs += work_of_interval;

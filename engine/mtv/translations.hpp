@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace nearfield::mtv {
@@ -59,6 +60,10 @@ private:
                         const std::vector<std::uint32_t>& in_reach, const geometry::Box& other,
                         const geometry::Vector& direction, double way, double rounding,
                         std::vector<Level>& levels);
+    [[nodiscard]] static std::pair<double, double> range_at(const Level& edge, double low,
+                                                            double high, double rounding);
+    /// The ways along the direction after which two edges overlap.
+    [[nodiscard]] static Interval interval_between(const Level& a, const Level& b, double rounding);
     /// Returns false if the work budget is too small.
     [[nodiscard]] bool add_intervals(double most, double rounding, WorkBudget& work);
 

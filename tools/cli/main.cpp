@@ -75,28 +75,17 @@ int run(int count, char** arguments) {
         }
         return fail(error, exit_status::bad_input);
     }
-    if (query->parsed()) {
-        return tools::run_query(query_arguments);
-    }
-    if (scene->parsed()) {
-        return tools::run_scene(scene_arguments);
-    }
-    if (simulate->parsed()) {
-        return tools::run_simulate(simulate_arguments);
-    }
-    if (bench->parsed()) {
-        tools::run_bench(bench_arguments);
+    const auto done = [](const auto& command, const auto& its_arguments) {
+        command(its_arguments);
         return exit_status::done;
-    }
-    if (calibrate->parsed()) {
-        tools::run_calibrate(calibrate_arguments);
-        return exit_status::done;
-    }
-    if (hash->parsed()) {
-        tools::run_hash(hash_arguments);
-        return exit_status::done;
-    }
-    return tools::run_info();
+    };
+    return query->parsed()       ? tools::run_query(query_arguments)
+           : scene->parsed()     ? tools::run_scene(scene_arguments)
+           : simulate->parsed()  ? tools::run_simulate(simulate_arguments)
+           : bench->parsed()     ? done(tools::run_bench, bench_arguments)
+           : calibrate->parsed() ? done(tools::run_calibrate, calibrate_arguments)
+           : hash->parsed()      ? done(tools::run_hash, hash_arguments)
+                                 : tools::run_info();
 }
 
 }  // namespace

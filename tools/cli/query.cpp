@@ -282,17 +282,21 @@ struct FieldFiles {
     }
 };
 
-}  // namespace
-
-int run_query(const QueryArguments& arguments) {
-    QueryRequest request = make_request(arguments);
-    const Settings settings = parse_settings(arguments.settings);
+void check_inputs(const QueryArguments& arguments) {
     if (arguments.file_a == "-" && arguments.file_b == "-") {
         throw InputError("A and B: only one of them can be -, the standard input");
     }
     if (arguments.treatment.strict && arguments.treatment.clean_width) {
         throw InputError("--strict: drops nothing, so it cannot stand beside --clean-width");
     }
+}
+
+}  // namespace
+
+int run_query(const QueryArguments& arguments) {
+    QueryRequest request = make_request(arguments);
+    const Settings settings = parse_settings(arguments.settings);
+    check_inputs(arguments);
     const Outline outline_a = read_and_note(arguments.file_a, arguments.unit);
     const Outline outline_b = read_and_note(arguments.file_b, arguments.unit);
     const double deviation = choose_deviation(arguments, request, outline_a, outline_b);

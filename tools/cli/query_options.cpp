@@ -109,6 +109,9 @@ void add_input_options(CLI::App& kind, QueryArguments& arguments, QueryType type
     kind.add_flag("--strict", arguments.treatment.strict,
                   "Refuse rings that enclose nothing; otherwise they are dropped, and listed on "
                   "the standard error");
+}
+
+void add_pose_options(CLI::App& kind, QueryArguments& arguments, QueryType type) {
     add_parsed_option(kind, "--pose-a", arguments.pose_a, parse_pose,
                       "Where A stands: turned counter-clockwise by degrees about its origin, then "
                       "moved by world units; default 0,0,0")
@@ -289,6 +292,7 @@ void add_kind(CLI::App& query, QueryArguments& arguments, const QueryKind& descr
                 exit_statuses);
     kind.preparse_callback([&arguments, type](std::size_t) { arguments.request.type = type; });
     add_input_options(kind, arguments, type);
+    add_pose_options(kind, arguments, type);
     add_answer_options(kind, arguments, type);
     add_technique_options(kind, arguments, type);
     add_output_options(kind, arguments, type);
