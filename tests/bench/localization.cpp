@@ -4,6 +4,7 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/take.hpp>
 #include <tests/support/outlines.hpp>
 
 #include <algorithm>
@@ -18,26 +19,15 @@
 
 namespace {
 
+using nearfield::bench::require;
+using nearfield::bench::take;
+
 using nearfield::BoundingVolume;
 using nearfield::Ring;
 using nearfield::Vector2;
 
 constexpr int warm_up = 3;
 constexpr int frames = 60;
-
-template <class Value>
-Value take(nearfield::Expected<Value> value) {
-    if (!value) {
-        throw std::runtime_error(value.error().text());
-    }
-    return std::move(*value);
-}
-
-void require(const nearfield::Status& status) {
-    if (!status.ok()) {
-        throw std::runtime_error(status.text());
-    }
-}
 
 struct Extent {
     double low = INFINITY;

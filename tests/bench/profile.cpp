@@ -6,6 +6,7 @@
 #include <engine/gpu/submission.hpp>
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/take.hpp>
 #include <tests/support/fake_loader.hpp>
 #include <tests/support/outlines.hpp>
 #include <tests/support/polygons.hpp>
@@ -23,6 +24,9 @@
 #include <vector>
 
 namespace {
+
+using nearfield::bench::require;
+using nearfield::bench::take;
 
 using nearfield::Batch;
 using nearfield::Context;
@@ -141,20 +145,6 @@ nearfield::test_support::Lies counting() {
         {"vkUpdateDescriptorSets", erased(&update_sets)},
     };
     return lies;
-}
-
-template <class Value>
-Value take(nearfield::Expected<Value> value) {
-    if (!value) {
-        throw std::runtime_error(value.error().text());
-    }
-    return std::move(*value);
-}
-
-void require(const nearfield::Status& status) {
-    if (!status.ok()) {
-        throw std::runtime_error(status.text());
-    }
 }
 
 double median(std::vector<double> values) {

@@ -4,6 +4,7 @@
 #include <engine/gpu/headless.hpp>
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/take.hpp>
 #include <tests/support/host_frames.hpp>
 #include <tests/support/polygons.hpp>
 
@@ -18,6 +19,8 @@
 
 namespace {
 
+using nearfield::bench::take;
+
 using nearfield::Batch;
 using nearfield::Context;
 using nearfield::PenetrationPoints;
@@ -26,14 +29,6 @@ using nearfield::Technique;
 
 constexpr std::uint64_t warm_up = 2;
 constexpr std::uint64_t frames = 10;
-
-template <class Value>
-Value take(nearfield::Expected<Value> value) {
-    if (!value) {
-        throw std::runtime_error(value.error().text());
-    }
-    return std::move(*value);
-}
 
 /// The time of this thread only, because other load must not count.
 double processor_milliseconds() {

@@ -7,6 +7,7 @@
 #include <nearfield/nearfield.hpp>
 
 #include <tests/bench/awkward_families.hpp>
+#include <tests/bench/take.hpp>
 #include <tests/support/polygons.hpp>
 
 #include <algorithm>
@@ -22,6 +23,9 @@
 
 namespace {
 
+using nearfield::bench::require;
+using nearfield::bench::take;
+
 using namespace nearfield;
 using test::Random;
 using test::Rings;
@@ -30,20 +34,6 @@ constexpr std::array<int, 3> sizes{2000, 8000, 32000};
 constexpr int frames = 5;
 // Shapes are about 20 across.
 constexpr double tolerance = 0.05;
-
-template <class Value>
-Value take(Expected<Value> value) {
-    if (!value) {
-        throw std::runtime_error(value.error().text());
-    }
-    return std::move(*value);
-}
-
-void require(const Status& status) {
-    if (!status.ok()) {
-        throw std::runtime_error(status.text());
-    }
-}
 
 /// Teeth of length 5, which become thinner as their number grows; consecutive edges are `step`
 /// apart.

@@ -4,6 +4,7 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/take.hpp>
 #include <tests/support/outlines.hpp>
 #include <tools/benchmark/paper_scenes.hpp>
 
@@ -19,20 +20,14 @@
 
 namespace {
 
+using nearfield::bench::take;
+
 using namespace nearfield;
 using test::Random;
 using test::Rings;
 
 constexpr int pairs = 20;
 constexpr int repetitions = 5;
-
-template <class Value>
-Value take(Expected<Value> value) {
-    if (!value) {
-        throw std::runtime_error(value.error().text());
-    }
-    return std::move(*value);
-}
 
 struct Measured {
     double milliseconds = 0.0;

@@ -54,33 +54,35 @@ Truth PlacedPair::intersects() const {
     return clear ? Truth::yes : Truth::too_close_to_call;
 }
 
+namespace {
+
+template <class Query>
+Query asked(const PlacedPair& pair, Technique technique) {
+    Query query;
+    query.a = pair.instance_a();
+    query.b = pair.instance_b();
+    query.tolerance = pair.tolerance();
+    query.technique = technique;
+    return query;
+}
+
+}  // namespace
+
 PenetrationQuery PlacedPair::penetration(PenetrationPoints points) const {
-    PenetrationQuery query;
-    query.a = instance_a();
-    query.b = instance_b();
-    query.tolerance = tolerance();
+    auto query = asked<PenetrationQuery>(*this, technique_);
     query.points = points;
-    query.technique = technique_;
     return query;
 }
 
 IntersectionQuery PlacedPair::intersection(IntersectionKind kind) const {
-    IntersectionQuery query;
-    query.a = instance_a();
-    query.b = instance_b();
-    query.tolerance = tolerance();
+    auto query = asked<IntersectionQuery>(*this, technique_);
     query.kind = kind;
-    query.technique = technique_;
     return query;
 }
 
 ContactQuery PlacedPair::contacts(double contact_distance) const {
-    ContactQuery query;
-    query.a = instance_a();
-    query.b = instance_b();
-    query.tolerance = tolerance();
+    auto query = asked<ContactQuery>(*this, technique_);
     query.contact_distance = contact_distance;
-    query.technique = technique_;
     return query;
 }
 

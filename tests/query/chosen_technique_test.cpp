@@ -1,0 +1,92 @@
+#include <tests/query/pair.hpp>
+#include <tests/query/query_test.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace nearfield::test {
+namespace {
+
+constexpr std::uint64_t seed = 1618;
+
+/// Which technique answers, and what none can.
+using ChosenTechnique = QueryTest;
+
+/// Costs that make one technique free and the others expensive.
+CostModel favouring(TechniqueCost CostModel::*technique) {
+    constexpr WorkCost dear{1.0, 1.0, 1.0};
+    constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
+    CostModel costs{too_dear, too_dear, too_dear};
+    costs.*technique = {};
+    return costs;
+}
+
+TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
+    for (const auto& [member, favourite] : {std::pair(&CostModel::raster, Technique::raster),
+                                            std::pair(&CostModel::compute, Technique::compute),
+                                            std::pair(&CostModel::cpu, Technique::cpu)}) {
+        SCOPED_TRACE(to_string(favourite));
+        Settings settings;
+        settings.costs = favouring(member);
+        Expected<Context> made = Context::create(host_device(), settings);
+        ASSERT_TRUE(made.has_value()) << made.error().text();
+        Random random(seed);
+        const PlacedPair pair(
+            *made,
+            {{"A", star(random, 9, 0.5)}, {"B", star(random, 9, 0.5)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+            Technique::automatic);
+        const auto expect = [&](const auto& query, Technique technique) {
+            const auto result = run_alone(*made, query);
+            EXPECT_TRUE(result.status.ok()) << result.status.text();
+            EXPECT_EQ(result.technique, technique);
+        };
+        expect(pair.penetration(), favourite);
+        expect(pair.penetration(PenetrationPoints::vertices), favourite);
+        expect(pair.separation(), favourite);
+        expect(pair.closest_point(), favourite);
+        ContactQuery contacts = pair.contacts(0.1);
+        expect(contacts, favourite);
+        contacts.normals = ContactNormals::gradient;
+        expect(contacts, favourite);
+        expect(pair.intersection(IntersectionKind::volume_volume), favourite);
+        DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+        expect(field, favourite);
+        field.gradients = true;
+        expect(field, favourite);
+        // A query that only one technique supports is answered by it, whatever its cost.
+        field.gradient = GradientMethod::blended;
+        expect(field, Technique::raster);
+        expect(IntersectionTestQuery{pair.instance_a(), pair.instance_b()}, Technique::cpu);
+        const Instance a = pair.instance_a();
+        const Instance b = pair.instance_b();
+        expect(TimeOfImpactQuery{a, b, a.pose, b.pose, 0.1}, Technique::cpu);
+        expect(SeparationVectorQuery{a, b, 0.1}, Technique::cpu);
+        expect(ContainmentQuery{a, b}, Technique::cpu);
+    }
+}
+
+TEST_F(ChosenTechnique, WhatTheCpuDoesNotAnswerIsRefusedByName) {
+    const PlacedPair pair(context(),
+                          {{"A", regular(5)}, {"B", regular(7)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
+                          Technique::cpu);
+    const auto expect_refused = [](const Status& status, const std::string& what) {
+        EXPECT_EQ(status.code(), StatusCode::invalid_query);
+        EXPECT_NE(status.message().find(what), std::string::npos) << status.message();
+    };
+    DistanceFieldQuery field{pair.instance_a(), pair.instance_b(), 0.05, std::nullopt};
+    field.technique = Technique::cpu;
+    field.gradients = true;
+    field.gradient = GradientMethod::blended;
+    expect_refused(run_alone(context(), field).status, "blended");
+    PenetrationQuery none = pair.penetration();
+    none.technique = static_cast<Technique>(17);
+    expect_refused(run_alone(context(), none).status, "no enumerator");
+    PenetrationQuery fine = pair.penetration(PenetrationPoints::vertices);
+    fine.tolerance = 1e-13;
+    fine.a.pose.translation.x = 1e3;
+    expect_refused(run_alone(context(), fine).status, "below what double precision resolves");
+}
+
+}  // namespace
+}  // namespace nearfield::test
