@@ -31,8 +31,8 @@ Collect::Output Collect::declare(TileGraph& graph, graph::Handle input, graph::H
 void Collect::record(VkCommandBuffer commands, const RecordContext& context,
                      IntersectionStrategy strategy) const {
     const ComputeShader& shader = strategy == IntersectionStrategy::blend ? colors_ : numbers_;
-    shader.bind(commands, context.samples[static_cast<std::size_t>(strategy)]);
-    shader.dispatch_groups<plan::CollectPush>(commands, *context.batch, plan::group_list(strategy),
+    shader.bind(commands, context.sets.samples[static_cast<std::size_t>(strategy)]);
+    shader.dispatch_groups<plan::CollectPush>(commands, context.batch, plan::group_list(strategy),
                                               context.sample_capacity);
 }
 

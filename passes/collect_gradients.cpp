@@ -18,15 +18,15 @@ graph::Handle CollectGradients::declare(TileGraph& graph, graph::Handle input,
 }
 
 void CollectGradients::record(VkCommandBuffer commands, const RecordContext& context) const {
-    shader_.bind(commands, context.gradients);
-    for (const plan::FieldTile& field : context.batch->field_tiles) {
+    shader_.bind(commands, context.sets.gradients);
+    for (const plan::FieldTile& field : context.batch.field_tiles) {
         if (field.first_gradient != plan::not_asked) {
-            const plan::TileData& tile = context.batch->tiles[field.tile];
+            const plan::TileData& tile = context.batch.tiles[field.tile];
             shader_.dispatch_elements<plan::CollectGradientsPush>(
                 commands, 0, tile.width * tile.height, field.first_gradient, 0U, 0U, field.tile);
         }
     }
-    for (const plan::FieldPointRun& run : context.batch->field_point_runs) {
+    for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
         if (run.parts.blended) {
             shader_.dispatch_elements<plan::CollectGradientsPush>(
                 commands, 4 * run.first, 4 * (run.first + run.count), run.first_word, run.first,

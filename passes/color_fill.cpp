@@ -1,4 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
 #include <passes/color_fill.hpp>
 #include <passes/drawing.hpp>
 #include <passes/tile_renderer.hpp>
@@ -18,27 +17,16 @@ constexpr std::uint32_t white_everywhere = 0xffffffff;
 
 ColorFill::ColorFill(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
     : device_(&device), layout_(layout) {
-    gpu::GraphicsPipelineDescription description;
-    description.render_pass = render_pass;
-    description.layout = layout;
-    description.vertex_shader = shaders::mesh_vert;
-    description.fragment_shader = shaders::color_frag;
+    gpu::GraphicsPipelineDescription description =
+        describe_drawing(layout, render_pass, shaders::mesh_vert, shaders::color_frag);
 
     description.name = "nearfield white clear";
     clear_ = gpu::make_graphics_pipeline(device, description);
 
     // Drawing white replaces a colour by one minus that colour.
-    VkPipelineColorBlendAttachmentState invert{};
-    invert.blendEnable = VK_TRUE;
-    invert.srcColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR;
-    invert.dstColorBlendFactor = VK_BLEND_FACTOR_ZERO;
-    invert.colorBlendOp = VK_BLEND_OP_ADD;
-    invert.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    invert.dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-    invert.alphaBlendOp = VK_BLEND_OP_ADD;
-    invert.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
     description.name = "nearfield white parity";
-    description.blend = invert;
+    description.blend = blending(VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR, VK_BLEND_FACTOR_ZERO,
+                                 VK_BLEND_OP_ADD, VK_COLOR_COMPONENT_R_BIT);
     parity_ = gpu::make_graphics_pipeline(device, description);
 }
 
@@ -50,7 +38,7 @@ graph::Handle ColorFill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2
 
 void ColorFill::record(VkCommandBuffer commands, const RecordContext& context) const {
     const TileRenderer renderer(*device_, layout_, commands, context);
-    const plan::TileMeshes& meshes = context.batch->raster.meshes;
+    const plan::TileMeshes& meshes = context.batch.raster.meshes;
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::color)), 1.0F, black);

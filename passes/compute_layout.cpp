@@ -10,13 +10,7 @@ gpu::Owned<VkSampler> make_sampler(const gpu::Device& device) {
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.addressModeU = info.addressModeV = info.addressModeW =
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateSampler(device.handle(), &info, device.allocator(), &sampler),
-        "vkCreateSampler", "texel fetches");
-    gpu::Owned<VkSampler> owned(device, sampler);
-    device.name_object(VK_OBJECT_TYPE_SAMPLER, sampler, "nearfield texel sampler");
-    return owned;
+    return gpu::make_object(device, info, "texel fetches", "nearfield texel sampler");
 }
 
 VkDescriptorType type_of(std::uint32_t binding) {
@@ -47,13 +41,7 @@ gpu::Owned<VkDescriptorSetLayout> make_set_layout(const gpu::Device& device, VkS
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateDescriptorSetLayout(device.handle(), &info,
-                                                              device.allocator(), &layout),
-               "vkCreateDescriptorSetLayout", "compute passes");
-    gpu::Owned<VkDescriptorSetLayout> owned(device, layout);
-    device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout, "nearfield compute set");
-    return owned;
+    return gpu::make_object(device, info, "compute passes", "nearfield compute set");
 }
 
 gpu::Owned<VkPipelineLayout> make_pipeline_layout(const gpu::Device& device,
@@ -65,13 +53,7 @@ gpu::Owned<VkPipelineLayout> make_pipeline_layout(const gpu::Device& device,
     info.pSetLayouts = &set_layout;
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
-                                                         &layout),
-               "vkCreatePipelineLayout", "compute passes");
-    gpu::Owned<VkPipelineLayout> owned(device, layout);
-    device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield compute layout");
-    return owned;
+    return gpu::make_object(device, info, "compute passes", "nearfield compute layout");
 }
 
 }  // namespace

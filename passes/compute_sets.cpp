@@ -16,13 +16,7 @@ gpu::Owned<VkDescriptorPool> make_pool(const gpu::Device& device, std::uint32_t 
     info.maxSets = sets;
     info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreateDescriptorPool(device.handle(), &info, device.allocator(),
-                                                         &pool),
-               "vkCreateDescriptorPool", "compute passes");
-    gpu::Owned<VkDescriptorPool> owned(device, pool);
-    device.name_object(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool, "nearfield compute sets");
-    return owned;
+    return gpu::make_object(device, info, "compute passes", "nearfield compute sets");
 }
 
 constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strategies>
@@ -59,22 +53,20 @@ DescriptorSets::DescriptorSets(const gpu::Device& device, const ComputeLayout& l
 }
 
 ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
-    : sets_(device, layout, names_of_tile_batch) {}
-
-void ComputeSets::bind_to(RecordContext& context) const {
+    : all_(device, layout, names_of_tile_batch) {
     std::size_t next = 0;
-    context.points = sets_[next++];
-    for (VkDescriptorSet& field : context.field) {
-        field = sets_[next++];
+    sets_.points = all_[next++];
+    for (VkDescriptorSet& field : sets_.field) {
+        field = all_[next++];
     }
-    context.gradients = sets_[next++];
-    for (VkDescriptorSet& samples : context.samples) {
-        samples = sets_[next++];
+    sets_.gradients = all_[next++];
+    for (VkDescriptorSet& samples : sets_.samples) {
+        samples = all_[next++];
     }
-    context.masks = sets_[next++];
-    context.blocks = sets_[next++];
-    context.feature_blocks = sets_[next++];
-    context.points_by_lists = sets_[next++];
+    sets_.masks = all_[next++];
+    sets_.blocks = all_[next++];
+    sets_.feature_blocks = all_[next++];
+    sets_.points_by_lists = all_[next++];
 }
 
 }  // namespace nearfield::passes

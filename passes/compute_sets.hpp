@@ -30,11 +30,11 @@ class ComputeSets {
 public:
     ComputeSets(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// Makes the passes use these sets.
-    void bind_to(RecordContext& context) const;
+    [[nodiscard]] const TileBatchSets& sets() const { return sets_; }
 
 private:
-    DescriptorSets sets_;
+    DescriptorSets all_;
+    TileBatchSets sets_;
 };
 
 }  // namespace nearfield::passes

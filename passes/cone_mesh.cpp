@@ -1,4 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
 #include <passes/cone_mesh.hpp>
 #include <passes/drawing.hpp>
 #include <passes/stencil_pipelines.hpp>
@@ -15,11 +14,8 @@ namespace nearfield::passes {
 
 ConeMesh::ConeMesh(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
     : device_(&device), layout_(layout) {
-    gpu::GraphicsPipelineDescription description;
-    description.render_pass = render_pass;
-    description.layout = layout;
-    description.vertex_shader = shaders::mesh_vert;
-    description.fragment_shader = shaders::number_frag;
+    gpu::GraphicsPipelineDescription description =
+        describe_drawing(layout, render_pass, shaders::mesh_vert, shaders::number_frag);
     description.depth_test = true;
 
     description.name = "nearfield distance clear";
@@ -44,8 +40,8 @@ void ConeMesh::record(VkCommandBuffer commands, const RecordContext& context) co
     const TileRenderer renderer(*device_, layout_, commands, context);
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
-    renderer.draw(context.batch->raster.meshes.range(plan::rectangles_of(SignEncoding::stencil),
-                                                     plan::rectangles_of(SignEncoding::color)),
+    renderer.draw(context.batch.raster.meshes.range(plan::rectangles_of(SignEncoding::stencil),
+                                                    plan::rectangles_of(SignEncoding::color)),
                   1.0F, plan::no_feature);
     renderer.bind(draw_.get());
     renderer.draw(plan::TileMeshId::distances);

@@ -22,4 +22,26 @@ graph::Handle add_drawing(TileGraph& graph, const char* name,
     return drawn;
 }
 
+gpu::GraphicsPipelineDescription describe_drawing(VkPipelineLayout layout, VkRenderPass render_pass,
+                                                  gpu::Spirv vertex_shader,
+                                                  gpu::Spirv fragment_shader) {
+    gpu::GraphicsPipelineDescription description;
+    description.render_pass = render_pass;
+    description.layout = layout;
+    description.vertex_shader = vertex_shader;
+    description.fragment_shader = fragment_shader;
+    return description;
+}
+
+VkPipelineColorBlendAttachmentState blending(VkBlendFactor source, VkBlendFactor destination,
+                                             VkBlendOp operation, VkColorComponentFlags channels) {
+    VkPipelineColorBlendAttachmentState blend{};
+    blend.blendEnable = VK_TRUE;
+    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = source;
+    blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = destination;
+    blend.colorBlendOp = blend.alphaBlendOp = operation;
+    blend.colorWriteMask = channels;
+    return blend;
+}
+
 }  // namespace nearfield::passes

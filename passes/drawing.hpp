@@ -1,5 +1,6 @@
 #pragma once
 
+#include <engine/gpu/pipeline.hpp>
 #include <engine/graph/graph.hpp>
 #include <passes/record_context.hpp>
 
@@ -13,5 +14,17 @@ namespace nearfield::passes {
                                         std::initializer_list<graph::Read> reads,
                                         graph::ImageDescription image,
                                         graph::ImageDescription tested, TileGraph::Record record);
+
+/// The description of a pipeline that draws with these shaders, without tests.
+[[nodiscard]] gpu::GraphicsPipelineDescription describe_drawing(VkPipelineLayout layout,
+                                                                VkRenderPass render_pass,
+                                                                gpu::Spirv vertex_shader,
+                                                                gpu::Spirv fragment_shader);
+
+/// Combines colours, in some channels, with those in the image.
+[[nodiscard]] VkPipelineColorBlendAttachmentState blending(VkBlendFactor source,
+                                                           VkBlendFactor destination,
+                                                           VkBlendOp operation,
+                                                           VkColorComponentFlags channels);
 
 }  // namespace nearfield::passes

@@ -10,16 +10,12 @@ EarlyOut::EarlyOut(const gpu::Device& device) : device_(&device) {
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_OCCLUSION;
     info.queryCount = plan::max_watched;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    gpu::check(
-        device.functions().vkCreateQueryPool(device.handle(), &info, device.allocator(), &pool),
-        "vkCreateQueryPool", "the occlusion queries of intersections");
-    pool_ = gpu::Owned<VkQueryPool>(device, pool);
-    device.name_object(VK_OBJECT_TYPE_QUERY_POOL, pool, "nearfield occlusion queries");
+    pool_ = gpu::make_object(device, info, "the occlusion queries of intersections",
+                             "nearfield occlusion queries");
 }
 
 void EarlyOut::reset(VkCommandBuffer commands, const RecordContext& context) const {
-    const auto count = static_cast<std::uint32_t>(context.batch->raster.watched.size());
+    const auto count = static_cast<std::uint32_t>(context.batch.raster.watched.size());
     if (count > 0) {
         device_->functions().vkCmdResetQueryPool(commands, pool_.get(), 0, count);
     }
@@ -48,7 +44,7 @@ graph::Handle EarlyOut::declare(TileGraph& graph, graph::Handle samples,
 
 void EarlyOut::record(VkCommandBuffer commands, const RecordContext& context,
                       IntersectionStrategy strategy) const {
-    const std::vector<plan::WatchedTile>& watched = context.batch->raster.watched;
+    const std::vector<plan::WatchedTile>& watched = context.batch.raster.watched;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {
             const VkDeviceSize offset = context.summaries_offset +

@@ -1,4 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
 #include <passes/cone_mesh.hpp>
 #include <passes/drawing.hpp>
 #include <passes/feature_bit.hpp>
@@ -25,39 +24,28 @@ constexpr VkColorComponentFlags id_bytes =
 
 FeatureBit::FeatureBit(const gpu::Device& device, VkPipelineLayout layout, VkRenderPass render_pass)
     : device_(&device), layout_(layout) {
-    gpu::GraphicsPipelineDescription description;
-    description.render_pass = render_pass;
-    description.layout = layout;
-    description.vertex_shader = shaders::mesh_vert;
-    description.fragment_shader = shaders::color_frag;
+    gpu::GraphicsPipelineDescription description =
+        describe_drawing(layout, render_pass, shaders::mesh_vert, shaders::color_frag);
     description.depth_test = true;
 
     description.name = "nearfield signed feature clear";
     description.depth_compare = VK_COMPARE_OP_ALWAYS;
     clear_ = gpu::make_graphics_pipeline(device, description);
 
-    VkPipelineColorBlendAttachmentState blend{};
-    blend.blendEnable = VK_TRUE;
-    blend.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    blend.dstColorBlendFactor = VK_BLEND_FACTOR_ZERO;
-    blend.colorBlendOp = VK_BLEND_OP_ADD;
-    blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA;
-    blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
-    blend.alphaBlendOp = VK_BLEND_OP_ADD;
-    blend.colorWriteMask = VK_COLOR_COMPONENT_A_BIT;
     description.name = "nearfield signed feature parity";
     description.depth_test = false;
-    description.blend = blend;
+    description.blend = blending(VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA, VK_BLEND_FACTOR_ZERO,
+                                 VK_BLEND_OP_ADD, VK_COLOR_COMPONENT_A_BIT);
     parity_ = gpu::make_graphics_pipeline(device, description);
 
-    blend = {};
-    blend.colorWriteMask = id_bytes;
+    VkPipelineColorBlendAttachmentState only_ids{};
+    only_ids.colorWriteMask = id_bytes;
     description.name = "nearfield signed feature mesh";
     description.vertex_shader = shaders::tile_mesh_vert;
     description.fragment_shader = shaders::color_in_tile_frag;
     description.depth_test = true;
     description.depth_compare = VK_COMPARE_OP_LESS;
-    description.blend = blend;
+    description.blend = only_ids;
     draw_ = gpu::make_graphics_pipeline(device, description);
 }
 
@@ -70,7 +58,7 @@ graph::Handle FeatureBit::declare(TileGraph& graph, graph::Handle mesh, VkExtent
 
 void FeatureBit::record(VkCommandBuffer commands, const RecordContext& context) const {
     const TileRenderer renderer(*device_, layout_, commands, context);
-    const plan::TileMeshes& meshes = context.batch->raster.meshes;
+    const plan::TileMeshes& meshes = context.batch.raster.meshes;
     renderer.stencil(0, 0, 0);
     renderer.bind(clear_.get());
     renderer.draw(meshes.range(plan::rectangles_of(SignEncoding::feature_bit)), 1.0F,

@@ -15,7 +15,7 @@ graph::Handle Fill::declare(TileGraph& graph, graph::Handle mesh, VkExtent2D ext
 void Fill::record(VkCommandBuffer commands, const RecordContext& context) const {
     using namespace stencil_bits;
     const TileRenderer renderer(*device_, layout_, commands, context);
-    const plan::TileMeshes& meshes = context.batch->raster.meshes;
+    const plan::TileMeshes& meshes = context.batch.raster.meshes;
     const plan::DrawRange rectangles = meshes.range(plan::rectangles_of(SignEncoding::stencil));
     renderer.bind(pipelines_->clear.get());
     renderer.stencil(all, all, 0);

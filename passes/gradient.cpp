@@ -1,4 +1,3 @@
-#include <engine/gpu/pipeline.hpp>
 #include <passes/drawing.hpp>
 #include <passes/gradient.hpp>
 #include <passes/tile_renderer.hpp>
@@ -25,43 +24,26 @@ gpu::Owned<VkPipelineLayout> make_layout(const gpu::Device& device, VkDescriptor
     info.pSetLayouts = &set;
     info.pushConstantRangeCount = static_cast<std::uint32_t>(push.size());
     info.pPushConstantRanges = push.data();
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
-                                                         &layout),
-               "vkCreatePipelineLayout", "blended gradients");
-    gpu::Owned<VkPipelineLayout> owned(device, layout);
-    device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield gradient layout");
-    return owned;
+    return gpu::make_object(device, info, "blended gradients", "nearfield gradient layout");
 }
 
-VkPipelineColorBlendAttachmentState blending(VkBlendFactor source, VkBlendFactor destination,
-                                             VkBlendOp operation) {
-    VkPipelineColorBlendAttachmentState blend{};
-    blend.blendEnable = VK_TRUE;
-    blend.srcColorBlendFactor = blend.srcAlphaBlendFactor = source;
-    blend.dstColorBlendFactor = blend.dstAlphaBlendFactor = destination;
-    blend.colorBlendOp = blend.alphaBlendOp = operation;
-    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT;
-    return blend;
-}
+constexpr VkColorComponentFlags both = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT;
 
 }  // namespace
 
 Gradient::Gradient(const gpu::Device& device, const ComputeLayout& layout, VkRenderPass render_pass)
     : device_(&device), layout_(make_layout(device, layout.set_layout())) {
-    gpu::GraphicsPipelineDescription description;
-    description.render_pass = render_pass;
-    description.layout = layout_.get();
-    description.vertex_shader = shaders::tile_mesh_vert;
-    description.fragment_shader = shaders::gradient_frag;
+    gpu::GraphicsPipelineDescription description = describe_drawing(
+        layout_.get(), render_pass, shaders::tile_mesh_vert, shaders::gradient_frag);
     description.name = "nearfield gradient shifted";
     shifted_ = gpu::make_graphics_pipeline(device, description);
     description.name = "nearfield gradient subtract";
     description.blend =
-        blending(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_REVERSE_SUBTRACT);
+        blending(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_REVERSE_SUBTRACT, both);
     subtract_ = gpu::make_graphics_pipeline(device, description);
     description.name = "nearfield gradient multiply";
-    description.blend = blending(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_OP_ADD);
+    description.blend =
+        blending(VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_OP_ADD, both);
     multiply_ = gpu::make_graphics_pipeline(device, description);
 }
 
@@ -79,7 +61,7 @@ void Gradient::record(VkCommandBuffer commands, const RecordContext& context) co
     const TileRenderer renderer(*device_, layout_.get(), commands, context);
     // The sets of all field passes bind the same buffer of values.
     functions.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0,
-                                      1, &context.gradients, 0, nullptr);
+                                      1, &context.sets.gradients, 0, nullptr);
     const float largest = device_->gradient_format() == VK_FORMAT_R16G16_SFLOAT
                               ? largest_half
                               : std::numeric_limits<float>::max();

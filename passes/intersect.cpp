@@ -28,7 +28,7 @@ void Intersect::record(VkCommandBuffer commands, const RecordContext& context,
     const StrategySteps& steps = strategies_->steps(strategy);
     const TileRenderer renderer(*device_, layout_, commands, context);
     const auto range = [&](OverlapStep step) {
-        return context.batch->raster.meshes.range(plan::overlaps_of(strategy, step));
+        return context.batch.raster.meshes.range(plan::overlaps_of(strategy, step));
     };
 
     renderer.bind(steps.clear);
@@ -59,7 +59,7 @@ void Intersect::record(VkCommandBuffer commands, const RecordContext& context,
     take(Part::boundary, parity_a, steps.count_b);
     renderer.draw(range(OverlapStep::boundary_a), steps.depth_a, steps.value_a);
 
-    const std::vector<plan::WatchedTile>& watched = context.batch->raster.watched;
+    const std::vector<plan::WatchedTile>& watched = context.batch.raster.watched;
     const std::uint32_t first = range(OverlapStep::watched_a).first;
     for (std::uint32_t query = 0; query < watched.size(); ++query) {
         if (watched[query].strategy == strategy) {

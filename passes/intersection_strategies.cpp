@@ -1,4 +1,4 @@
-#include <engine/gpu/pipeline.hpp>
+#include <passes/drawing.hpp>
 #include <passes/intersection_strategies.hpp>
 #include <passes/prototype.hpp>
 
@@ -8,22 +8,6 @@
 #include <shaders/number_frag.hpp>
 
 namespace nearfield::passes {
-
-namespace {
-
-/// Adds colours in all channels.
-VkPipelineColorBlendAttachmentState additive() {
-    VkPipelineColorBlendAttachmentState state{};
-    state.blendEnable = VK_TRUE;
-    state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
-    state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                           VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    return state;
-}
-
-}  // namespace
 
 IntersectionStrategies::IntersectionStrategies(const gpu::Device& device, VkPipelineLayout layout,
                                                VkRenderPass number_render_pass,
@@ -44,12 +28,9 @@ IntersectionStrategies::IntersectionStrategies(const gpu::Device& device, VkPipe
 
 /// Writes the colour where the compared stencil bits equal the reference.
 gpu::GraphicsPipelineDescription IntersectionStrategies::description(const char* name) const {
-    gpu::GraphicsPipelineDescription description;
+    gpu::GraphicsPipelineDescription description =
+        describe_drawing(layout_, number_render_pass_, shaders::mesh_vert, shaders::number_frag);
     description.name = name;
-    description.render_pass = number_render_pass_;
-    description.layout = layout_;
-    description.vertex_shader = shaders::mesh_vert;
-    description.fragment_shader = shaders::number_frag;
     description.stencil_test = true;
     description.stencil_compare = VK_COMPARE_OP_EQUAL;
     return description;
@@ -96,7 +77,9 @@ void IntersectionStrategies::make_blend() {
     sum.render_pass = color_render_pass_.get();
     sum.fragment_shader = shaders::color_frag;
     sum.stencil_pass = VK_STENCIL_OP_INCREMENT_AND_CLAMP;
-    sum.blend = additive();
+    sum.blend = blending(VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE, VK_BLEND_OP_ADD,
+                         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                             VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT);
     steps.a = make(sum);
     steps.value_b = 128;
     steps.value_a = 127;

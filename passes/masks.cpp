@@ -28,7 +28,7 @@ graph::Handle Masks::declare_clear(TileGraph& graph, graph::Handle scratch) cons
 
 // The scratch memory belongs to the tile batch, whose former use has been waited for.
 void Masks::record_clear(VkCommandBuffer commands, const RecordContext& context) const {
-    const plan::ComputeWork& work = context.batch->compute;
+    const plan::ComputeWork& work = context.batch.compute;
     const auto fill = [&](std::uint64_t first, std::uint64_t words, std::uint32_t value) {
         if (words > 0) {
             device_->functions().vkCmdFillBuffer(commands, context.scratch, first * sizeof(value),
@@ -48,44 +48,35 @@ graph::Handle Masks::declare_fill(TileGraph& graph, graph::Handle input,
 }
 
 void Masks::record_edges(VkCommandBuffer commands, const RecordContext& context) const {
-    const auto ranges = context.batch->compute.ranges();
-    edges_.bind(commands, context.masks);
+    const auto ranges = context.batch.compute.ranges();
+    edges_.bind(commands, context.sets.masks);
     edges_.dispatch_elements<plan::MaskEdgesPush>(commands, 0, ranges.edges.count,
                                                   ranges.edges.first_word, ranges.masks.first_word,
                                                   context.subpixel_bits);
 }
 
 void Masks::record_rows(VkCommandBuffer commands, const RecordContext& context) const {
-    const auto ranges = context.batch->compute.ranges();
-    rows_.bind(commands, context.masks);
+    const auto ranges = context.batch.compute.ranges();
+    rows_.bind(commands, context.sets.masks);
     rows_.dispatch_elements<plan::MaskRowsPush>(commands, 0, ranges.rows.count,
                                                 ranges.rows.first_word);
 }
 
-graph::Handle Masks::declare_boundaries_b(TileGraph& graph, graph::Handle input,
-                                          graph::Handle scratch) const {
-    return graph.add_compute_pass("boundaries of B", {{input, Access::storage_read_in_compute}},
-                                  scratch,
-                                  [this](VkCommandBuffer commands, const RecordContext& context) {
-                                      record_polygons(commands, context, false);
-                                  });
-}
-
-graph::Handle Masks::declare_boundaries_a(TileGraph& graph, graph::Handle input,
-                                          graph::Handle scratch) const {
-    return graph.add_compute_pass("boundaries of A", {{input, Access::storage_read_in_compute}},
-                                  scratch,
-                                  [this](VkCommandBuffer commands, const RecordContext& context) {
-                                      record_polygons(commands, context, true);
-                                  });
+graph::Handle Masks::declare_boundaries(TileGraph& graph, graph::Handle input,
+                                        graph::Handle scratch, bool of_a) const {
+    return graph.add_compute_pass(
+        of_a ? "boundaries of A" : "boundaries of B", {{input, Access::storage_read_in_compute}},
+        scratch, [this, of_a](VkCommandBuffer commands, const RecordContext& context) {
+            record_polygons(commands, context, of_a);
+        });
 }
 
 void Masks::record_polygons(VkCommandBuffer commands, const RecordContext& context,
                             bool of_a) const {
-    const plan::ComputeWork& work = context.batch->compute;
+    const plan::ComputeWork& work = context.batch.compute;
     const auto ranges = work.ranges();
     const plan::WorkRange& polygons = of_a ? ranges.polygons_a : ranges.polygons_b;
-    polygons_.bind(commands, context.masks);
+    polygons_.bind(commands, context.sets.masks);
     polygons_.dispatch_elements<plan::MaskPolygonsPush>(
         commands, 0, polygons.count, polygons.first_word, ranges.masks.first_word,
         ranges.overlaps.first_word, static_cast<std::uint32_t>(work.mask_words),
@@ -101,9 +92,9 @@ graph::Handle Masks::declare_collect(TileGraph& graph, graph::Handle input, grap
 }
 
 void Masks::record_collect(VkCommandBuffer commands, const RecordContext& context) const {
-    const plan::ComputeWork& work = context.batch->compute;
+    const plan::ComputeWork& work = context.batch.compute;
     const auto ranges = work.ranges();
-    collect_.bind(commands, context.masks);
+    collect_.bind(commands, context.sets.masks);
     collect_.dispatch_elements<plan::CollectMasksPush>(
         commands, 0, ranges.overlap_rows.count, ranges.overlap_rows.first_word,
         ranges.masks.first_word, ranges.overlaps.first_word,

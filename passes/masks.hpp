@@ -23,11 +23,9 @@ public:
     /// Adds the passes that mark edges, then fill rows.
     [[nodiscard]] graph::Handle declare_fill(TileGraph& graph, graph::Handle input,
                                              graph::Handle scratch) const;
-    [[nodiscard]] graph::Handle declare_boundaries_b(TileGraph& graph, graph::Handle input,
-                                                     graph::Handle scratch) const;
-    /// After all of B's masks: samples of A's boundary count only where those are set.
-    [[nodiscard]] graph::Handle declare_boundaries_a(TileGraph& graph, graph::Handle input,
-                                                     graph::Handle scratch) const;
+    /// A's come after all of B's masks: samples of A's boundary count only where those are set.
+    [[nodiscard]] graph::Handle declare_boundaries(TileGraph& graph, graph::Handle input,
+                                                   graph::Handle scratch, bool of_a) const;
     /// Adds the pass that writes the same output as Collect.
     [[nodiscard]] graph::Handle declare_collect(TileGraph& graph, graph::Handle input,
                                                 graph::Handle scratch, graph::Handle samples) const;

@@ -11,12 +11,8 @@
 
 namespace nearfield::passes {
 
-/// The input that the passes of a tile batch are recorded from.
-struct RecordContext {
-    const plan::TileBatch* batch = nullptr;
-    VkBuffer mesh = VK_NULL_HANDLE;
-    VkDeviceSize mesh_offset = 0;             ///< of the tile batch's vertices of meshes, in bytes
-    VkDeviceSize tile_mesh_offset = 0;        ///< of its vertices with the rectangle of their tile
+/// The descriptor sets of the compute passes of a tile batch.
+struct TileBatchSets {
     VkDescriptorSet points = VK_NULL_HANDLE;  ///< raster technique: with images
     /// Compute technique: without images. It is not the raster's set, which names images of the
     /// last compiled graph, because a driver may access every resource that a set names.
@@ -27,15 +23,24 @@ struct RecordContext {
     VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
     VkDescriptorSet blocks = VK_NULL_HANDLE;                         ///< of the compute technique
     VkDescriptorSet feature_blocks = VK_NULL_HANDLE;                 ///< of the compute technique
-    VkBuffer scratch = VK_NULL_HANDLE;  ///< the compute technique's scratch memory
-    std::uint32_t subpixel_bits = 8;    ///< precision of the grid that vertices are snapped to
-    VkBuffer read_back = VK_NULL_HANDLE;
-    VkDeviceSize summaries_offset = 0;  ///< offset of the summaries in the read-back, in bytes
-    std::uint32_t sample_capacity = 0;  ///< space in the read-back, in samples
 
-    [[nodiscard]] VkDescriptorSet field_set(SignEncoding encoding) const {
+    [[nodiscard]] VkDescriptorSet field_by(SignEncoding encoding) const {
         return field[static_cast<std::size_t>(encoding)];
     }
+};
+
+/// What the passes of a tile batch are recorded from.
+struct RecordContext {
+    const plan::TileBatch& batch;
+    const TileBatchSets& sets;
+    VkBuffer mesh;
+    VkDeviceSize mesh_offset;       ///< of the tile batch's vertices of meshes, in bytes
+    VkDeviceSize tile_mesh_offset;  ///< of its vertices with the rectangle of their tile
+    VkBuffer scratch;               ///< the compute technique's scratch memory
+    std::uint32_t subpixel_bits;    ///< precision of the grid that vertices are snapped to
+    VkBuffer read_back;
+    VkDeviceSize summaries_offset;  ///< offset of the summaries in the read-back, in bytes
+    std::uint32_t sample_capacity;  ///< space in the read-back, in samples
 };
 
 /// The graph of a tile batch.

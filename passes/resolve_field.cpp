@@ -7,21 +7,31 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace nearfield::passes {
 
-void FieldImages::declare_reads(graph::PassBuilder& pass) const {
-    std::array<graph::Handle, 2 * plan::sign_encodings> seen;
-    std::size_t count = 0;
-    for (const Pair& pair : by_encoding) {
-        for (const graph::Handle handle : {pair.features, pair.sign}) {
-            if (handle != graph::Handle{} &&
-                std::find(seen.begin(), seen.begin() + count, handle) == seen.begin() + count) {
-                seen[count++] = handle;
-                pass.read(handle, graph::Access::sampled_in_compute);
+graph::Handle FieldImages::add_pass(TileGraph& graph, const char* name, graph::Handle input,
+                                    graph::Handle field, TileGraph::Record record) const {
+    graph.add_pass(
+        name, graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(input, graph::Access::storage_read_in_compute);
+            std::array<graph::Handle, 2 * plan::sign_encodings> seen;
+            std::size_t count = 0;
+            for (const Pair& pair : by_encoding) {
+                for (const graph::Handle handle : {pair.features, pair.sign}) {
+                    const auto end = seen.begin() + count;
+                    if (handle != graph::Handle{} && std::find(seen.begin(), end, handle) == end) {
+                        seen[count++] = handle;
+                        pass.read(handle, graph::Access::sampled_in_compute);
+                    }
+                }
             }
-        }
-    }
+            field = pass.write(field, graph::Access::storage_write_in_compute);
+        },
+        std::move(record));
+    return field;
 }
 
 std::uint32_t sign_mask(SignEncoding encoding) {
@@ -41,26 +51,19 @@ ResolveField::ResolveField(const gpu::Device& device, const ComputeLayout& layou
 
 graph::Handle ResolveField::declare(TileGraph& graph, graph::Handle input,
                                     const FieldImages& images, graph::Handle field) const {
-    graph.add_pass(
-        "resolve field", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, graph::Access::storage_read_in_compute);
-            images.declare_reads(pass);
-            field = pass.write(field, graph::Access::storage_write_in_compute);
-        },
-        std::bind_front(&ResolveField::record, this));
-    return field;
+    return images.add_pass(graph, "resolve field", input, field,
+                           std::bind_front(&ResolveField::record, this));
 }
 
 void ResolveField::record(VkCommandBuffer commands, const RecordContext& context) const {
     shader_.bind(commands);
     for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         const auto sign = static_cast<SignEncoding>(encoding);
-        if (!context.batch->raster.groups[plan::group_list(sign)].empty()) {
-            shader_.bind_set(commands, context.field_set(sign));
-            shader_.dispatch_groups<plan::ResolveFieldPush>(commands, *context.batch,
+        if (!context.batch.raster.groups[plan::group_list(sign)].empty()) {
+            shader_.bind_set(commands, context.sets.field_by(sign));
+            shader_.dispatch_groups<plan::ResolveFieldPush>(commands, context.batch,
                                                             plan::group_list(sign), sign_mask(sign),
-                                                            context.batch->resident ? 1U : 0U);
+                                                            context.batch.resident ? 1U : 0U);
         }
     }
 }

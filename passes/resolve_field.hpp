@@ -17,8 +17,10 @@ struct FieldImages {
     };
     std::array<Pair, plan::sign_encodings> by_encoding;
 
-    /// Declares a read of each image, once.
-    void declare_reads(graph::PassBuilder& pass) const;
+    /// Adds a compute pass that reads each image, once, and the input of all passes; returns the
+    /// new version of `field`, which it writes.
+    [[nodiscard]] graph::Handle add_pass(TileGraph& graph, const char* name, graph::Handle input,
+                                         graph::Handle field, TileGraph::Record record) const;
 };
 
 /// The bits of a texel of an encoding's sign image that are set inside B.

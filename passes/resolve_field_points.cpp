@@ -12,21 +12,14 @@ ResolveFieldPoints::ResolveFieldPoints(const gpu::Device& device, const ComputeL
 
 graph::Handle ResolveFieldPoints::declare(TileGraph& graph, graph::Handle input,
                                           const FieldImages& images, graph::Handle field) const {
-    graph.add_pass(
-        "resolve field points", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input, graph::Access::storage_read_in_compute);
-            images.declare_reads(pass);
-            field = pass.write(field, graph::Access::storage_write_in_compute);
-        },
-        std::bind_front(&ResolveFieldPoints::record, this));
-    return field;
+    return images.add_pass(graph, "resolve field points", input, field,
+                           std::bind_front(&ResolveFieldPoints::record, this));
 }
 
 void ResolveFieldPoints::record(VkCommandBuffer commands, const RecordContext& context) const {
     shader_.bind(commands);
-    for (const plan::FieldPointRun& run : context.batch->field_point_runs) {
-        shader_.bind_set(commands, context.field_set(run.sign));
+    for (const plan::FieldPointRun& run : context.batch.field_point_runs) {
+        shader_.bind_set(commands, context.sets.field_by(run.sign));
         shader_.dispatch_elements<plan::ResolveFieldPointsPush>(
             commands, run.first, run.first + run.count, sign_mask(run.sign), run.first_word,
             run.first, run.parts.words_per_point, run.parts.cells_per_point);

@@ -26,10 +26,11 @@ void ResolvePoints::declare(TileGraph& graph, graph::Handle input, graph::Handle
 }
 
 void ResolvePoints::record(VkCommandBuffer commands, const RecordContext& context) const {
-    shader_.bind(commands, source_ == Source::images ? context.points : context.points_by_lists);
-    const auto count = static_cast<std::uint32_t>(context.batch->points.size());
+    shader_.bind(commands,
+                 source_ == Source::images ? context.sets.points : context.sets.points_by_lists);
+    const auto count = static_cast<std::uint32_t>(context.batch.points.size());
     shader_.dispatch_elements<plan::ResolvePointsPush>(
-        commands, 0, count, context.batch->resident ? count : plan::not_asked);
+        commands, 0, count, context.batch.resident ? count : plan::not_asked);
 }
 
 }  // namespace nearfield::passes

@@ -1,3 +1,4 @@
+#include <passes/drawing.hpp>
 #include <passes/stencil_pipelines.hpp>
 
 #include <shaders/mesh_vert.hpp>
@@ -9,12 +10,9 @@ StencilPipelines::StencilPipelines(const gpu::Device& device, VkPipelineLayout l
                                    const std::string& colors) {
     const auto make = [&](const std::string& name, VkCompareOp compare, VkStencilOp pass,
                           gpu::Spirv shader) {
-        gpu::GraphicsPipelineDescription description;
+        gpu::GraphicsPipelineDescription description =
+            describe_drawing(layout, render_pass, shaders::mesh_vert, shader);
         description.name = "nearfield " + colors + " " + name;
-        description.render_pass = render_pass;
-        description.layout = layout;
-        description.vertex_shader = shaders::mesh_vert;
-        description.fragment_shader = shader;
         description.stencil_test = true;
         description.stencil_compare = compare;
         description.stencil_pass = pass;

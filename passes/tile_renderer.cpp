@@ -28,19 +28,13 @@ gpu::Owned<VkPipelineLayout> make_draw_layout(const gpu::Device& device) {
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    gpu::check(device.functions().vkCreatePipelineLayout(device.handle(), &info, device.allocator(),
-                                                         &layout),
-               "vkCreatePipelineLayout", "the layout of all draws");
-    gpu::Owned<VkPipelineLayout> owned(device, layout);
-    device.name_object(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout, "nearfield draw layout");
-    return owned;
+    return gpu::make_object(device, info, "the layout of all draws", "nearfield draw layout");
 }
 
 TileRenderer::TileRenderer(const gpu::Device& device, VkPipelineLayout layout,
                            VkCommandBuffer commands, const RecordContext& context)
     : functions_(&device.functions()), layout_(layout), commands_(commands), context_(&context) {
-    const plan::TileSize extent = context.batch->raster.extent;
+    const plan::TileSize extent = context.batch.raster.extent;
     const VkRect2D scissor{{0, 0}, {extent.width, extent.height}};
     functions_->vkCmdSetViewport(commands_, 0, 1, &viewport);
     functions_->vkCmdSetScissor(commands_, 0, 1, &scissor);
@@ -63,7 +57,7 @@ void TileRenderer::draw(plan::DrawRange range, float depth_scale, std::uint32_t 
 }
 
 void TileRenderer::draw(plan::TileMeshId mesh) const {
-    draw_from(context_->tile_mesh_offset, context_->batch->raster.meshes.range(mesh), 1.0F, 0);
+    draw_from(context_->tile_mesh_offset, context_->batch.raster.meshes.range(mesh), 1.0F, 0);
 }
 
 void TileRenderer::draw_from(VkDeviceSize offset, plan::DrawRange range, float depth_scale,

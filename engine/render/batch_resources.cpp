@@ -106,16 +106,12 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     std::uint64_t mesh_end = 0;
     std::uint64_t input_end = 0;
     for (std::size_t i = 0; i < tile_batches.size(); ++i) {
-        passes::RecordContext& context = tile_batches_[i].context;
-        context.batch = &tile_batches[i];
-        context.subpixel_bits = device_->limits().subPixelPrecisionBits;
-        sets_[i].bind_to(context);
+        tile_batches_[i].batch = &tile_batches[i];
         if (tile_batches[i].by_compute) {
             if (compute_[i] == nullptr) {
                 compute_[i] = std::make_unique<ComputeBuffers>(*device_);
             }
             compute_[i]->upload(tile_batches[i]);
-            context.scratch = compute_[i]->scratch();
         } else {
             lay_out_input(tile_batches_[i], input_end, mesh_end);
         }
@@ -123,7 +119,7 @@ void BatchResources::upload(std::span<const plan::TileBatch> tile_batches,
     input_.reserve(input_end);
     mesh_.reserve(mesh_end);
     for (const TileBatchOnDevice& on_device : tile_batches_) {
-        if (!on_device.context.batch->by_compute) {
+        if (!on_device.batch->by_compute) {
             copy_input(on_device);
         }
     }
@@ -147,7 +143,7 @@ void BatchResources::upload_searches(const plan::SearchShapes& shapes,
 
 void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& input_end,
                                    std::uint64_t& mesh_end) const {
-    const plan::TileBatch& batch = *on_device.context.batch;
+    const plan::TileBatch& batch = *on_device.batch;
     const auto& geometry = batch.lists.geometry();
     require_range(*device_, bytes_of(geometry), "the edges");
     require_range(*device_, std::max(bytes_of(batch.points), bytes_of(batch.raster.field_points)),
@@ -160,22 +156,36 @@ void BatchResources::lay_out_input(TileBatchOnDevice& on_device, std::uint64_t& 
     parts.field_points = align(parts.points + bytes_of(batch.points));
     parts.end = parts.field_points + bytes_of(batch.raster.field_points);
     input_end = parts.end + smallest_part;
-    on_device.context.tile_mesh_offset = mesh_end;
-    on_device.context.mesh_offset = mesh_end + bytes_of_all(batch.raster.meshes.tile_meshes());
-    mesh_end = align(on_device.context.mesh_offset + bytes_of_all(batch.raster.meshes.meshes()));
+    on_device.input.tile_meshes = mesh_end;
+    on_device.input.meshes = mesh_end + bytes_of_all(batch.raster.meshes.tile_meshes());
+    mesh_end = align(on_device.input.meshes + bytes_of_all(batch.raster.meshes.meshes()));
 }
 
 void BatchResources::copy_input(const TileBatchOnDevice& on_device) const {
-    const plan::TileBatch& batch = *on_device.context.batch;
+    const plan::TileBatch& batch = *on_device.batch;
     const InputParts& parts = on_device.input;
     copy_to(input_.data() + parts.tiles, batch.tiles);
     copy_all_to(input_.data() + parts.tiles + bytes_of(batch.tiles), groups_of(batch));
     copy_to(input_.data() + parts.geometry, batch.lists.geometry());
     copy_to(input_.data() + parts.points, batch.points);
     copy_to(input_.data() + parts.field_points, batch.raster.field_points);
-    copy_all_to(mesh_.data() + on_device.context.tile_mesh_offset,
-                batch.raster.meshes.tile_meshes());
-    copy_all_to(mesh_.data() + on_device.context.mesh_offset, batch.raster.meshes.meshes());
+    copy_all_to(mesh_.data() + on_device.input.tile_meshes, batch.raster.meshes.tile_meshes());
+    copy_all_to(mesh_.data() + on_device.input.meshes, batch.raster.meshes.meshes());
+}
+
+passes::RecordContext BatchResources::record_context(std::uint32_t number) const {
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    const bool by_compute = on_device.batch->by_compute;
+    return {.batch = *on_device.batch,
+            .sets = sets_[number].sets(),
+            .mesh = mesh_.handle(),
+            .mesh_offset = on_device.input.meshes,
+            .tile_mesh_offset = on_device.input.tile_meshes,
+            .scratch = by_compute ? compute_[number]->scratch() : VK_NULL_HANDLE,
+            .subpixel_bits = device_->limits().subPixelPrecisionBits,
+            .read_back = read_back_.handle(),
+            .summaries_offset = on_device.output.summaries,
+            .sample_capacity = on_device.sample_capacity};
 }
 
 void BatchResources::run(std::uint32_t count) {
@@ -189,7 +199,7 @@ void BatchResources::run_those_without_room() {
     has_resident_outputs_ = false;
     std::erase_if(running_, [&](std::uint32_t number) { return tile_batches_[number].had_room(); });
     for (const std::uint32_t number : running_) {
-        tile_batches_[number].context.sample_capacity = tile_batches_[number].sample_count;
+        tile_batches_[number].sample_capacity = tile_batches_[number].sample_count;
     }
     std::erase_if(running_searches_,
                   [&](std::uint32_t number) { return searches_[number]->had_room(); });
@@ -266,19 +276,19 @@ void BatchResources::release() {
 std::span<const std::uint32_t> BatchResources::points(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
     return elements_at<std::uint32_t>(read_back_, on_device.output.points,
-                                      on_device.context.batch->points.size());
+                                      on_device.batch->points.size());
 }
 
 std::span<const std::uint32_t> BatchResources::field_words(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
     return elements_at<std::uint32_t>(read_back_, on_device.output.field,
-                                      on_device.context.batch->field_words);
+                                      on_device.batch->field_words);
 }
 
 std::span<const plan::TileSummary> BatchResources::summaries(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
     return elements_at<plan::TileSummary>(read_back_, on_device.output.summaries,
-                                          on_device.context.batch->tiles.size());
+                                          on_device.batch->tiles.size());
 }
 
 std::span<const plan::SampleData> BatchResources::samples(std::uint32_t number) const {

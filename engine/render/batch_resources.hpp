@@ -25,7 +25,8 @@ namespace nearfield::render {
 /// Byte offsets of a tile batch's parts in the common buffers.
 struct InputParts {
     std::uint64_t tiles = 0, geometry = 0, points = 0, field_points = 0, end = 0;
-    std::uint64_t groups_end = 0;  ///< of the groups that follow the tiles
+    std::uint64_t groups_end = 0;               ///< of the groups that follow the tiles
+    std::uint64_t tile_meshes = 0, meshes = 0;  ///< in the buffer of meshes
 };
 struct OutputParts {
     std::uint64_t points = 0, field = 0, summaries = 0, samples = 0, end = 0;
@@ -42,12 +43,13 @@ enum class SubmissionState {
 /// The device's side of one tile batch.
 struct TileBatchOnDevice {
     std::shared_ptr<CompiledGraph> graph;  ///< kept for as long as the device may use its images
-    passes::RecordContext context;         ///< what its passes record from
+    const plan::TileBatch* batch = nullptr;
     InputParts input;
     OutputParts output;
-    std::uint32_t sample_count = 0;  ///< found; only context.sample_capacity of them were stored
+    std::uint32_t sample_capacity = 0;
+    std::uint32_t sample_count = 0;  ///< found; only sample_capacity of them were stored
 
-    [[nodiscard]] bool had_room() const { return sample_count <= context.sample_capacity; }
+    [[nodiscard]] bool had_room() const { return sample_count <= sample_capacity; }
 };
 
 /// The device's side of one batch in flight: everything that the host must not touch before the
@@ -93,6 +95,8 @@ public:
     [[nodiscard]] const TileBatchOnDevice& tile_batch(std::uint32_t number) const {
         return tile_batches_[number];
     }
+    /// What the passes of a tile batch are recorded from, once its output is laid out.
+    [[nodiscard]] passes::RecordContext record_context(std::uint32_t number) const;
     /// Points a compiled graph to the buffers of a tile batch, for what is recorded next.
     void bind_buffers(CompiledGraph& graph, std::uint32_t number) const;
 
@@ -145,7 +149,7 @@ private:
     void bind_export();
     /// The buffer into which a tile batch writes the words of its points and fields.
     [[nodiscard]] VkBuffer words_of(const TileBatchOnDevice& on_device) const;
-    void bind(const TileBatchOnDevice& on_device) const;
+    void bind(std::uint32_t number) const;
     void bind_compute(std::uint32_t number) const;
     [[nodiscard]] std::uint64_t align(std::uint64_t offset) const;
     void require_stamp();

@@ -67,10 +67,10 @@ void CompiledGraph::declare_compute(const ComputePipelines& passes) {
         scratch = passes.masks.declare_fill(graph_, input_, scratch);
     }
     if (needs.boundaries_b) {
-        scratch = passes.masks.declare_boundaries_b(graph_, input_, scratch);
+        scratch = passes.masks.declare_boundaries(graph_, input_, scratch, false);
     }
     if (needs.boundaries_a) {
-        scratch = passes.masks.declare_boundaries_a(graph_, input_, scratch);
+        scratch = passes.masks.declare_boundaries(graph_, input_, scratch, true);
     }
     if (needs.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
@@ -183,27 +183,27 @@ void CompiledGraph::set_buffers(const Buffers& buffers) {
 }
 
 void CompiledGraph::bind_images(const passes::ComputeLayout& layout,
-                                const passes::RecordContext& context) const {
+                                const passes::TileBatchSets& sets) const {
     using Layout = passes::ComputeLayout;
     const auto bind_pair = [&](VkDescriptorSet set, const passes::FieldImages::Pair& images) {
         layout.write_image(set, Layout::image, graph_.executor().sampled_view(images.features));
         layout.write_image(set, Layout::sign_image, graph_.executor().sampled_view(images.sign));
     };
     if (needs_.points) {
-        bind_pair(context.points, images_.by_encoding.front());
+        bind_pair(sets.points, images_.by_encoding.front());
     }
     for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         if (needs_.field[encoding]) {
-            bind_pair(context.field[encoding], images_.by_encoding[encoding]);
+            bind_pair(sets.field[encoding], images_.by_encoding[encoding]);
         }
     }
     if (needs_.blended) {
-        layout.write_image(context.gradients, Layout::image,
+        layout.write_image(sets.gradients, Layout::image,
                            graph_.executor().sampled_view(gradients_));
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs_.overlap[i]) {
-            layout.write_image(context.samples[i], Layout::image,
+            layout.write_image(sets.samples[i], Layout::image,
                                graph_.executor().sampled_view(hits_[i]));
         }
     }

@@ -127,9 +127,8 @@ public:
         VkBuffer read_back = VK_NULL_HANDLE;  ///< of summaries and samples
     };
     void set_buffers(const Buffers& buffers);
-    /// Points the images of the record context's descriptor sets to this graph's images.
-    void bind_images(const passes::ComputeLayout& layout,
-                     const passes::RecordContext& context) const;
+    /// Points the images of descriptor sets to this graph's images.
+    void bind_images(const passes::ComputeLayout& layout, const passes::TileBatchSets& sets) const;
 
     void execute(VkCommandBuffer commands, gpu::Timestamps& timestamps,
                  const passes::RecordContext& context) const {

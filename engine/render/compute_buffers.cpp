@@ -55,7 +55,7 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
     input_.flush();
 }
 
-void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::RecordContext& context,
+void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::TileBatchSets& sets,
                           const Output& output) const {
     using Layout = passes::ComputeLayout;
     const auto write = [&](VkDescriptorSet set, Layout::Binding binding, const BufferPart& part) {
@@ -63,22 +63,22 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Rec
                             std::max(part.bytes, smallest_part));
     };
     const BufferPart scratch = scratch_part();
-    write(context.points_by_lists, Layout::tiles, tiles_);
-    write(context.points_by_lists, Layout::geometry, geometry_);
-    write(context.points_by_lists, Layout::points, points_);
-    write(context.points_by_lists, Layout::output, output.points);
-    write(context.masks, Layout::work, work_);
-    write(context.masks, Layout::scratch_of_masks, scratch);
-    write(context.masks, Layout::summaries, output.summaries);
-    write(context.masks, Layout::output, output.samples);
-    write(context.blocks, Layout::blocks, blocks_);
-    write(context.blocks, Layout::segments, segments_);
-    write(context.blocks, Layout::scratch_of_blocks, scratch);
-    write(context.blocks, Layout::output, output.field);
-    write(context.feature_blocks, Layout::tiles, feature_blocks_);
-    write(context.feature_blocks, Layout::geometry, geometry_);
-    write(context.feature_blocks, Layout::scratch_of_blocks, scratch);
-    write(context.feature_blocks, Layout::output, output.field);
+    write(sets.points_by_lists, Layout::tiles, tiles_);
+    write(sets.points_by_lists, Layout::geometry, geometry_);
+    write(sets.points_by_lists, Layout::points, points_);
+    write(sets.points_by_lists, Layout::output, output.points);
+    write(sets.masks, Layout::work, work_);
+    write(sets.masks, Layout::scratch_of_masks, scratch);
+    write(sets.masks, Layout::summaries, output.summaries);
+    write(sets.masks, Layout::output, output.samples);
+    write(sets.blocks, Layout::blocks, blocks_);
+    write(sets.blocks, Layout::segments, segments_);
+    write(sets.blocks, Layout::scratch_of_blocks, scratch);
+    write(sets.blocks, Layout::output, output.field);
+    write(sets.feature_blocks, Layout::tiles, feature_blocks_);
+    write(sets.feature_blocks, Layout::geometry, geometry_);
+    write(sets.feature_blocks, Layout::scratch_of_blocks, scratch);
+    write(sets.feature_blocks, Layout::output, output.field);
 }
 
 }  // namespace nearfield::render

@@ -36,9 +36,8 @@ public:
     struct Output {
         BufferPart points, field, summaries, samples;
     };
-    /// Points the record context's descriptor sets of the compute technique to the last uploaded
-    /// tile batch.
-    void bind(const passes::ComputeLayout& layout, const passes::RecordContext& context,
+    /// Points the descriptor sets of the compute technique to the last uploaded tile batch.
+    void bind(const passes::ComputeLayout& layout, const passes::TileBatchSets& sets,
               const Output& output) const;
 
 private:

@@ -11,14 +11,14 @@ void BatchResources::lay_out_output() {
     std::uint64_t end = 0;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& batch = *on_device.context.batch;
+        const plan::TileBatch& batch = *on_device.batch;
         const std::uint64_t point_bytes = batch.points.size() *
                                           (1 + (batch.resident ? plan::words_of_details : 0)) *
                                           sizeof(std::uint32_t);
         const std::uint64_t field_bytes = batch.field_words * sizeof(std::uint32_t);
         const std::uint64_t summary_bytes = batch.tiles.size() * sizeof(plan::TileSummary);
         const std::uint64_t sample_bytes =
-            sizeof(std::uint32_t) + on_device.context.sample_capacity * sizeof(plan::SampleData);
+            sizeof(std::uint32_t) + on_device.sample_capacity * sizeof(plan::SampleData);
         require_range(*device_, std::max({point_bytes, field_bytes, summary_bytes, sample_bytes}),
                       "the results");
         OutputParts& parts = on_device.output;
@@ -38,14 +38,11 @@ void BatchResources::lay_out_output() {
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
         find_copies(on_device);
-        on_device.context.mesh = mesh_.handle();
-        on_device.context.read_back = read_back_.handle();
-        on_device.context.summaries_offset = on_device.output.summaries;
         empty_output(on_device);
-        if (on_device.context.batch->by_compute) {
+        if (on_device.batch->by_compute) {
             bind_compute(number);
         } else {
-            bind(on_device);
+            bind(number);
         }
     }
     read_back_.flush();
@@ -60,7 +57,7 @@ void BatchResources::lay_out_words(std::uint64_t end) {
     bool any_resident = has_resident_outputs_;
     for (const std::uint32_t number : running_) {
         TileBatchOnDevice& on_device = tile_batches_[number];
-        const plan::TileBatch& batch = *on_device.context.batch;
+        const plan::TileBatch& batch = *on_device.batch;
         const std::uint64_t hit_bytes =
             std::uint64_t{batch.raster.hit_words} * sizeof(std::uint32_t);
         require_range(*device_, hit_bytes, "the cells of intersections that stay");
@@ -75,7 +72,7 @@ void BatchResources::lay_out_words(std::uint64_t end) {
 
 BufferPart BatchResources::hits_of(std::uint32_t number) const {
     const TileBatchOnDevice& on_device = tile_batches_[number];
-    const plan::TileBatch& batch = *on_device.context.batch;
+    const plan::TileBatch& batch = *on_device.batch;
     if (batch.by_compute) {
         return compute_[number]->scratch_part();
     }
@@ -84,11 +81,11 @@ BufferPart BatchResources::hits_of(std::uint32_t number) const {
 }
 
 VkBuffer BatchResources::words_of(const TileBatchOnDevice& on_device) const {
-    return on_device.context.batch->resident ? words_.handle() : read_back_.handle();
+    return on_device.batch->resident ? words_.handle() : read_back_.handle();
 }
 
 void BatchResources::find_copies(const TileBatchOnDevice& on_device) {
-    const plan::TileBatch& batch = *on_device.context.batch;
+    const plan::TileBatch& batch = *on_device.batch;
     if (!batch.resident) {
         return;
     }
@@ -114,7 +111,7 @@ void BatchResources::bind_export() {
              {buffer, parts.field, parts.summaries - parts.field},
              {read_back_.handle(), parts.summaries, parts.samples - parts.summaries},
              hits_of(number),
-             static_cast<std::uint32_t>(on_device.context.batch->points.size())});
+             static_cast<std::uint32_t>(on_device.batch->points.size())});
     }
     resident_.bind(export_words_, {words_.handle(), 0, smallest_part}, read_back_.handle());
 }
@@ -123,15 +120,16 @@ void BatchResources::empty_output(const TileBatchOnDevice& on_device) const {
     const plan::TileSummary empty;
     const OutputParts& parts = on_device.output;
     std::memset(read_back_.data() + parts.samples, 0, sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < on_device.context.batch->tiles.size(); ++i) {
+    for (std::size_t i = 0; i < on_device.batch->tiles.size(); ++i) {
         std::memcpy(read_back_.data() + parts.summaries + i * sizeof(empty), &empty, sizeof(empty));
     }
 }
 
-void BatchResources::bind(const TileBatchOnDevice& on_device) const {
+void BatchResources::bind(std::uint32_t number) const {
     using Layout = passes::ComputeLayout;
-    const plan::TileBatch& batch = *on_device.context.batch;
-    const passes::RecordContext& context = on_device.context;
+    const TileBatchOnDevice& on_device = tile_batches_[number];
+    const plan::TileBatch& batch = *on_device.batch;
+    const passes::TileBatchSets& sets = sets_[number].sets();
     const InputParts& input = on_device.input;
     const OutputParts& output = on_device.output;
     const GraphKey needs = on_device.graph->needs();
@@ -146,9 +144,9 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
               input.geometry + bytes_of(batch.lists.geometry()));
     };
     if (needs.points) {
-        write_tiles(context.points);
-        write(context.points, Layout::points, input_.handle(), input.points, input.field_points);
-        write(context.points, Layout::output, words_of(on_device), output.points, output.field);
+        write_tiles(sets.points);
+        write(sets.points, Layout::points, input_.handle(), input.points, input.field_points);
+        write(sets.points, Layout::output, words_of(on_device), output.points, output.field);
     }
     const auto write_field = [&](VkDescriptorSet set) {
         write_tiles(set);
@@ -157,26 +155,25 @@ void BatchResources::bind(const TileBatchOnDevice& on_device) const {
     };
     for (std::size_t encoding = 0; encoding < plan::sign_encodings; ++encoding) {
         if (needs.field[encoding]) {
-            write_field(context.field[encoding]);
+            write_field(sets.field[encoding]);
         }
     }
     if (needs.blended) {
-        write_field(context.gradients);
+        write_field(sets.gradients);
     }
     for (std::size_t i = 0; i < intersection_strategies; ++i) {
         if (needs.overlap[i]) {
-            write_tiles(context.samples[i]);
-            write(context.samples[i], Layout::summaries, read_back_.handle(), output.summaries,
+            write_tiles(sets.samples[i]);
+            write(sets.samples[i], Layout::summaries, read_back_.handle(), output.summaries,
                   output.samples);
-            write(context.samples[i], Layout::output, read_back_.handle(), output.samples,
-                  output.end);
+            write(sets.samples[i], Layout::output, read_back_.handle(), output.samples, output.end);
             if (batch.raster.hit_words > 0) {
-                write(context.samples[i], Layout::kept_hits, words_.handle(), output.hits,
+                write(sets.samples[i], Layout::kept_hits, words_.handle(), output.hits,
                       output.hits + batch.raster.hit_words * sizeof(std::uint32_t));
             }
         }
     }
-    on_device.graph->bind_images(*layout_, context);
+    on_device.graph->bind_images(*layout_, sets);
 }
 
 void BatchResources::bind_compute(std::uint32_t number) const {
@@ -184,7 +181,7 @@ void BatchResources::bind_compute(std::uint32_t number) const {
     const OutputParts& parts = on_device.output;
     const VkBuffer words = words_of(on_device);
     const VkBuffer read_back = read_back_.handle();
-    compute_[number]->bind(*layout_, on_device.context,
+    compute_[number]->bind(*layout_, sets_[number].sets(),
                            {{words, parts.points, parts.field - parts.points},
                             {words, parts.field, parts.summaries - parts.field},
                             {read_back, parts.summaries, parts.samples - parts.summaries},
@@ -193,7 +190,7 @@ void BatchResources::bind_compute(std::uint32_t number) const {
 
 void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) const {
     const VkBuffer words = words_of(tile_batches_[number]);
-    if (tile_batches_[number].context.batch->by_compute) {
+    if (tile_batches_[number].batch->by_compute) {
         const ComputeBuffers& compute = *compute_[number];
         graph.set_buffers({VK_NULL_HANDLE, compute.input(), compute.scratch(), words,
                            VK_NULL_HANDLE, read_back_.handle()});

@@ -134,7 +134,7 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     for (const std::uint32_t number : slot.running()) {
         TileBatchOnDevice& on_device = slot.tile_batch(number);
         on_device.graph = graph_for(key_of(tile_batches[number]), extent);
-        on_device.context.sample_capacity = sample_capacity(tile_batches[number], room);
+        on_device.sample_capacity = sample_capacity(tile_batches[number], room);
         last_graph_ = on_device.graph;
     }
     slot.lay_out_output();
@@ -188,11 +188,12 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
     slot.timestamps().reset(commands);
     for (const std::uint32_t number : slot.running()) {
         const TileBatchOnDevice& on_device = slot.tile_batch(number);
-        if (!on_device.context.batch->by_compute) {
-            passes_.raster->early_out.reset(commands, on_device.context);
+        const passes::RecordContext context = slot.record_context(number);
+        if (!context.batch.by_compute) {
+            passes_.raster->early_out.reset(commands, context);
         }
         slot.bind_buffers(*on_device.graph, number);
-        on_device.graph->execute(commands, slot.timestamps(), on_device.context);
+        on_device.graph->execute(commands, slot.timestamps(), context);
     }
     for (const std::uint32_t number : slot.running_searches()) {
         point_search_->record(commands, slot.timestamps(), slot.search(number).item());
