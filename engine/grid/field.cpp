@@ -1,5 +1,6 @@
 #include <engine/base/interruption.hpp>
 #include <engine/geometry/clip.hpp>
+#include <engine/geometry/quarters.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/grid/coverage.hpp>
 #include <engine/grid/field.hpp>
@@ -146,8 +147,14 @@ void FieldSolver::make_far_list() {
     far_slack_ = std::ldexp(farthest, -18);
 }
 
-bool FieldSolver::is_in_grid(const Square& square) const {
-    return square.column < grid_.width && square.row < grid_.height;
+template <class Use>
+void FieldSolver::for_quarters(const Square& square, const Use& use) const {
+    const auto half = square.side / 2;
+    geometry::for_quarters(square.column, square.row, half, [&](auto column, auto row) {
+        if (column < grid_.width && row < grid_.height) {
+            use(Square{column, row, half});
+        }
+    });
 }
 
 FieldSolver::Extent FieldSolver::extent(const Square& square) const {
@@ -162,19 +169,6 @@ Disc FieldSolver::disc(const Square& square, const Vector& origin) const {
             static_cast<float>(0.5 * Vector(size.width - 1.0, size.height - 1.0).norm())};
 }
 
-namespace {
-
-template <class Square, class Use>
-void for_quarters(const Square& square, const Use& use) {
-    const auto half = square.side / 2;
-    for (const auto& [right, up] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-        use(Square{square.column + (right != 0 ? half : 0), square.row + (up != 0 ? half : 0),
-                   half});
-    }
-}
-
-}  // namespace
-
 void FieldSolver::divide(const Square& square, std::size_t depth) {
     checkpoint();
     const Disc cells = disc(square, far_origin_);
@@ -182,11 +176,7 @@ void FieldSolver::divide(const Square& square, std::size_t depth) {
     const auto nearest = static_cast<double>(
         select_near(levels_[depth], cells, slack, squared_, levels_[depth + 1]));
     if (square.side > near_side) {
-        for_quarters(square, [&](const Square& quarter) {
-            if (is_in_grid(quarter)) {
-                divide(quarter, depth + 1);
-            }
-        });
+        for_quarters(square, [&](const Square& quarter) { divide(quarter, depth + 1); });
         return;
     }
     make_near_list(square, levels_[depth + 1], nearest, levels_[depth + 2]);
@@ -240,9 +230,6 @@ void FieldSolver::divide_near(const Square& square, std::size_t depth) {
     }
     const bool sort_out = edges.size() > few_edges;
     for_quarters(square, [&](const Square& quarter) {
-        if (!is_in_grid(quarter)) {
-            return;
-        }
         if (sort_out) {
             select_near(levels_[depth], disc(quarter, near_origin_),
                         static_cast<float>(output_.margin + 0.01), squared_, levels_[depth + 1]);

@@ -62,7 +62,9 @@ private:
     void find_signs(const geometry::Polygon& shape);
     void add_crossings(const geometry::Vector& start, const geometry::Vector& end);
     void make_far_list();
-    [[nodiscard]] bool is_in_grid(const Square& square) const;
+    /// Visits the quarters of a square that reach into the grid.
+    template <class Use>
+    void for_quarters(const Square& square, const Use& use) const;
     [[nodiscard]] Extent extent(const Square& square) const;
     [[nodiscard]] Disc disc(const Square& square, const geometry::Vector& origin) const;
     void divide(const Square& square, std::size_t depth);

@@ -9,14 +9,17 @@
 // others: the answers have the same bits on all.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/grid/near_edges.cpp"
+// clang-format off
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include <engine/geometry/float_arrays-inl.hpp>
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace nearfield::grid::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using geometry::HWY_NAMESPACE::copy_kept;
 
 // A block has 64 cells: no vector is longer.
 using Floats = hn::CappedTag<float, 16>;
@@ -77,7 +80,6 @@ float squared_distances(const EdgeList& edges, float x, float y, float* squared)
 float select_near(const EdgeList& from, const Disc& disc, float slack, float* squared,
                   EdgeList& to) {
     const Floats d;
-    const Words words;
     const float least = std::sqrt(squared_distances(from, disc.x, disc.y, squared));
     // The edge nearest to the centre is at most one radius farther from any point of the disc; an
     // edge nearer than that to some point is at most one more radius farther from the centre.
@@ -85,19 +87,7 @@ float select_near(const EdgeList& from, const Disc& disc, float slack, float* sq
     const Vector limit = hn::Set(d, reach * reach);
     std::size_t count = 0;
     for (std::size_t i = 0; i < from.size(); i += hn::Lanes(d)) {
-        const auto near = hn::Le(hn::LoadU(d, squared + i), limit);
-        if (hn::AllFalse(d, near)) {
-            continue;
-        }
-        // Compress in registers: compressing into memory takes many times as long on some
-        // processors.
-        for (std::size_t number = 0; number < EdgeList::numbers; ++number) {
-            hn::StoreU(hn::Compress(hn::LoadU(d, from.number(number) + i), near), d,
-                       to.number(number) + count);
-        }
-        hn::StoreU(hn::Compress(hn::LoadU(words, from.indices() + i), hn::RebindMask(words, near)),
-                   words, to.indices() + count);
-        count += hn::CountTrue(d, near);
+        count += copy_kept(d, from, i, hn::Le(hn::LoadU(d, squared + i), limit), to, count);
     }
     to.resize(count);
     return least;

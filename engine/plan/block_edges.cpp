@@ -1,5 +1,5 @@
 #include <engine/base/interruption.hpp>
-#include <engine/geometry/clip.hpp>
+#include <engine/geometry/quarters.hpp>
 #include <engine/plan/block_edges.hpp>
 
 #include <algorithm>
@@ -12,10 +12,6 @@ using geometry::Vector;
 
 /// Up to this many edges are tested at every cell instead of being culled further.
 constexpr std::size_t few_edges = 2;
-
-/// Edges shorter than this, in cells, count as points: a division by their squared length would
-/// overflow single precision.
-constexpr double shortest_edge = 1e-15;
 
 }  // namespace
 
@@ -59,26 +55,15 @@ void BlockEdges::append(std::uint32_t block, std::vector<SegmentData>& segments)
 void BlockEdges::find_candidates(const TileBoundary& boundary, double slack) {
     const Vector centre(0.5 * width_, 0.5 * height_);
     const double nearest = boundary.distance(centre);
-    // Double precision up to here. Edges are cut to a window around the tile, so that the rounding
-    // error of a distance in floats depends on the window and not on how far an edge reaches.
+    // Double precision up to here.
     window_ = nearest + 2.0 * (centre.norm() + slack) + 1.0;
     slack_ = static_cast<float>(2.0 * (slack + 0.01 + 2e-6 * window_));
     near_.clear();
     candidates_.clear();
     boundary.for_edges_near(centre, window_, [&](std::uint32_t i) {
         const TileEdge edge{boundary.start(i), boundary.end(i), i};
-        Vector a = edge.a - centre;
-        Vector b = edge.b - centre;
-        for (const int axis : {0, 1}) {
-            static_cast<void>(geometry::clip_to_slab(a, b, axis, -window_, window_));
-        }
-        const Vector d = b - a;
-        const double squared = d.squaredNorm();
-        const double inverse = squared < shortest_edge * shortest_edge ? 0.0 : 1.0 / squared;
-        candidates_.push(
-            {static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(d.x()),
-             static_cast<float>(d.y()), static_cast<float>(inverse)},
-            static_cast<std::uint32_t>(near_.size()));
+        static_cast<void>(push_part(edge.a - centre, edge.b - centre, window_,
+                                    static_cast<std::uint32_t>(near_.size()), candidates_));
         near_.push_back(edge);
     });
 }
@@ -110,11 +95,10 @@ void BlockEdges::visit(std::uint32_t column, std::uint32_t row, std::uint32_t co
         listed_.append(candidates_, first, end);
     } else {
         const std::uint32_t half = count / 2;
-        for (const std::uint32_t dy : {0U, half}) {
-            for (const std::uint32_t dx : {0U, half}) {
-                visit(column + dx, row + dy, half, first, end);
-            }
-        }
+        geometry::for_quarters(column, row, half,
+                               [&](std::uint32_t quarter_x, std::uint32_t quarter_y) {
+                                   visit(quarter_x, quarter_y, half, first, end);
+                               });
     }
     candidates_.resize(before);
 }

@@ -1,3 +1,4 @@
+#include <engine/geometry/clip.hpp>
 #include <engine/plan/edge_stack.hpp>
 
 #include <algorithm>
@@ -8,14 +9,17 @@
 // Compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/plan/edge_stack.cpp"
+// clang-format off
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include <engine/geometry/float_arrays-inl.hpp>
+// clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace nearfield::plan::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using geometry::HWY_NAMESPACE::copy_kept;
 
 using Floats = hn::CappedTag<float, 16>;
 using Words = hn::RebindToUnsigned<Floats>;
@@ -179,28 +183,6 @@ struct Tangents {
     }
 };
 
-/// Copies some of a vector of edges, from edge i on, to place `pushed`; returns how many.
-HWY_INLINE std::size_t keep(EdgeStack& edges, std::size_t i, const NearEdges& some, Mask kept,
-                            std::size_t pushed) {
-    const Floats d;
-    const Words words;
-    if (hn::AllFalse(d, kept)) {
-        return 0;
-    }
-    // In registers: some processors are many times slower when compressing into memory.
-    const auto store = [&](EdgeStack::Number number, Vector numbers) HWY_ATTR {
-        hn::StoreU(hn::Compress(numbers, kept), d, edges.number(number) + pushed);
-    };
-    store(EdgeStack::start_x, some.start_x);
-    store(EdgeStack::start_y, some.start_y);
-    store(EdgeStack::along_x, some.along_x);
-    store(EdgeStack::along_y, some.along_y);
-    store(EdgeStack::inverse, some.inverse);
-    hn::StoreU(hn::Compress(hn::LoadU(words, edges.indices() + i), hn::RebindMask(words, kept)),
-               words, edges.indices() + pushed);
-    return hn::CountTrue(d, kept);
-}
-
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack) {
     const Floats d;
@@ -217,7 +199,7 @@ void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeN
         for (std::size_t rival = 0; rival < rivals.count; ++rival) {
             near = hn::And(near, tangents.any_within(bounds[rival]));
         }
-        pushed += keep(edges, i, some, near, pushed);
+        pushed += copy_kept(d, edges, i, near, edges, pushed);
     }
     edges.resize(pushed);
 }
@@ -250,7 +232,7 @@ void push_within(EdgeStack& edges, std::size_t first, std::size_t end, const flo
     for (std::size_t i = first; i < end; i += hn::Lanes(d)) {
         const Mask near =
             hn::And(hn::FirstN(d, end - i), hn::Le(hn::LoadU(d, squared + i), hn::Set(d, limit)));
-        pushed += keep(edges, i, load(edges, i), near, pushed);
+        pushed += copy_kept(d, edges, i, near, edges, pushed);
     }
     edges.resize(pushed);
 }
@@ -261,10 +243,34 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nearfield::plan {
+namespace {
+
+/// Edges shorter than this, in cells, count as points: a division by their squared length would
+/// overflow single precision.
+constexpr double shortest_edge = 1e-15;
+
+}  // namespace
 
 HWY_EXPORT(push_near);
 HWY_EXPORT(measure_squared);
 HWY_EXPORT(push_within);
+
+double push_part(const geometry::Vector& a, const geometry::Vector& b, double window,
+                 std::uint32_t index, EdgeStack& edges) {
+    geometry::Vector start = a;
+    geometry::Vector end = b;
+    for (const int axis : {0, 1}) {
+        static_cast<void>(geometry::clip_to_slab(start, end, axis, -window, window));
+    }
+    const geometry::Vector along = end - start;
+    const double squared = along.squaredNorm();
+    const bool is_point = squared < shortest_edge * shortest_edge;
+    edges.push({static_cast<float>(start.x()), static_cast<float>(start.y()),
+                static_cast<float>(along.x()), static_cast<float>(along.y()),
+                static_cast<float>(is_point ? 0.0 : 1.0 / squared)},
+               index);
+    return is_point ? 0.0 : squared;
+}
 
 void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
                float slack) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/float_arrays.hpp>
+#include <engine/geometry/vector.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,13 @@ public:
         inverse,  ///< of the squared length; 0 for an edge of no length
     };
 };
+
+/// Pushes the part of an edge that lies within `window` of the origin along both axes, so that the
+/// rounding error of a distance in floats depends on the window and not on how far the edge
+/// reaches. Along an axis where it lies wholly beyond the window, an edge is not cut. Returns the
+/// squared length of the part, 0 for an edge of no length.
+double push_part(const geometry::Vector& a, const geometry::Vector& b, double window,
+                 std::uint32_t index, EdgeStack& edges);
 
 /// A box given by its centre and half extents.
 struct EdgeNode {

@@ -1,5 +1,5 @@
 #include <engine/base/interruption.hpp>
-#include <engine/geometry/clip.hpp>
+#include <engine/geometry/quarters.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/plan/nearest_edges.hpp>
 
@@ -48,20 +48,11 @@ void NearestEdgeFinder::find_candidates(const TileBoundary& boundary, double sla
             limit) {
             return;
         }
-        Vector a = edge.a - centre;
-        Vector b = edge.b - centre;
-        for (const int axis : {0, 1}) {
-            static_cast<void>(geometry::clip_to_slab(a, b, axis, -2.0 * window, 2.0 * window));
-        }
-        const Vector d = b - a;
-        const double squared = d.squaredNorm();
-        const bool is_point = squared < 1e-30;
-        candidates_.push(
-            {static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(d.x()),
-             static_cast<float>(d.y()), is_point ? 0.0F : static_cast<float>(1.0 / squared)},
-            static_cast<std::uint32_t>(near_.size()));
+        const double squared = push_part(edge.a - centre, edge.b - centre, 2.0 * window,
+                                         static_cast<std::uint32_t>(near_.size()), candidates_);
         near_.push_back(edge);
-        inverse_length_.push_back(is_point ? 0.0F : static_cast<float>(1.0 / std::sqrt(squared)));
+        inverse_length_.push_back(squared == 0.0 ? 0.0F
+                                                 : static_cast<float>(1.0 / std::sqrt(squared)));
     });
 }
 
@@ -94,12 +85,10 @@ void NearestEdgeFinder::visit(std::uint32_t column, std::uint32_t row, std::uint
     push_within(candidates_, first, end, squared_.data(), static_cast<float>(limit * limit));
     const std::size_t kept_end = candidates_.size();
     const std::uint32_t half = count / 2;
-    for (const std::uint32_t dy : {0U, half}) {
-        for (const std::uint32_t dx : {0U, half}) {
-            visit(column + dx, row + dy, half, end, kept_end);
-            candidates_.resize(kept_end);
-        }
-    }
+    geometry::for_quarters(column, row, half,
+                           [&](std::uint32_t quarter_x, std::uint32_t quarter_y) {
+                               visit(quarter_x, quarter_y, half, end, kept_end);
+                           });
     candidates_.resize(end);
 }
 
