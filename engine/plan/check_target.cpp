@@ -133,7 +133,7 @@ Status check_image(const ResidentImageTarget& target, VkFormat format, std::stri
     return check_layout(target, target.after.layout, name, "after");
 }
 
-Status check_room(const ResidentImageTarget& target, std::string_view name, std::uint64_t width,
+Status check_size(const ResidentImageTarget& target, std::string_view name, std::uint64_t width,
                   std::uint64_t height) {
     const std::uint32_t across = at_level(target.extent.width, target.level);
     const std::uint32_t up = at_level(target.extent.height, target.level);
@@ -225,8 +225,8 @@ Status Targets::add(const ResidentBufferTarget& target, std::uint32_t query) {
 }
 
 Status check_room(const ResidentFieldTarget& target, std::uint64_t width, std::uint64_t height) {
-    Status status = check_room(target.signed_distance, signed_distance_name, width, height);
-    return status.ok() ? check_room(target.feature, feature_name, width, height) : status;
+    Status status = check_size(target.signed_distance, signed_distance_name, width, height);
+    return status.ok() ? check_size(target.feature, feature_name, width, height) : status;
 }
 
 Status check_room(const ResidentBufferTarget& target, double bytes, std::string_view what) {
