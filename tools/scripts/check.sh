@@ -21,6 +21,7 @@ sources() {
 
 check_format() {
     sources '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
+    clang-format --dry-run -Werror "$root"/shaders/*.h
 }
 
 # clang-tidy reads each module as one file, so that Eigen and the standard library are parsed once
