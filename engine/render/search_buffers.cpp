@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
 
 constexpr std::uint64_t argument_bytes =
-    plan::stages * plan::words_of_arguments * sizeof(std::uint32_t);
+    std::uint64_t{plan::stages} * plan::words_of_arguments * sizeof(std::uint32_t);
 
 std::uint32_t blocks_for(std::uint32_t elements) {
     return (elements + plan::search_block - 1) / plan::search_block + 1;
