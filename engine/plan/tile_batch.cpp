@@ -359,8 +359,9 @@ void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, 
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;
             batch.raster.field_points.push_back(
-                {static_cast<float>(local.x()), static_cast<float>(local.y()),
-                 tile_of_plan_[point.tile], point.column | point.row << 16U});
+                {{static_cast<float>(local.x()), static_cast<float>(local.y())},
+                 tile_of_plan_[point.tile],
+                 point.column | point.row << 16U});
         }
         batch.field_point_index.push_back(i);
         FieldPointRun& run = batch.field_point_runs.back();
