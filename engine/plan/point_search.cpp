@@ -1,15 +1,11 @@
 #include <engine/base/interruption.hpp>
-#include <engine/base/status_exception.hpp>
 #include <engine/plan/asked_points.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/edge_sampler.hpp>
 #include <engine/plan/point_search.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <numbers>
 
 namespace nearfield::plan {
@@ -19,63 +15,9 @@ using geometry::Vector;
 
 namespace {
 
-using FloatBox = std::array<float, 4>;  // low corner, high corner
-
-SearchUnit unit_of(const FloatBox& floats) {
-    return {std::bit_cast<std::uint32_t>(floats[0]), std::bit_cast<std::uint32_t>(floats[1]),
-            std::bit_cast<std::uint32_t>(floats[2]), std::bit_cast<std::uint32_t>(floats[3])};
-}
-
-constexpr FloatBox empty_box{
-    std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
-    -std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
-
-void extend(FloatBox& box, const FloatBox& by) {
-    box = {std::min(box[0], by[0]), std::min(box[1], by[1]), std::max(box[2], by[2]),
-           std::max(box[3], by[3])};
-}
-
-std::uint32_t units_for(std::size_t words) {
-    return static_cast<std::uint32_t>((words + 3) / 4);
-}
-
-std::uint32_t chunks_of(const Polygon& polygon, std::uint32_t ring) {
-    return (polygon.ring_end(ring) - polygon.ring_begin(ring) + chunk_size - 1) / chunk_size;
-}
-
-/// Moves bits 0, 1, ... 15 to bits 0, 2, ... 30.
-std::uint32_t spread_bits(std::uint32_t bits) {
-    bits = (bits | bits << 8U) & 0x00ff00ffU;
-    bits = (bits | bits << 4U) & 0x0f0f0f0fU;
-    bits = (bits | bits << 2U) & 0x33333333U;
-    return (bits | bits << 1U) & 0x55555555U;
-}
-
-/// The place on a Morton curve of a point whose coordinates are at most `extent`.
-std::uint32_t on_morton_curve(const Vector& point, double extent) {
-    const auto cell_of = [extent](double coordinate) {
-        const double part = extent > 0.0 ? 0.5 + 0.5 * coordinate / extent : 0.0;
-        return static_cast<std::uint32_t>(std::clamp(65536.0 * part, 0.0, 65535.0));
-    };
-    return spread_bits(cell_of(point.x())) | spread_bits(cell_of(point.y())) << 1U;
-}
-
 bool asks_for_vertices(const PlannedQuery& query) {
     const auto* const penetration = std::get_if<PenetrationQuery>(query.query);
     return penetration != nullptr && penetration->points == PenetrationPoints::vertices;
-}
-
-// A float that is not below the value.
-float rounded_up(double value) {
-    const auto rounded = static_cast<float>(value);
-    return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
-                           : rounded;
-}
-
-// The unit of lengths in a shape's own frame: a power of two near its radius, so that products of
-// lengths stay within the range of floats.
-double unit_length_of(const Polygon& polygon) {
-    return std::ldexp(1.0, std::ilogb(polygon.radius()));
 }
 
 // Transforms A's frame to B's, in units of B's. Everything happens in floats, in a handful of
@@ -109,18 +51,12 @@ BoundaryPoint found_point(const PlannedQuery& query, const FoundPointData& found
     return {found.edge, found.number / parts_of_length(length, query.budget.cell)};
 }
 
-std::size_t PointSearchBuilder::Hash::operator()(const Key& key) const {
-    return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.spacing) << 1U);
-}
-
 std::size_t PointSearchBuilder::build(Plan& plan, std::vector<PointSearch>& searches) {
     std::size_t count = 0;
     if (plan.searched.empty()) {
         return count;
     }
-    ++batch_;
-    drop_unused();
-    units_in_use_ = 0;
+    shapes_.begin_batch();
     for (const SearchedQuery& searched : plan.searched) {
         checkpoint();
         const PlannedQuery& planned = plan.queries[searched.query];
@@ -141,175 +77,20 @@ void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSea
     PlannedQuery& planned = plan.queries[searched.query];
     SearchDirectionData& data = search.directions.emplace_back(direction_of(planned, searched));
     planned.points().margin = data.margin * unit_length_of(*planned.b);
-    data.shape_a = find_or_make({planned.a, 0.0});
-    data.shape_b = find_or_make({planned.b, 0.0});
+    data.shape_a = shapes_.place(*planned.a);
+    data.shape_b = shapes_.place(*planned.b);
     if (!asks_for_vertices(planned)) {
-        data.parts = 4 * find_or_make({planned.a, planned.budget.cell});
+        data.parts = shapes_.place_parts(*planned.a, planned.budget.cell);
     }
     data.first_item = search.items;
     // Of each block of items, the direction of its first one.
     const auto direction = static_cast<std::uint32_t>(search.queries.size());
-    const std::uint32_t end = search.items + units_[data.shape_a][0];  // its number of chunks
+    const std::uint32_t end = search.items + shapes_.units()[data.shape_a][0];  // its number of chunks
     while (search_block * search.first_directions.size() < end) {
         search.first_directions.push_back(direction);
     }
     search.items = end;
     search.queries.push_back(searched.query);
-}
-
-/// Starts anew if most of what is kept was not used by the last batch, or if it is large and a good
-/// part was not.
-void PointSearchBuilder::drop_unused() {
-    constexpr std::size_t few = 4096;
-    constexpr std::size_t many = std::size_t{1} << 22U;
-    const std::size_t most =
-        units_.size() > many ? units_in_use_ + units_in_use_ / 4 : 4 * units_in_use_;
-    if (units_.size() > most + few) {
-        entries_.clear();
-        units_.clear();
-        ++revision_;
-    }
-}
-
-std::uint32_t PointSearchBuilder::find_or_make(const Key& key) {
-    Entry& entry = entries_[key];
-    if (entry.room == 0 || entry.revision != key.polygon->revision()) {
-        made_.clear();
-        if (key.spacing == 0.0) {
-            make_shape(*key.polygon);
-        } else {
-            make_parts(*key.polygon, key.spacing);
-        }
-        const auto count = static_cast<std::uint32_t>(made_.size());
-        if (entry.room < count) {
-            // What grows gets twice the room, so that it leaves little behind in the long run.
-            const std::size_t first = units_.size();
-            const std::uint32_t room = entry.room == 0 ? count : 2 * count;
-            units_.resize(first + room);
-            entry.first = static_cast<std::uint32_t>(first);
-            entry.room = room;
-        }
-        if (key.spacing == 0.0) {
-            // The header's places are relative to the shape until here.
-            for (std::size_t i = unit_of_first_boxes; i < units_of_header; ++i) {
-                for (std::uint32_t& first_box : made_[i]) {
-                    first_box += entry.first;
-                }
-            }
-            made_[0][2] += entry.first;
-            made_[0][3] += 4 * entry.first;
-        }
-        std::copy(made_.begin(), made_.end(), units_.begin() + entry.first);
-        ++revision_;
-        entry.revision = key.polygon->revision();
-    }
-    if (entry.batch != batch_) {
-        entry.batch = batch_;
-        units_in_use_ += entry.room;
-    }
-    return entry.first;
-}
-
-/// Sorts the rings; where they are few their own order is as good.
-void PointSearchBuilder::order_rings(const Polygon& polygon) {
-    constexpr std::uint32_t few_rings = 32;
-    rings_.clear();
-    std::uint32_t chunk = 0;
-    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
-        const Vector& start = polygon.vertices()[polygon.ring_begin(ring)];
-        rings_.push_back({on_morton_curve(start, polygon.radius()), ring, chunk});
-        chunk += chunks_of(polygon, ring);
-    }
-    if (polygon.ring_count() >= few_rings) {
-        std::sort(rings_.begin(), rings_.end(), [](const OrderedRing& i, const OrderedRing& j) {
-            return i.on_curve != j.on_curve ? i.on_curve < j.on_curve : i.ring < j.ring;
-        });
-    }
-}
-
-/// A header, the boxes of all levels, the edges, the numbers of the edges of each chunk, and where
-/// the chunks are that follow each other along the rings. The places in the header are relative to
-/// its own.
-void PointSearchBuilder::make_shape(const Polygon& polygon) {
-    order_rings(polygon);
-    std::uint32_t chunks = 0;
-    for (const OrderedRing& ring : rings_) {
-        chunks += chunks_of(polygon, ring.ring);
-    }
-    made_.resize(units_of_header);
-    std::uint32_t levels = 0;
-    std::uint32_t end = units_of_header;
-    for (std::uint32_t boxes = chunks;; boxes = (boxes + chunk_size - 1) / chunk_size) {
-        made_[unit_of_first_boxes + levels / 4][levels % 4] = end;
-        ++levels;
-        end += boxes;
-        if (boxes <= chunk_size) {
-            break;
-        }
-    }
-    const std::uint32_t edges = end;
-    const std::uint32_t infos = edges + chunk_size * chunks;
-    made_[0] = {chunks, levels, edges, 4 * infos};
-    made_.resize(infos + 2 * units_for(chunks));
-    boxes_.assign(chunks, empty_box);
-    add_chunks(polygon, edges, infos);
-    for (std::uint32_t level = 0; level < levels; ++level) {
-        add_level(made_[unit_of_first_boxes + level / 4][level % 4]);
-    }
-    for (std::size_t i = 1; i < boxes_.size(); ++i) {
-        extend(boxes_.front(), boxes_[i]);
-    }
-    made_[unit_of_box] = unit_of(boxes_.front());
-}
-
-void PointSearchBuilder::add_chunks(const Polygon& polygon, std::uint32_t edges,
-                                    std::uint32_t infos) {
-    const std::span<const Vector> vertices = polygon.vertices();
-    const double unit = unit_length_of(polygon);
-    const auto end_of = [&](std::uint32_t vertex) -> std::array<float, 2> {
-        const Vector place = vertices[vertex] / unit;
-        return {static_cast<float>(place.x()), static_cast<float>(place.y())};
-    };
-    const std::uint32_t places = infos + units_for(boxes_.size());
-    std::uint32_t chunk = 0;
-    for (const OrderedRing& ring : rings_) {
-        const std::uint32_t begin = polygon.ring_begin(ring.ring);
-        const std::uint32_t end = polygon.ring_end(ring.ring);
-        std::uint32_t along = ring.first_chunk;
-        for (std::uint32_t edge = begin; edge < end; ++chunk, ++along) {
-            const std::uint32_t count = std::min(end - edge, chunk_size);
-            made_[places + along / 4][along % 4] = chunk;
-            made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
-            for (std::uint32_t i = 0; i < count; ++i, ++edge) {
-                const auto a = end_of(edge);
-                const auto b = end_of(edge + 1 == end ? begin : edge + 1);
-                const FloatBox ends{a[0], a[1], b[0], b[1]};
-                made_[edges + chunk_size * chunk + i] = unit_of(ends);
-                extend(boxes_[chunk], ends);
-                extend(boxes_[chunk], {ends[2], ends[3], ends[0], ends[1]});
-            }
-        }
-    }
-}
-
-/// Writes the boxes of one level, and replaces them by those of the next.
-void PointSearchBuilder::add_level(std::uint32_t first) {
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-        const FloatBox own = boxes_[i];
-        made_[first + i] = unit_of(own);
-        FloatBox& group = boxes_[i / chunk_size];
-        group = i % chunk_size == 0 ? own : group;
-        extend(group, own);
-    }
-    boxes_.resize((boxes_.size() + chunk_size - 1) / chunk_size);
-}
-
-void PointSearchBuilder::make_parts(const Polygon& polygon, double spacing) {
-    made_.resize(units_for(polygon.size()));
-    EdgeSampler sampler(polygon, spacing);
-    for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
-        made_[edge / 4][edge % 4] = static_cast<std::uint32_t>(sampler.parts_of(edge));
-    }
 }
 
 }  // namespace nearfield::plan

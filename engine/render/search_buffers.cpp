@@ -42,22 +42,22 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
 
 void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSearch& search,
                            const SearchCounts& expected) {
-    const auto shape_bytes = std::as_bytes(shapes.units);
+    const auto shape_bytes = std::as_bytes(shapes.units());
     const auto directions = std::as_bytes(std::span(search.directions));
     const auto blocks = std::as_bytes(std::span(search.first_directions));
     input_bytes_ = shape_bytes.size() + directions.size() + blocks.size();
     const bool is_new = reserve_input();
     std::byte* target = input_.data();
-    if (is_new || shapes.revision != revision_) {
+    if (is_new || shapes.revision() != revision_) {
         std::copy(shape_bytes.begin(), shape_bytes.end(), target);
-        revision_ = shapes.revision;
+        revision_ = shapes.revision();
     }
     target += shape_bytes.size();
     target = std::copy(directions.begin(), directions.end(), target);
     std::copy(blocks.begin(), blocks.end(), target);
     input_.flush();
     item_.items = search.items;
-    item_.first_direction = static_cast<std::uint32_t>(shapes.units.size());
+    item_.first_direction = static_cast<std::uint32_t>(shapes.units().size());
     item_.directions = static_cast<std::uint32_t>(search.directions.size());
     const std::uint32_t max_points = rounded_up(search.max_points);
     max_counts_ = {rounded_up(search.max_edges), max_points, max_points};
