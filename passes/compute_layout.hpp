@@ -44,7 +44,7 @@ public:
     static constexpr std::uint32_t bindings =
         storage_buffers + sampled_images + storage_images + texel_buffers;
     /// Those of the largest push constants.
-    static constexpr std::uint32_t push_bytes = sizeof(plan::ExportRecordsPush);
+    static constexpr std::uint32_t push_bytes = sizeof(plan::SearchPush);
 
     explicit ComputeLayout(const gpu::Device& device);
 

@@ -3,10 +3,11 @@
 namespace nearfield::passes {
 
 ComputeShader::ComputeShader(const gpu::Device& device, const ComputeLayout& layout,
-                             gpu::Spirv code, const char* name, std::optional<VkBool32> constant)
+                             gpu::Spirv code, const char* name,
+                             std::span<const VkBool32> constants)
     : functions_(&device.functions()),
       layout_(layout.pipeline_layout()),
-      pipeline_(gpu::make_compute_pipeline(device, layout_, code, name, constant)) {}
+      pipeline_(gpu::make_compute_pipeline(device, layout_, code, name, constants)) {}
 
 void ComputeShader::bind(VkCommandBuffer commands) const {
     functions_->vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());

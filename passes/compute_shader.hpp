@@ -12,16 +12,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <span>
 
 namespace nearfield::passes {
 
 /// A compute shader of the layout that all share: how it is bound and dispatched.
 class ComputeShader {
 public:
-    /// `constant`: see gpu::make_compute_pipeline.
+    /// `constants`: see gpu::make_compute_pipeline.
     ComputeShader(const gpu::Device& device, const ComputeLayout& layout, gpu::Spirv code,
-                  const char* name, std::optional<VkBool32> constant = std::nullopt);
+                  const char* name, std::span<const VkBool32> constants = {});
 
     void bind(VkCommandBuffer commands) const;
     void bind_set(VkCommandBuffer commands, VkDescriptorSet set) const;

@@ -1,5 +1,6 @@
 #include <engine/plan/point_search.hpp>
 #include <passes/point_search.hpp>
+#include <passes/reads_texels.hpp>
 
 #include <shaders/search_edges_comp.hpp>
 #include <shaders/search_items_comp.hpp>
@@ -7,6 +8,7 @@
 #include <shaders/search_points_comp.hpp>
 #include <shaders/search_scan_comp.hpp>
 
+#include <array>
 #include <functional>
 
 namespace nearfield::passes {
@@ -16,25 +18,24 @@ using graph::Access;
 
 constexpr VkDeviceSize argument_bytes = plan::words_of_arguments * sizeof(std::uint32_t);
 
-// Whether shaders read the input as texels: where these can address as much as a storage buffer.
-VkBool32 reads_texels(const gpu::Device& device) {
-    const VkPhysicalDeviceLimits& limits = device.limits();
-    return limits.maxTexelBufferElements >= limits.maxStorageBufferRange / sizeof(plan::SearchUnit)
-               ? VK_TRUE
-               : VK_FALSE;
+// The directions are given, in the input.
+std::array<VkBool32, 2> constants_of(const gpu::Device& device) {
+    return {reads_texels(device), VK_FALSE};
 }
 
 }  // namespace
 
 PointSearch::PointSearch(const gpu::Device& device, const ComputeLayout& layout)
     : items_(device, layout, shaders::search_items_comp, "nearfield search items",
-             reads_texels(device)),
-      scan_(device, layout, shaders::search_scan_comp, "nearfield search scan"),
+             constants_of(device)),
+      scan_(device, layout, shaders::search_scan_comp, "nearfield search scan",
+            constants_of(device)),
       edges_(device, layout, shaders::search_edges_comp, "nearfield search edges",
-             reads_texels(device)),
+             constants_of(device)),
       points_(device, layout, shaders::search_points_comp, "nearfield search points",
-              reads_texels(device)),
-      pack_(device, layout, shaders::search_pack_comp, "nearfield pack points"),
+              constants_of(device)),
+      pack_(device, layout, shaders::search_pack_comp, "nearfield pack points",
+            constants_of(device)),
       input_(graph_.import_buffer({"search input", true, false})),
       scratch_(graph_.import_buffer({"search scratch"})),
       arguments_(graph_.import_buffer({"search arguments", true, true})),
@@ -106,11 +107,20 @@ void PointSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
 void PointSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                        std::uint32_t first, std::uint32_t stage) {
     const SearchLayout& layout = item.layout;
-    shader.push(commands,
-                plan::SearchPush{first, item.items, item.first_direction, item.directions,
-                                 layout.item_blocks, layout.edge_blocks, layout.point_blocks,
-                                 layout.item_words, layout.edge_units, layout.point_units, stage,
-                                 layout.capacities[stage]});
+    plan::SearchPush push{};
+    push.first = first;
+    push.items = item.items;
+    push.directions = item.first_direction;
+    push.direction_count = item.directions;
+    push.item_blocks = layout.item_blocks;
+    push.edge_blocks = layout.edge_blocks;
+    push.point_blocks = layout.point_blocks;
+    push.item_words = layout.item_words;
+    push.edge_units = layout.edge_units;
+    push.point_units = layout.point_units;
+    push.stage = stage;
+    push.capacity = layout.capacities[stage];
+    shader.push(commands, push);
 }
 
 void PointSearch::dispatch_items(VkCommandBuffer commands, const Item& item) const {

@@ -126,6 +126,20 @@ struct SearchPush {
     uint point_units;
     uint stage;     // of search_scan.comp
     uint capacity;  // of the elements that the stage counts
+    // Where the device finds the pairs: `items` and `direction_count` are not known, `directions`
+    // and what follows are in the scratch memory.
+    uint second_capacity;   // of items, in the scan of pairs
+    uint instances;         // their number
+    uint boxes;             // first unit: of the instances, then of the levels above them
+    uint lists;             // first unit: one per instance, about the pairs in which it is `a`
+    uint pair_blocks;       // first words of sums over blocks of instances ...
+    uint list_item_blocks;  // ... of the items of their pairs
+    uint pairs;             // first word: two per pair, in the order in which they were found
+    uint first_directions;  // first word: by block of items
+    uint depths;            // first word: by point
+    uint record_depths;     // first word: by found point
+    uint row_blocks;        // first word of sums over blocks of pairs
+    uint summaries;         // first unit: two per pair
 };
 
 struct ExportFieldPush {

@@ -9,6 +9,8 @@ layout(std430, set = 0, binding = 0) readonly buffer Input {
 };
 layout(set = 0, binding = 8) uniform usamplerBuffer texels;  // the same memory
 layout(constant_id = 0) const bool reads_texels = false;
+// Directions, and how many items there are, are in the scratch memory (pairs.h).
+layout(constant_id = 1) const bool finds_pairs = false;
 
 layout(std430, set = 0, binding = 1) buffer Scratch {
     uint scratch[];
@@ -41,14 +43,24 @@ uint dispatched_index() {
            gl_LocalInvocationID.x;
 }
 
+uint item_count() {
+    return finds_pairs ? scratch[item_total] : push.items;
+}
+
+// A unit of a direction.
+uvec4 direction_unit(uint index, uint i) {
+    uint unit = push.directions + units_of_direction * index + i;
+    return finds_pairs ? scratch_units[unit] : unit_at(unit);
+}
+
 SearchDirectionData direction_at(uint index) {
-    uint unit = push.directions + units_of_direction * index;
-    vec4 place = floats_at(unit);
-    uvec4 shapes = unit_at(unit + 1u);
-    vec4 lengths = floats_at(unit + 2u);
+    vec4 place = uintBitsToFloat(direction_unit(index, 0u));
+    uvec4 shapes = direction_unit(index, 1u);
+    vec4 lengths = uintBitsToFloat(direction_unit(index, 2u));
     return SearchDirectionData(place.xy, place.zw, shapes.x, shapes.y, shapes.z, shapes.w,
                                lengths.x, lengths.y, lengths.z, lengths.w,
-                               floats_at(unit + 3u).x, float[3](0.0, 0.0, 0.0));
+                               uintBitsToFloat(direction_unit(index, 3u).x),
+                               float[3](0.0, 0.0, 0.0));
 }
 
 // From A's frame to B's, with the ratio of their units.
@@ -61,17 +73,24 @@ vec2 placed(SearchDirectionData direction, vec2 point) {
     return rotation_of(direction) * point + direction.offset;
 }
 
+// The direction of the first item of a block.
+uint first_direction(uint block) {
+    // These follow the directions in the input.
+    return finds_pairs ? scratch[push.first_directions + block]
+                       : word_at(4u * (push.directions + units_of_direction * push.direction_count) +
+                                 block);
+}
+
 // The direction that an item belongs to.
 uint direction_of(uint item) {
-    // The first directions of blocks of items follow the directions.
-    uint blocks = 4u * (push.directions + units_of_direction * push.direction_count);
     uint block = item / search_block;
-    uint low = word_at(blocks + block);
-    uint count = (search_block * (block + 1u) < push.items ? word_at(blocks + block + 1u) + 1u
-                                                         : push.direction_count) - low;
+    uint low = first_direction(block);
+    uint directions = finds_pairs ? scratch[pair_total] : push.direction_count;
+    uint count = (search_block * (block + 1u) < item_count() ? first_direction(block + 1u) + 1u
+                                                             : directions) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (unit_at(push.directions + units_of_direction * (low + half_count) + 1u).w <= item) {
+        if (direction_unit(low + half_count, 1u).w <= item) {
             low += half_count;
             count -= half_count;
         } else {

@@ -12,6 +12,7 @@
 
 NEARFIELD_SHARED_BEGIN
 
+const uint bytes_of_unit = 16u;
 const uint chunk_size = 8u;  // edges per chunk, and boxes per box of the next level
 const uint max_levels = 8u;
 // Of a shape. The first holds its number of chunks and levels, its first unit of edges (one per
@@ -33,7 +34,13 @@ const uint edge_total = 0u;
 const uint point_total = 1u;
 const uint record_total = 2u;
 const uint stages = 3u;
-const uint words_of_totals = 4u;  // a whole unit
+// Where the device finds the pairs (pairs.h), it also counts ordered pairs of instances, which are
+// the directions, their items, and the pairs with an answer.
+const uint pair_total = 3u;
+const uint item_total = 4u;
+const uint row_total = 5u;
+const uint stages_of_pairs = 6u;
+const uint words_of_totals = 8u;  // whole units
 const uint words_of_arguments = 4u;
 
 // The points of A's boundary in the field of B. Positions and lengths in B's frame, relative to its

@@ -47,9 +47,9 @@ uint edges_of(uint item) {
 
 void main() {
     uint item = push.first + dispatched_index();
-    uint mask = item < push.items ? edges_of(item) : 0u;
+    uint mask = item < item_count() ? edges_of(item) : 0u;
     uint before = sum_before(bitCount(mask), push.item_blocks + item / search_block);
-    if (item < push.items) {
+    if (item < item_count()) {
         scratch[push.item_words + item] = mask | before << 8;
     }
 }

@@ -24,6 +24,9 @@ void main() {
             record.x &= (1u << local_shift) - 1u;
         }
         if (record.w != 0u && target < scratch[record_total]) {
+            if (finds_pairs) {
+                scratch[push.record_depths + target] = scratch[push.depths + i];
+            }
             records[target++] = record;
         }
     }

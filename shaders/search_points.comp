@@ -226,8 +226,9 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, SearchDirecti
     return rivals;
 }
 
-// Returns the words of four points; 0 for those that are not asked for.
-uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction) {
+// Returns the words of four points; 0 for those that are not asked for. `depth`: 0 outside;
+// negative where a walk takes too long.
+uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 depth) {
     Shape b = shape_at(direction.shape_b);
     bool too_long = false;
     bvec4 inside = find_inside(p, asked, b, too_long);
@@ -244,6 +245,7 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction) {
     if (found != uvec4(0u)) {
         rivals = find_rivals(p, b, nearest, edge, direction, too_long);
     }
+    depth = too_long ? vec4(-1.0) : mix(vec4(0.0), sqrt(nearest.squared), inside);
     if (too_long) {
         return point_resolved | point_doubtful | edge;
     }
@@ -318,7 +320,8 @@ Batch batch_at(uint index, uint count) {
 }
 
 // Resolves the points from `first` on that have the same direction, and moves `first` behind them.
-void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, inout uvec4 words) {
+void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, inout uvec4 words,
+                 inout vec4 depths) {
     uint index = batch.direction[first];
     SearchDirectionData direction = direction_at(index);
     Shape a = shape_at(direction.shape_a);
@@ -340,7 +343,9 @@ void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, i
         asked[i] = batch.asked[source];
         edges[i] = own[i] ? number : edges[i];
     }
-    words = mix(words, resolve(points_at(x, y), asked, direction), own);
+    vec4 depth;
+    words = mix(words, resolve(points_at(x, y), asked, direction, depth), own);
+    depths = mix(depths, depth, own);
     while (first < count && batch.direction[first] == index) {
         ++first;
     }
@@ -353,11 +358,12 @@ void main() {
     uint count = index < total ? min(points_per_thread, total - index) : 0u;
     uvec4 edges = uvec4(0u);
     uvec4 words = uvec4(0u);
+    vec4 depths = vec4(0.0);
     Batch batch;
     if (count > 0u) {
         batch = batch_at(index, count);
         for (uint first = 0u; first < count;) {
-            resolve_run(batch, count, first, edges, words);
+            resolve_run(batch, count, first, edges, words, depths);
         }
     }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
@@ -367,5 +373,8 @@ void main() {
         scratch_units[push.point_units + index + i] =
             uvec4(batch.direction[i] | (i == 0u ? before << local_shift : 0u), edges[i],
                   batch.number[i], words[i]);
+        if (finds_pairs) {
+            scratch[push.depths + index + i] = floatBitsToUint(depths[i]);
+        }
     }
 }

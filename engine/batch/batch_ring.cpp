@@ -125,6 +125,17 @@ Ticket BatchRing::submit(const Batch& batch, const Submission& order, Results* m
     });
 }
 
+void BatchRing::answer(std::span<const AnyQuery> queries, const plan::FindShape& find_shape,
+                       Results& results) {
+    if (cpu_runner_ == nullptr) {
+        cpu_runner_ = std::make_unique<BatchRunner>(planning_, nullptr);
+    }
+    std::swap(results, cpu_runner_->results());
+    cpu_runner_->submit(queries, find_shape);
+    cpu_runner_->collect();
+    std::swap(results, cpu_runner_->results());
+}
+
 Status BatchRing::already_complete(std::uint64_t host_frame) const {
     const std::string last = std::to_string(*complete_);
     const std::string frames = std::to_string(frames_.size());

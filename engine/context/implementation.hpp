@@ -81,6 +81,7 @@ public:
     Status release_target(VkImage image);
 
     [[nodiscard]] const batch::BatchRing& ring() const { return machinery_->ring; }
+    [[nodiscard]] batch::BatchRing& ring() { return machinery_->ring; }
 
     [[nodiscard]] batch::ShapeStore& shapes() { return shapes_; }
     /// Rings of the caller's numbers, until the next call.
@@ -92,7 +93,9 @@ public:
     [[nodiscard]] const CostModel& costs() const { return costs_; }
     [[nodiscard]] const JobSystem& jobs() const { return settings_.jobs; }
     [[nodiscard]] const DeviceTechniques& techniques() const { return settings_.techniques; }
+    [[nodiscard]] std::uint64_t memory_limit() const { return settings_.memory_limit; }
     [[nodiscard]] const render::Renderer* renderer() const { return machinery_->renderer.get(); }
+    [[nodiscard]] render::Renderer* renderer() { return machinery_->renderer.get(); }
 
     /// Runs an action unless the device is lost; records the loss of the device.
     template <class Action>

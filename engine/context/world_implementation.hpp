@@ -56,6 +56,8 @@ public:
     void update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
                 std::span<const Pose> ends);
 
+    void update(DevicePairTable& table);
+
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();
 

@@ -196,18 +196,19 @@ Owned<VkPipeline> finished(const Device& device, VkPipeline pipeline, const std:
 }  // namespace
 
 Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout, Spirv shader,
-                                        const std::string& name, std::optional<VkBool32> constant) {
+                                        const std::string& name,
+                                        std::span<const VkBool32> constants) {
     const Stopwatch start;
     const Owned<VkShaderModule> shader_module = make_shader_module(device, shader, name);
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage = shader_stage(VK_SHADER_STAGE_COMPUTE_BIT, shader_module);
-    constexpr VkSpecializationMapEntry entry{0, 0, sizeof(VkBool32)};
-    VkSpecializationInfo specialization{1, &entry, sizeof(VkBool32), nullptr};
-    if (constant) {
-        specialization.pData = &*constant;
-        info.stage.pSpecializationInfo = &specialization;
-    }
+    constexpr std::array<VkSpecializationMapEntry, 2> entries{
+        {{0, 0, sizeof(VkBool32)}, {1, sizeof(VkBool32), sizeof(VkBool32)}}};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(constants.size()),
+                                              entries.data(), constants.size_bytes(),
+                                              constants.data()};
+    info.stage.pSpecializationInfo = constants.empty() ? nullptr : &specialization;
     info.layout = layout;
     const std::string what = in_words(name);
     VkPipeline pipeline = VK_NULL_HANDLE;

@@ -13,10 +13,10 @@ namespace nearfield::gpu {
 /// SPIR-V words embedded at build time.
 using Spirv = std::span<const std::uint32_t>;
 
-/// `constant`: replaces the specialization constant 0, a bool.
-[[nodiscard]] Owned<VkPipeline> make_compute_pipeline(
-    const Device& device, VkPipelineLayout layout, Spirv shader, const std::string& name,
-    std::optional<VkBool32> constant = std::nullopt);
+/// `constants`: replace the specialization constants 0, 1, ..., all of type bool; at most two.
+[[nodiscard]] Owned<VkPipeline> make_compute_pipeline(const Device& device, VkPipelineLayout layout,
+                                                      Spirv shader, const std::string& name,
+                                                      std::span<const VkBool32> constants = {});
 
 /// The differences between the library's graphics pipelines. All draw triangle lists of
 /// geometry::MeshVertex, or of plan::TileVertex where the vertex shader reads the rectangle of its

@@ -67,6 +67,7 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
     if (techniques.compute) {
         passes_.compute.emplace(device, layout_);
         point_search_.emplace(device, layout_);
+        pair_search_.emplace(device, layout_);
     }
 }
 
@@ -76,6 +77,10 @@ const char* Renderer::gradient_format() const {
 
 std::unique_ptr<BatchResources> Renderer::make_resources() {
     return std::make_unique<BatchResources>(*device_, layout_, target_views_, timestamps_);
+}
+
+std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(bool reads_records) {
+    return std::make_unique<PairSearchBuffers>(*device_, layout_, reads_records, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.

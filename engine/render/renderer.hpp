@@ -1,15 +1,18 @@
 #pragma once
 
+#include <engine/base/unique_numbers.hpp>
 #include <engine/gpu/device.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <engine/render/batch_resources.hpp>
 #include <engine/render/compiled_graph.hpp>
+#include <engine/render/pair_search_buffers.hpp>
 #include <nearfield/result.hpp>
 #include <passes/copy_back.hpp>
 #include <passes/export_field.hpp>
 #include <passes/export_headers.hpp>
 #include <passes/export_records.hpp>
 #include <passes/export_samples.hpp>
+#include <passes/pair_search.hpp>
 #include <passes/point_search.hpp>
 
 #include <cstdint>
@@ -41,6 +44,12 @@ public:
 
     /// Resources for a batch of this renderer, which must outlive them.
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
+    /// Memory for searches for all pairs, likewise. `reads_records`: the host reads the points.
+    [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(bool reads_records);
+    /// The passes of such searches. The precondition: pipelines of the compute technique.
+    [[nodiscard]] const passes::PairSearch& pair_search() const { return *pair_search_; }
+    /// Differs from that of every other renderer.
+    [[nodiscard]] std::uint32_t number() const { return number_; }
 
     /// Uploads tile batches and their resident outputs, and reserves memory for their results; adds
     /// to the time of planning. Both have to stay unchanged, and `slot` untouched, until the device
@@ -84,11 +93,13 @@ private:
     void record_exports(BatchResources& slot, VkCommandBuffer commands);
 
     const gpu::Device* device_;
+    std::uint32_t number_ = next_owner_number();
     bool timestamps_;
     passes::ComputeLayout layout_;
     TargetViews target_views_;
     PipelineSet passes_;
     std::optional<passes::PointSearch> point_search_;  // with the compute technique
+    std::optional<passes::PairSearch> pair_search_;    // likewise
     passes::CopyBack copy_back_;
     passes::ExportField export_field_;
     passes::ExportRecords export_records_;

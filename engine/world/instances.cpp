@@ -53,6 +53,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     entry.number = next_number_++;
     entry.polygon = nullptr;
     ++count_;
+    ++membership_;
     return {index, entry.generation, world_};
 }
 
@@ -66,11 +67,13 @@ void Instances::note_change(std::uint32_t index) {
 
 void Instances::move(std::uint32_t index, const Pose& pose) {
     note_change(index);
+    ++entries_[index].moves;
     entries_[index].instance.pose = pose;
 }
 
 void Instances::set_filter(std::uint32_t index, std::uint32_t category, std::uint32_t mask) {
     note_change(index);
+    ++entries_[index].moves;
     entries_[index].instance.category = category;
     entries_[index].instance.mask = mask;
 }
@@ -83,6 +86,7 @@ void Instances::remove(std::uint32_t index) {
     entry.has_edges = false;
     boxes_.remove(index);
     --count_;
+    ++membership_;
 }
 
 void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revision) {

@@ -51,6 +51,11 @@ public:
     [[nodiscard]] std::uint32_t count() const { return count_; }
     /// Indices are below this; some of them may be unused.
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(entries_.size()); }
+    [[nodiscard]] bool is_present(std::uint32_t index) const { return entries_[index].present; }
+    /// Changes whenever instances are added or removed.
+    [[nodiscard]] std::uint64_t membership() const { return membership_; }
+    /// Changes with the pose and the filter of an instance, before prepare() too.
+    [[nodiscard]] std::uint64_t moves(std::uint32_t index) const { return entries_[index].moves; }
 
     /// Takes in what has changed since the last call. `shapes_revision`: changes whenever any shape
     /// does.
@@ -115,6 +120,7 @@ private:
         bool present = false;
         bool is_changed = false;   // listed in changes_
         std::uint64_t number = 0;  // in the order of adding
+        std::uint64_t moves = 0;
         std::uint64_t changed = 0;
         const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
         std::uint64_t revision = 0;                  // of the polygon
@@ -145,6 +151,7 @@ private:
     BoxHierarchy boxes_;
     std::uint32_t count_ = 0;
     std::uint64_t next_number_ = 0;
+    std::uint64_t membership_ = 1;
     std::uint64_t last_change_ = 0;
     std::uint64_t shapes_revision_ = 0;
     double max_rounding_ = 0.0;

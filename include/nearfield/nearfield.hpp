@@ -22,4 +22,5 @@
 #include <nearfield/tile.hpp>
 #include <nearfield/version.hpp>
 #include <nearfield/world.hpp>
+#include <nearfield/world_device.hpp>
 #include <nearfield/world_pairs.hpp>

@@ -188,6 +188,7 @@ struct ShapeCastHit {
 
 template <class Query>
 class PairTable;
+class DevicePairTable;
 
 /// Instances of shapes of one context, kept from frame to frame.
 ///
@@ -320,6 +321,13 @@ public:
     /// likewise.
     Status update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
                   std::span<const Pose> ends, const Limits& limits = {});
+
+    /// Brings a table that the device fills (world_device.hpp) up to date and waits for the device.
+    /// Fails with invalid_query if the query is invalid, or if the context has no pipelines of
+    /// Technique::compute; with too_large if there are more than 2^18 instances, or more pairs or
+    /// points than the device has memory for; if `limits` end the call; and as Context::run(). The
+    /// table is empty then. Errors of single pairs are the status of their rows.
+    Status update(DevicePairTable& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

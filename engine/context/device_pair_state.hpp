@@ -1,0 +1,107 @@
+#pragma once
+
+#include <engine/batch/shape_store.hpp>
+#include <engine/context/implementation.hpp>
+#include <engine/plan/pair_search.hpp>
+#include <engine/plan/plan.hpp>
+#include <engine/records/point_resolver.hpp>
+#include <engine/render/pair_search_buffers.hpp>
+#include <engine/world/hilbert_curve.hpp>
+#include <engine/world/instances.hpp>
+#include <nearfield/world_device.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace nearfield {
+
+/// What a table keeps from update to update, and what it answers rows from. Its members throw.
+struct DevicePairTable::State {
+    explicit State(const PenetrationQuery& asked) : query(asked) { plan_.queries.resize(1); }
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    /// Brings the rows up to date with a world. `identity`: of the world.
+    void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
+                const world::Instances& instances);
+    [[nodiscard]] Row row(std::uint32_t index);
+    void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
+    void start_anew();
+
+    const PenetrationQuery query;
+    std::uint32_t rows = 0;
+    Timings timings;
+
+    [[nodiscard]] std::uint32_t candidates() const;
+    [[nodiscard]] std::uint32_t left_to_cpu() const {
+        return static_cast<std::uint32_t>(decided_.size());
+    }
+
+private:
+    /// An instance as the last update found it. Its number is its place among all.
+    struct PairInstance {
+        Instance instance;
+        InstanceHandle handle;
+        const geometry::Polygon* polygon = nullptr;  // held
+        std::uint64_t moves = 0;                     // see world::Instances
+        plan::SearchInstanceData data;
+    };
+    /// A row that the CPU decided.
+    struct Decided {
+        std::uint32_t row = 0;  // of the device
+        bool has_row = false;   // in the table
+        PenetrationResult result;
+    };
+
+    void check() const;
+    void list_instances(const world::Instances& instances);
+    void place(const world::Instances& instances, PairInstance& entry, std::uint32_t number);
+    void place_moved(const world::Instances& instances);
+    void place_all(const world::Instances& instances);
+    void order_instances();
+    [[nodiscard]] bool is_left_to_cpu(const PairInstance& entry,
+                                      const geometry::TransformedPolygon& placed) const;
+    void search();
+    void decide();
+    /// The device's row of a row of the table. `call`: for the message.
+    [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
+    /// Null if the device decided.
+    [[nodiscard]] const PenetrationResult* find_decided(std::uint32_t row) const;
+    [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data,
+                                                  bool with_records);
+    void begin(const plan::PairRowData& data);
+    void add_point(const plan::FoundPointData& found);
+    template <class Use>
+    void resolve_points(const Use& use);
+    [[nodiscard]] Row row_of(const plan::PairRowData& data, const PenetrationResult& result) const;
+
+    Context::Implementation* context_ = nullptr;
+    std::weak_ptr<const void> world_;
+    std::uint32_t renderer_ = 0;  // its number
+    std::unique_ptr<render::PairSearchBuffers> buffers_;
+    plan::SearchShapes shapes_;
+    batch::ShapeStore::Held held_;
+    std::vector<PairInstance> instances_;  // in the order in which they were added
+    std::vector<std::uint32_t> indices_;   // of these in the world
+    std::uint64_t membership_ = 0;         // of the world, at the last update
+    std::uint64_t shapes_revision_ = 0;
+    std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
+    geometry::Vector origin_ = geometry::Vector::Zero();
+    world::HilbertOrder hilbert_order_;
+    std::vector<Vector2> places_;  // of the instances
+    std::vector<Decided> decided_;           // in ascending order of the rows
+    bool drops_rows_ = false;
+    std::vector<std::uint32_t> device_rows_;  // by row, if some were dropped
+    // For reading rows.
+    AnyQuery asked_;
+    plan::Plan plan_;
+    std::vector<std::uint32_t> words_;
+    records::PointResolver resolver_;
+    std::vector<AnyQuery> cpu_queries_;
+    Results cpu_results_;
+};
+
+}  // namespace nearfield

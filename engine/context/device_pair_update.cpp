@@ -1,0 +1,268 @@
+// How a table of pairs that the device finds is brought up to date.
+
+#include <engine/base/stopwatch.hpp>
+#include <engine/context/call_within.hpp>
+#include <engine/context/device_pair_state.hpp>
+#include <engine/context/world_checks.hpp>
+#include <engine/context/world_implementation.hpp>
+#include <engine/plan/error_budget.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+/// After so many updates the instances are ordered anew: boxes that hold what has moved apart only
+/// cost time.
+constexpr std::uint32_t max_updates_in_order = 64;
+
+}  // namespace
+
+void DevicePairTable::State::check() const {
+    if (query.resident ||
+        (query.technique != Technique::compute && query.technique != Technique::automatic)) {
+        refuse("update", "the device finds these pairs by Technique::compute; the table's query asks "
+                         "for another technique, or for resident results");
+    }
+    PenetrationQuery by_compute = query;
+    by_compute.technique = Technique::compute;
+    const DeviceTechniques& techniques = context_->techniques();
+    if (Status status = plan::check_query(
+            by_compute, {.device = context_->device() != nullptr, .raster = techniques.raster,
+                         .compute = techniques.compute});
+        !status.ok()) {
+        throw StatusException({status.code(), "update: " + status.message()});
+    }
+}
+
+void DevicePairTable::State::start_anew() {
+    rows = 0;
+    decided_.clear();
+    device_rows_.clear();
+    instances_.clear();
+    indices_.clear();
+    membership_ = shapes_revision_ = 0;
+    world_.reset();
+    if (context_ != nullptr) {
+        context_->shapes().release(held_);
+    }
+}
+
+/// Lists the instances whose shapes exist in the order in which they were added, and holds these.
+void DevicePairTable::State::list_instances(const world::Instances& instances) {
+    context_->shapes().release(held_);
+    indices_.clear();
+    for (std::uint32_t index = 0; index < instances.size(); ++index) {
+        if (instances.is_present(index) &&
+            context_->shapes().hold(instances[index].shape, held_) != nullptr) {
+            indices_.push_back(index);
+        }
+    }
+    if (indices_.size() > plan::max_instances) {
+        throw StatusException({StatusCode::too_large,
+                               "update: the world has " + std::to_string(indices_.size()) +
+                                   " instances, of which the device takes at most " +
+                                   std::to_string(plan::max_instances)});
+    }
+    std::sort(indices_.begin(), indices_.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return instances.number(i) < instances.number(j);
+    });
+    instances_.resize(indices_.size());
+}
+
+/// Whether the pairs of an instance may have to be refused, for reasons that the CPU knows: its
+/// coordinates or its deviation are large for the tolerance.
+bool DevicePairTable::State::is_left_to_cpu(const PairInstance& entry,
+                                            const TransformedPolygon& placed) const {
+    const double deviation = entry.polygon->deviation();
+    const Pose& pose = entry.instance.pose;
+    const double magnitude =
+        std::max({placed.translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
+                  entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                  std::abs(pose.translation.y)});
+    const plan::Deviations both{deviation, deviation};
+    return !plan::check_resolution(query.tolerance, magnitude).ok() ||
+           !plan::check_deviations(query.tolerance, both,
+                                   plan::penetration_budget(query, both).bound)
+                .ok();
+}
+
+void DevicePairTable::State::place(const world::Instances& instances, PairInstance& entry,
+                                   std::uint32_t number) {
+    const std::uint32_t index = indices_[number];
+    const WorldInstance& instance = instances[index];
+    entry.instance.pose = instance.pose;
+    entry.moves = instances.moves(index);
+    const TransformedPolygon placed(*entry.polygon, instance.pose);
+    const std::uint32_t shape = entry.data.shape;
+    const std::uint32_t parts = entry.data.parts;
+    entry.data = plan::search_instance(placed, origin_);
+    entry.data.shape = shape;
+    entry.data.parts = parts;
+    entry.data.category = instance.category;
+    entry.data.mask = instance.mask;
+    entry.data.left_to_cpu = is_left_to_cpu(entry, placed) ? 1 : 0;
+    buffers_->set_instance(number, entry.data);
+}
+
+void DevicePairTable::State::place_moved(const world::Instances& instances) {
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        if (instances.moves(indices_[number]) != instances_[number].moves) {
+            place(instances, instances_[number], number);
+        }
+    }
+}
+
+void DevicePairTable::State::place_all(const world::Instances& instances) {
+    const double cell = plan::penetration_budget(query, {}).cell;
+    const bool samples = query.points == PenetrationPoints::boundary;
+    shapes_.begin_batch();
+    Vector sum = Vector::Zero();
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        checkpoint();
+        PairInstance& entry = instances_[number];
+        const WorldInstance& instance = instances[indices_[number]];
+        entry.handle = instances.handle(indices_[number]);
+        entry.instance.shape = instance.shape;
+        entry.polygon = context_->shapes().hold(instance.shape, held_);
+        entry.data.shape = shapes_.place(*entry.polygon);
+        entry.data.parts = samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
+        sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
+    }
+    origin_ = sum / static_cast<double>(std::max<std::size_t>(instances_.size(), 1));
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        place(instances, instances_[number], number);
+    }
+    plan::PairQueryData all;
+    all.cell = static_cast<float>(cell);
+    all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
+    all.touching = static_cast<float>(query.tolerance * static_cast<double>(plan::touching_depth));
+    buffers_->set_query(all);
+    updates_in_order_ = max_updates_in_order;
+}
+
+void DevicePairTable::State::order_instances() {
+    if (updates_in_order_++ < max_updates_in_order) {
+        return;
+    }
+    updates_in_order_ = 1;
+    std::vector<Vector2>& places = places_;
+    places.clear();
+    for (const PairInstance& entry : instances_) {
+        places.push_back({static_cast<double>(entry.data.high.x),
+                          static_cast<double>(entry.data.high.y)});
+    }
+    buffers_->set_order(hilbert_order_.sort(
+        places.size(), [&places](std::size_t i) -> const Vector2& { return places[i]; }));
+}
+
+void DevicePairTable::State::search() {
+    render::Renderer& renderer = *context_->renderer();
+    const Stopwatch start;
+    const Status status = context_->unless_lost([&] {
+        buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(),
+                         timings.passes);
+    });
+    timings.device = start.milliseconds();
+    if (!status.ok()) {
+        throw StatusException(status);
+    }
+    rows = buffers_->counts()[plan::row_total];
+}
+
+/// Answers what single precision could not decide, and drops the rows without points.
+void DevicePairTable::State::decide() {
+    if (buffers_->undecided() == 0) {
+        return;
+    }
+    const Stopwatch start;
+    for (std::uint32_t i = 0; i < rows; ++i) {
+        const plan::PairRowData& data = buffers_->rows()[i];
+        if ((data.count & plan::row_undecided) != 0) {
+            PenetrationResult result = answer_on_cpu(data, false);
+            const bool has_row = result.count > 0 || !result.status.ok();
+            decided_.push_back({i, has_row, std::move(result)});
+        }
+    }
+    const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
+                                          [](const Decided& one) { return one.has_row; });
+    if (!are_all_rows) {
+        std::size_t next = 0;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            const bool is_decided = next < decided_.size() && decided_[next].row == i;
+            if (!is_decided || decided_[next++].has_row) {
+                device_rows_.push_back(i);
+            }
+        }
+        rows = static_cast<std::uint32_t>(device_rows_.size());
+        drops_rows_ = true;
+    }
+    timings.decode = start.milliseconds();
+}
+
+void DevicePairTable::State::update(Context::Implementation& with,
+                                    const std::shared_ptr<const void>& identity,
+                                    const world::Instances& instances) {
+    const Stopwatch total;
+    if (context_ != &with || world_.lock() != identity) {
+        start_anew();
+        context_ = &with;
+        world_ = identity;
+    }
+    check();
+    rows = 0;
+    drops_rows_ = false;
+    decided_.clear();
+    device_rows_.clear();
+    timings.device = timings.decode = 0.0;
+    for (PassTime& pass : timings.passes) {
+        pass.milliseconds = -1.0;
+    }
+    if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
+        buffers_ = context_->renderer()->make_pair_buffers(query.records);
+        renderer_ = context_->renderer()->number();
+        membership_ = 0;
+    }
+    const bool is_same = membership_ == instances.membership() &&
+                         shapes_revision_ == context_->shapes().revision();
+    if (is_same) {
+        place_moved(instances);
+    } else {
+        membership_ = 0;
+        list_instances(instances);
+        if (instances_.size() > 1) {
+            buffers_->reserve_instances(static_cast<std::uint32_t>(instances_.size()));
+            place_all(instances);
+        }
+        membership_ = instances.membership();
+        shapes_revision_ = context_->shapes().revision();
+    }
+    if (instances_.size() > 1) {
+        order_instances();
+        timings.plan = total.milliseconds();
+        search();
+        decide();
+    }
+    timings.total = total.milliseconds();
+}
+
+void World::Implementation::update(DevicePairTable& table) {
+    DevicePairTable::State& state = *table.state_;
+    try {
+        state.update(*context_, identity_, instances_);
+    } catch (...) {
+        state.start_anew();
+        throw;
+    }
+}
+
+Status World::update(DevicePairTable& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+}  // namespace nearfield

@@ -1,0 +1,43 @@
+#include <engine/plan/pair_search.hpp>
+
+#include <cmath>
+
+namespace nearfield::plan {
+namespace {
+
+using geometry::Vector;
+
+/// What rounding to a float leaves out.
+float rest_of(double value, float rounded) {
+    return static_cast<float>(value - static_cast<double>(rounded));
+}
+
+Vector place_of(const SearchInstanceData& instance) {
+    return {static_cast<double>(instance.high.x) + static_cast<double>(instance.low.x),
+            static_cast<double>(instance.high.y) + static_cast<double>(instance.low.y)};
+}
+
+}  // namespace
+
+SearchInstanceData search_instance(const geometry::TransformedPolygon& placed,
+                                   const Vector& origin) {
+    SearchInstanceData data;
+    const Vector axis = placed.rotation().col(0);
+    const Vector place = placed.translation() - origin;
+    data.axis = {static_cast<float>(axis.x()), static_cast<float>(axis.y())};
+    data.high = {static_cast<float>(place.x()), static_cast<float>(place.y())};
+    data.low = {rest_of(place.x(), data.high.x), rest_of(place.y(), data.high.y)};
+    data.unit = static_cast<float>(unit_length_of(placed.polygon()));
+    data.radius = rounded_up(placed.polygon().radius());
+    return data;
+}
+
+double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b) {
+    const Vector place_a = place_of(a);
+    const Vector place_b = place_of(b);
+    const double extent = static_cast<double>(a.radius) + static_cast<double>(b.radius) +
+                          (place_a - place_b).norm();
+    return std::ldexp(extent, -19) + std::ldexp(place_a.lpNorm<1>() + place_b.lpNorm<1>(), -47);
+}
+
+}  // namespace nearfield::plan

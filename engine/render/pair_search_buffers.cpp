@@ -1,0 +1,293 @@
+#include <engine/base/interruption.hpp>
+#include <engine/base/status_exception.hpp>
+#include <engine/render/pair_search_buffers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace nearfield::render {
+namespace {
+
+using plan::SearchInstanceData;
+using plan::SearchUnit;
+
+constexpr std::array<const char*, passes::PairSearch::set_count> names_of_sets{
+    "nearfield pair set of instances", "nearfield pair set of points",
+    "nearfield pair set of rows"};
+
+constexpr std::uint64_t argument_bytes =
+    std::uint64_t{plan::stages_of_pairs} * plan::words_of_arguments * sizeof(std::uint32_t);
+
+/// Room for what the first search may find.
+constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
+
+/// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
+constexpr std::uint32_t max_counted = 1U << 29U;
+
+std::uint64_t blocks_for(std::uint64_t elements) {
+    return (elements + plan::search_block - 1) / plan::search_block + 1;
+}
+
+std::uint64_t instance_bytes(std::uint32_t count) {
+    return sizeof(plan::PairQueryData) +
+           count * (sizeof(SearchInstanceData) + 2 * sizeof(std::uint32_t));
+}
+
+}  // namespace
+
+PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+                                     bool reads_records, bool timestamps)
+    : device_(&device),
+      layout_(&layout),
+      submission_(device),
+      timestamps_(device, passes::PairSearch::pass_count, timestamps),
+      shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+              gpu::Direction::upload, "nearfield pair shapes"),
+      instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
+                 "nearfield pair instances"),
+      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
+               "nearfield pair scratch"),
+      arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                 gpu::Direction::readback, "nearfield pair arguments"),
+      records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+               reads_records ? gpu::Direction::readback : gpu::Direction::none,
+               "nearfield pair points"),
+      rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+            "nearfield pair rows"),
+      sets_(device, layout, names_of_sets) {
+    arguments_.reserve(argument_bytes);
+    item_.capacities = first_capacities;
+    for (std::size_t i = 0; i < item_.sets.size(); ++i) {
+        item_.sets[i] = sets_[i];
+    }
+}
+
+PairSearchBuffers::~PairSearchBuffers() {
+    if (is_submitted_) {
+        submission_.wait_to_the_end();
+    }
+}
+
+void PairSearchBuffers::reserve_instances(std::uint32_t count) {
+    if (count > instance_room_) {
+        instance_room_ = 0;
+        is_laid_out_ = false;
+        const std::uint32_t room = std::max(count, 2 * item_.push.instances);
+        instances_.reserve(instance_bytes(room));
+        instance_room_ = room;
+    }
+    is_laid_out_ = is_laid_out_ && count == item_.push.instances;
+    item_.push.instances = count;
+}
+
+void PairSearchBuffers::set_query(plan::PairQueryData query) {
+    query.order = 4 * (1 + plan::units_of_instance * instance_room_);
+    std::memcpy(instances_.data(), &query, sizeof(query));
+}
+
+void PairSearchBuffers::set_instance(std::uint32_t number, const SearchInstanceData& data) {
+    std::memcpy(instances_.data() + sizeof(plan::PairQueryData) + number * sizeof(data), &data,
+                sizeof(data));
+}
+
+void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
+    auto* const words = reinterpret_cast<std::uint32_t*>(
+        instances_.data() + sizeof(plan::PairQueryData) +
+        instance_room_ * sizeof(SearchInstanceData));
+    for (std::uint32_t place = 0; place < order.size(); ++place) {
+        words[place] = order[place];
+        words[order.size() + order[place]] = place;
+    }
+}
+
+void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
+    const auto bytes = std::as_bytes(shapes.units());
+    const bool is_new = !texels_ || bytes.size() > shapes_.capacity();
+    if (is_new) {
+        texels_.reset();
+        is_laid_out_ = false;
+        shapes_.reserve(bytes.size());
+        texels_ = gpu::make_texel_view(*device_, shapes_, "nearfield pair texels");
+    }
+    if (is_new || shapes.revision() != shapes_revision_) {
+        std::copy(bytes.begin(), bytes.end(), shapes_.data());
+        shapes_.flush();
+        shapes_revision_ = shapes.revision();
+        is_laid_out_ = is_laid_out_ && shape_bytes_ == bytes.size();
+        shape_bytes_ = bytes.size();
+    }
+}
+
+/// The arrays about instances.
+void PairSearchBuffers::lay_out_instances(std::uint64_t& word) {
+    plan::SearchPush& push = item_.push;
+    const auto words = [&word](std::uint64_t count) {
+        const std::uint64_t first = word;
+        word += (count + 3) / 4 * 4;
+        return static_cast<std::uint32_t>(first);
+    };
+    std::uint64_t boxes = 0;
+    std::uint64_t level = push.instances;
+    for (std::uint32_t i = 0; i < plan::instance_levels; ++i) {
+        boxes += level;
+        level = (level + 7) / 8;
+    }
+    push.boxes = words(4 * boxes) / 4;
+    push.lists = words(4 * std::uint64_t{push.instances}) / 4;
+    push.pair_blocks = words(blocks_for(push.instances));
+    push.list_item_blocks = words(blocks_for(push.instances));
+}
+
+void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
+    plan::SearchPush& push = item_.push;
+    const auto [edges, points, found, pairs, items, rows] = item_.capacities;
+    std::uint64_t word = plan::words_of_totals;
+    const auto words = [&word](std::uint64_t count) {
+        const std::uint64_t first = word;
+        word += (count + 3) / 4 * 4;
+        return static_cast<std::uint32_t>(first);
+    };
+    lay_out_instances(word);
+    push.pairs = words(2 * std::uint64_t{pairs});
+    push.directions = words(4 * std::uint64_t{plan::units_of_direction} * pairs) / 4;
+    push.summaries = words(8 * std::uint64_t{pairs}) / 4;
+    push.row_blocks = words(blocks_for(pairs));
+    push.first_directions = words(blocks_for(items));
+    push.item_blocks = words(blocks_for(items));
+    push.item_words = words(items);
+    push.edge_blocks = words(blocks_for(edges));
+    push.edge_units = words(8 * std::uint64_t{edges}) / 4;
+    push.point_blocks = words(blocks_for(points / plan::points_per_thread + 1));
+    push.point_units = words(4 * std::uint64_t{points}) / 4;
+    push.depths = words(points);
+    push.record_depths = words(found);
+    scratch_bytes_ = word * sizeof(std::uint32_t);
+    const std::uint64_t record_bytes =
+        std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData);
+    const std::uint64_t row_bytes = (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData);
+    if (scratch_bytes_ + record_bytes + row_bytes > memory_limit) {
+        throw StatusException(
+            {StatusCode::too_large,
+             "the pairs of the world need " +
+                 std::to_string(scratch_bytes_ + record_bytes + row_bytes) +
+                 " bytes on the device; Settings::memory_limit is " +
+                 std::to_string(memory_limit)});
+    }
+    scratch_.reserve(scratch_bytes_);
+    records_.reserve(record_bytes);
+    rows_.reserve(row_bytes);
+    item_.shapes = shapes_.handle();
+    item_.instances = instances_.handle();
+    item_.scratch = scratch_.handle();
+    item_.arguments = arguments_.handle();
+    item_.records = records_.handle();
+    item_.rows = rows_.handle();
+    bind();
+    is_laid_out_ = true;
+}
+
+void PairSearchBuffers::bind() const {
+    using Layout = passes::ComputeLayout;
+    layout_->begin_updates();
+    const std::uint64_t record_bytes =
+        std::max(item_.capacities[plan::record_total], 1U) * sizeof(plan::FoundPointData);
+    const std::uint64_t row_bytes =
+        (item_.capacities[plan::row_total] + std::uint64_t{1}) * sizeof(plan::PairRowData);
+    for (std::size_t i = 0; i < item_.sets.size(); ++i) {
+        const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
+            layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
+        };
+        write(Layout::geometry, item_.scratch, scratch_bytes_);
+        write(Layout::output, item_.arguments, argument_bytes);
+        layout_->write_texels(item_.sets[i], texels_.get());
+        if (i == passes::PairSearch::of_rows) {
+            write(Layout::tiles, item_.records, record_bytes);
+            write(Layout::points, item_.rows, row_bytes);
+        } else {
+            write(Layout::tiles, item_.shapes, shape_bytes_);
+            if (i == passes::PairSearch::of_points) {
+                write(Layout::points, item_.records, record_bytes);
+            } else {
+                write(Layout::points, item_.instances, instance_bytes(instance_room_));
+            }
+        }
+    }
+    layout_->end_updates();
+}
+
+void PairSearchBuffers::submit(const passes::PairSearch& passes) {
+    // A device that is lost leaves no counts of an earlier search.
+    std::memset(arguments_.data(), 0, argument_bytes);
+    arguments_.flush();
+    std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
+    rows_.flush();
+    VkCommandBuffer commands = submission_.begin();
+    timestamps_.reset(commands);
+    passes.record(commands, timestamps_, item_);
+    submission_.submit();
+    is_submitted_ = true;
+}
+
+void PairSearchBuffers::read_back() {
+    submission_.wait();
+    is_submitted_ = false;
+    arguments_.invalidate();
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        std::memcpy(&counts_[i],
+                    arguments_.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
+                    sizeof(counts_[i]));
+    }
+}
+
+bool PairSearchBuffers::had_room() const {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        if (counts_[i] > item_.capacities[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Makes room for what the device has counted, and a little more. Later stages have counted nothing
+/// of what earlier ones had no room for, so they grow when their turn comes.
+void PairSearchBuffers::grow() {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+        if (counts_[i] > max_counted) {
+            throw StatusException({StatusCode::too_large,
+                                   "the pairs of the world need more than 2^29 steps of a search; "
+                                   "ask about fewer or smaller instances"});
+        }
+        if (counts_[i] > item_.capacities[i]) {
+            item_.capacities[i] = counts_[i] + counts_[i] / 4;
+        }
+    }
+    is_laid_out_ = false;
+}
+
+void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                               std::uint64_t memory_limit, std::vector<PassTime>& times) {
+    upload_shapes(shapes);
+    instances_.flush();
+    for (;;) {
+        checkpoint();
+        if (!is_laid_out_) {
+            lay_out(memory_limit);
+        }
+        submit(passes);
+        read_back();
+        timestamps_.collect(times);
+        if (had_room()) {
+            break;
+        }
+        grow();
+    }
+    rows_.invalidate();
+    if (records_.data() != nullptr) {
+        records_.invalidate();
+    }
+}
+
+}  // namespace nearfield::render

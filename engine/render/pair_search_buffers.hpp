@@ -1,0 +1,98 @@
+#pragma once
+
+#include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
+#include <engine/gpu/submission.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/plan/search_shapes.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_sets.hpp>
+#include <passes/pair_search.hpp>
+
+#include <shaders/pairs.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nearfield::render {
+
+/// By stage (shaders/search.h): pairs, their items, edges, points, points found, and rows.
+using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
+
+/// The memory of a search for all pairs of a world's instances, with its descriptor sets and its
+/// submission. It only grows.
+class PairSearchBuffers {
+public:
+    /// `reads_records`: the host reads the points that are found.
+    PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
+                      bool reads_records, bool timestamps);
+    /// Waits for the device if it is still working.
+    ~PairSearchBuffers();
+    PairSearchBuffers(const PairSearchBuffers&) = delete;
+    PairSearchBuffers& operator=(const PairSearchBuffers&) = delete;
+
+    /// Makes room for so many instances, all of which have to be written, with query and order.
+    void reserve_instances(std::uint32_t count);
+    /// What holds for all pairs; the member `order` is set by this class.
+    void set_query(plan::PairQueryData query);
+    void set_instance(std::uint32_t number, const plan::SearchInstanceData& data);
+    /// The instances in the order of the hierarchy: a permutation of their numbers.
+    void set_order(std::span<const std::uint32_t> order);
+
+    /// Finds all pairs and waits for them: submits as often as it takes to have room for all.
+    /// Throws StatusException, (too_large) if the device cannot hold them, or they need more bytes
+    /// than `memory_limit`.
+    void search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
+                std::uint64_t memory_limit, std::vector<PassTime>& times);
+
+    [[nodiscard]] const PairCounts& counts() const { return counts_; }
+    /// How many of the rows the CPU has to decide.
+    [[nodiscard]] std::uint32_t undecided() const { return rows_data()[0].a; }
+    /// In ascending order of the instances.
+    [[nodiscard]] std::span<const plan::PairRowData> rows() const {
+        return {rows_data() + 1, counts_[plan::row_total]};
+    }
+    /// Only if the host reads them.
+    [[nodiscard]] std::span<const plan::FoundPointData> records() const {
+        return {reinterpret_cast<const plan::FoundPointData*>(records_.data()),
+                counts_[plan::record_total]};
+    }
+private:
+    [[nodiscard]] const plan::PairRowData* rows_data() const {
+        return reinterpret_cast<const plan::PairRowData*>(rows_.data());
+    }
+    void upload_shapes(const plan::SearchShapes& shapes);
+    void lay_out(std::uint64_t memory_limit);
+    void lay_out_instances(std::uint64_t& word);
+    void bind() const;
+    void submit(const passes::PairSearch& passes);
+    void read_back();
+    [[nodiscard]] bool had_room() const;
+    void grow();
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    gpu::Submission submission_;
+    gpu::Timestamps timestamps_;
+    bool is_submitted_ = false;
+    gpu::MappedBuffer shapes_;
+    gpu::MappedBuffer instances_;
+    gpu::MappedBuffer scratch_;
+    gpu::MappedBuffer arguments_;
+    gpu::MappedBuffer records_;
+    gpu::MappedBuffer rows_;
+    gpu::Owned<VkBufferView> texels_;  // of the shapes
+    passes::DescriptorSets sets_;
+    passes::PairSearch::Item item_;
+    std::uint32_t instance_room_ = 0;
+    std::uint64_t shape_bytes_ = 0;
+    std::uint64_t shapes_revision_ = 0;
+    std::uint64_t scratch_bytes_ = 0;
+    bool is_laid_out_ = false;
+    PairCounts counts_{};
+};
+
+}  // namespace nearfield::render

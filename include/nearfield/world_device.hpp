@@ -1,0 +1,76 @@
+#pragma once
+
+#include <nearfield/export.hpp>
+#include <nearfield/query.hpp>
+#include <nearfield/result.hpp>
+#include <nearfield/status.hpp>
+#include <nearfield/timings.hpp>
+#include <nearfield/world_pairs.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+/// \file
+/// All pairs of a world, found and examined by the device.
+
+namespace nearfield {
+
+/// The penetrations between all pairs of instances in a world, found by the device: boxes, pairs,
+/// points and their depths are computed there (Technique::compute). The time that the CPU spends on
+/// World::update() grows with the number of instances that have moved, not with that of pairs. A
+/// row is made exact, in double precision, when it is read.
+///
+/// There is one row per ordered pair of instances of which `a` has a point that penetrates `b`, in
+/// ascending order of the pairs, in the order in which their instances were added: by `a`, then by
+/// `b`. A pair whose boundaries cross without such a point, where they overlap by less than the
+/// samples tell, has no row. Filters apply (WorldInstance). Rows agree with those of a PairTable as
+/// the answers of two techniques do (Technique). Where single precision cannot tell whether a
+/// point penetrates, or which one is deepest, the CPU answers the pair.
+///
+/// Used with one world at a time; a table that comes to another world starts anew. It keeps its
+/// memory, on the device too, from update to update, and holds the world's shapes as they were at
+/// the last update.
+///
+/// Threads: as for the world. Lifetime: the world's context must outlive the table.
+class NEARFIELD_EXPORT DevicePairTable {
+public:
+    using Row = PairRow<PenetrationQuery>;  ///< `first_record` is 0
+
+    /// A table without rows. `a` and `b` of the query are ignored. Its technique is
+    /// Technique::compute, or automatic, which means the same; the others are rejected by
+    /// World::update(), as are resident results.
+    explicit DevicePairTable(const PenetrationQuery& query);
+    ~DevicePairTable();
+    /// Takes the contents of another table, which can then only be destroyed or assigned to.
+    DevicePairTable(DevicePairTable&&) noexcept;
+    /// Likewise.
+    DevicePairTable& operator=(DevicePairTable&&) noexcept;
+
+    /// The query, as it was given.
+    [[nodiscard]] const PenetrationQuery& query() const noexcept;
+    /// The number of rows.
+    [[nodiscard]] std::uint32_t size() const noexcept;
+    /// The number of ordered pairs whose bounding boxes overlap, as the device computes them.
+    [[nodiscard]] std::uint32_t candidates() const noexcept;
+    /// The number of candidates that the CPU answered during the last update.
+    [[nodiscard]] std::uint32_t left_to_cpu() const noexcept;
+
+    /// The answer for one pair, made exact now; fails (invalid_query) if there are fewer rows.
+    /// `row.record_count` is 0 if the query does without records.
+    [[nodiscard]] Expected<Row> row(std::uint32_t index);
+    /// Replaces `records` by those of a row, in order along the rings of `a`; also fails
+    /// (invalid_query) if the query does without records.
+    Status records(std::uint32_t index, std::vector<PenetrationRecord>& records);
+
+    /// Of the last update. `plan`: what has changed is uploaded; `device`: from submission until
+    /// the end of the wait; `decode`: pairs that the CPU answered.
+    [[nodiscard]] const Timings& timings() const noexcept;
+
+private:
+    friend class World;
+    struct NEARFIELD_HIDDEN State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace nearfield

@@ -1,0 +1,191 @@
+#include <passes/pair_search.hpp>
+#include <passes/reads_texels.hpp>
+
+#include <shaders/pair_boxes_comp.hpp>
+#include <shaders/pair_directions_comp.hpp>
+#include <shaders/pair_levels_comp.hpp>
+#include <shaders/pair_lists_comp.hpp>
+#include <shaders/pair_rows_comp.hpp>
+#include <shaders/pair_summaries_comp.hpp>
+#include <shaders/search_edges_comp.hpp>
+#include <shaders/search_items_comp.hpp>
+#include <shaders/search_pack_comp.hpp>
+#include <shaders/search_points_comp.hpp>
+#include <shaders/search_scan_comp.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+using graph::Access;
+
+constexpr VkDeviceSize argument_bytes = plan::words_of_arguments * sizeof(std::uint32_t);
+
+std::array<VkBool32, 2> constants_of(const gpu::Device& device) {
+    return {reads_texels(device), VK_TRUE};
+}
+
+}  // namespace
+
+PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout)
+    : boxes_(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes",
+             constants_of(device)),
+      levels_(device, layout, shaders::pair_levels_comp, "nearfield pair levels"),
+      lists_(device, layout, shaders::pair_lists_comp, "nearfield pair lists",
+             constants_of(device)),
+      directions_(device, layout, shaders::pair_directions_comp, "nearfield pair directions",
+                  constants_of(device)),
+      scan_(device, layout, shaders::search_scan_comp, "nearfield pair scan", constants_of(device)),
+      items_(device, layout, shaders::search_items_comp, "nearfield pair items",
+             constants_of(device)),
+      edges_(device, layout, shaders::search_edges_comp, "nearfield pair edges",
+             constants_of(device)),
+      points_(device, layout, shaders::search_points_comp, "nearfield pair points",
+              constants_of(device)),
+      pack_(device, layout, shaders::search_pack_comp, "nearfield pair packing",
+            constants_of(device)),
+      summaries_(device, layout, shaders::pair_summaries_comp, "nearfield pair summaries",
+                 constants_of(device)),
+      rows_(device, layout, shaders::pair_rows_comp, "nearfield pair rows", constants_of(device)),
+      input_(graph_.import_buffer({"pair shapes", true, false})),
+      instances_(graph_.import_buffer({"pair instances", true, false})),
+      scratch_(graph_.import_buffer({"pair scratch"})),
+      arguments_(graph_.import_buffer({"pair arguments", true, true})),
+      records_(graph_.import_buffer({"pair points", false, true})),
+      row_buffer_(graph_.import_buffer({"pair rows", true, true})) {
+    declare_pairs();
+    declare_points();
+    graph_.compile(device);
+}
+
+/// A pass that writes into the scratch memory; the set says what it reads.
+void PairSearch::add(const char* name, const ComputeShader& shader, Set set,
+                     std::uint32_t threads_of, std::uint32_t stage) {
+    graph_.add_pass(
+        name, graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            if (set == of_instances) {
+                pass.read(instances_, Access::storage_read_in_compute);
+            }
+            pass.read(input_, Access::storage_read_in_compute);
+            if (threads_of != no_stage) {
+                pass.read(arguments_, Access::indirect_arguments);
+            }
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+        },
+        [this, &shader, set, threads_of, stage](VkCommandBuffer commands, const Item& item) {
+            shader.bind(commands, item.sets[set]);
+            dispatch(commands, item, shader, threads_of, stage);
+        });
+}
+
+void PairSearch::add_scan(const char* name, std::uint32_t stage) {
+    graph_.add_pass(
+        name, graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
+        },
+        [this, stage](VkCommandBuffer commands, const Item& item) {
+            scan_.bind(commands, item.sets[of_points]);
+            push(commands, item, scan_, 0, stage);
+            scan_.dispatch(commands, 1);
+        });
+}
+
+void PairSearch::declare_pairs() {
+    add("pair boxes", boxes_, of_instances, no_stage);
+    graph_.add_pass(
+        "pair levels", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            levels_.bind(commands, item.sets[of_instances]);
+            push(commands, item, levels_, 0, 0);
+            levels_.dispatch(commands, 1);
+        });
+    add("count pairs", lists_, of_instances, no_stage, plan::pair_total);
+    add_scan("sum pairs", plan::pair_total);
+    add("list pairs", lists_, of_instances, no_stage);
+    add("pair directions", directions_, of_instances, plan::pair_total);
+}
+
+void PairSearch::declare_points() {
+    add("pair items", items_, of_points, plan::item_total);
+    add_scan("count edges", plan::edge_total);
+    add("pair edges", edges_, of_points, plan::edge_total);
+    add_scan("count points", plan::point_total);
+    add("pair points", points_, of_points, plan::point_total);
+    add_scan("count found points", plan::record_total);
+    graph_.add_pass(
+        "pack points", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(arguments_, Access::indirect_arguments);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+            records_ = pass.write(records_, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            pack_.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, pack_, plan::point_total, no_stage);
+        });
+    graph_.add_pass(
+        "pair summaries", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(arguments_, Access::indirect_arguments);
+            pass.read(records_, Access::storage_read_in_compute);
+            scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            summaries_.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, summaries_, plan::pair_total, no_stage);
+        });
+    add_scan("count rows", plan::row_total);
+    graph_.add_pass(
+        "pair rows", graph::PassKind::compute,
+        [&](graph::PassBuilder& pass) {
+            pass.read(arguments_, Access::indirect_arguments);
+            pass.read(scratch_, Access::storage_read_in_compute);
+            pass.read(records_, Access::storage_read_in_compute);
+            static_cast<void>(pass.write(row_buffer_, Access::storage_write_in_compute));
+        },
+        [this](VkCommandBuffer commands, const Item& item) {
+            rows_.bind(commands, item.sets[of_rows]);
+            dispatch(commands, item, rows_, plan::pair_total, no_stage);
+        });
+}
+
+void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
+                        const Item& item) const {
+    graph::Executor& executor = graph_.executor();
+    executor.set_buffer(input_, item.shapes);
+    executor.set_buffer(instances_, item.instances);
+    executor.set_buffer(scratch_, item.scratch);
+    executor.set_buffer(arguments_, item.arguments);
+    executor.set_buffer(records_, item.records);
+    executor.set_buffer(row_buffer_, item.rows);
+    graph_.execute(commands, timestamps, item);
+}
+
+void PairSearch::push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                      std::uint32_t first, std::uint32_t stage) {
+    plan::SearchPush push = item.push;
+    push.first = first;
+    push.stage = stage;
+    push.capacity = stage < item.capacities.size() ? item.capacities[stage] : 0;
+    push.second_capacity = item.capacities[plan::item_total];
+    shader.push(commands, push);
+}
+
+void PairSearch::dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                          std::uint32_t threads_of, std::uint32_t stage) const {
+    if (threads_of == no_stage) {
+        shader.dispatch_in_parts(commands, 0, item.push.instances, [&](std::uint32_t first) {
+            push(commands, item, shader, first, stage);
+        });
+        return;
+    }
+    push(commands, item, shader, 0, stage);
+    shader.dispatch_indirect(commands, item.arguments, argument_bytes * threads_of);
+}
+
+}  // namespace nearfield::passes

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/timestamps.hpp>
+#include <engine/graph/recorded_graph.hpp>
+#include <nearfield/diagnostics.hpp>
+#include <passes/compute_shader.hpp>
+
+#include <shaders/pairs.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace nearfield::passes {
+
+/// The passes that find all pairs of a world's instances and the points of one in the other, in a
+/// separate graph: boxes and the levels above them, the pairs of each instance, counted and then
+/// listed, their directions; the search for points (PointSearch) in all of them; a summary per
+/// pair, and the rows of those that have points. The number of dispatches depends neither on the
+/// number of instances nor on that of pairs.
+class PairSearch {
+public:
+    PairSearch(const gpu::Device& device, const ComputeLayout& layout);
+
+    /// The descriptor sets of one search: of the passes about instances, about points, and of the
+    /// last.
+    enum Set : std::uint8_t { of_instances, of_points, of_rows };
+    static constexpr std::size_t set_count = 3;
+
+    /// What one search is recorded from.
+    struct Item {
+        std::array<VkDescriptorSet, set_count> sets{};
+        VkBuffer shapes = VK_NULL_HANDLE;
+        VkBuffer instances = VK_NULL_HANDLE;
+        VkBuffer scratch = VK_NULL_HANDLE;
+        VkBuffer arguments = VK_NULL_HANDLE;
+        VkBuffer records = VK_NULL_HANDLE;
+        VkBuffer rows = VK_NULL_HANDLE;
+        plan::SearchPush push{};  ///< without stage and capacities
+        /// How many elements of each stage there is room for.
+        std::array<std::uint32_t, plan::stages_of_pairs> capacities{};
+    };
+    void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
+
+    static constexpr std::uint32_t pass_count = 16;
+
+    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
+
+private:
+    /// One thread per element that a stage has counted, or, without a stage, per instance.
+    static constexpr std::uint32_t no_stage = UINT32_MAX;
+
+    void declare_pairs();
+    void declare_points();
+    void add(const char* name, const ComputeShader& shader, Set set, std::uint32_t threads_of,
+             std::uint32_t stage = no_stage);
+    void add_scan(const char* name, std::uint32_t stage);
+    void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                  std::uint32_t threads_of, std::uint32_t stage) const;
+    static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
+                     std::uint32_t first, std::uint32_t stage);
+
+    ComputeShader boxes_;
+    ComputeShader levels_;
+    ComputeShader lists_;
+    ComputeShader directions_;
+    ComputeShader scan_;
+    ComputeShader items_;
+    ComputeShader edges_;
+    ComputeShader points_;
+    ComputeShader pack_;
+    ComputeShader summaries_;
+    ComputeShader rows_;
+    graph::RecordedGraph<Item> graph_;
+    graph::Handle input_;
+    graph::Handle instances_;
+    graph::Handle scratch_;
+    graph::Handle arguments_;
+    graph::Handle records_;
+    graph::Handle row_buffer_;
+};
+
+}  // namespace nearfield::passes

@@ -1,0 +1,94 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The directions of the search, one thread per pair: puts the pairs of each instance in ascending
+// order, and transforms A's frame to B's.
+
+#include "search.glsl"
+#include "pairs.glsl"
+
+layout(local_size_x = group_size) in;
+
+// Everything happens in floats: rounded sines and cosines, a handful of operations, each of which
+// errs by at most 2^-24 of its result. 2^-19 of the largest coordinates covers them. The places of
+// the instances are known to 2^-47 of theirs.
+const float margin_of_frames = 1.0 / 524288.0;
+const float margin_of_places = 1.0 / 140737488355328.0;
+// plan::search_precision
+const float search_precision = 1.0 / 16384.0;
+
+struct List {
+    uint first;       // direction
+    uint first_item;
+    uint end;
+};
+
+List list_of(uint a) {
+    uvec4 list = scratch_units[push.lists + a];
+    uint first = list.x + scratch[push.pair_blocks + a / search_block];
+    return List(first, list.y + scratch[push.list_item_blocks + a / search_block],
+                min(first + list.z, scratch[pair_total]));
+}
+
+// How many of the pairs of a list come before that with `b`.
+uint rank_of(uint b, List list) {
+    uint rank = 0u;
+    for (uint i = list.first; i < list.end; ++i) {
+        rank += scratch[push.pairs + 2u * i + 1u] < b ? 1u : 0u;
+    }
+    return rank;
+}
+
+// `touching`: see PairQueryData, in units of B's frame; negative: the CPU answers the pair.
+void write_direction(uint index, SearchDirectionData data, float touching, uint a, uint b) {
+    uint unit = push.directions + units_of_direction * index;
+    scratch_units[unit] = floatBitsToUint(vec4(data.axis, data.offset));
+    scratch_units[unit + 1u] = uvec4(data.shape_a, data.shape_b, data.parts, data.first_item);
+    scratch_units[unit + 2u] =
+        floatBitsToUint(vec4(data.reach, data.margin, data.rival, data.outside));
+    scratch_units[unit + 3u] = uvec4(floatBitsToUint(data.doubt), floatBitsToUint(touching), a, b);
+}
+
+SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b) {
+    PairQueryData query = pair_query();
+    vec2 apart = (a.high - b.high) + (a.low - b.low);
+    mat2 to_b = mat2(b.axis.x, -b.axis.y, b.axis.y, b.axis.x);
+    vec2 axis = (a.unit / b.unit) * (to_b * a.axis);
+    vec2 offset = (to_b * apart) / b.unit;
+    float extent = (a.radius + b.radius) / b.unit + length(offset);
+    float places = (abs(a.high.x) + abs(a.high.y) + abs(b.high.x) + abs(b.high.y)) / b.unit;
+    float margin = margin_of_frames * extent + margin_of_places * places;
+    float rival = query.rival / b.unit;
+    float doubt = margin > search_precision * query.cell / b.unit ? rival + 4.0 * margin : -1.0;
+    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, 0.0, margin, rival, 0.0,
+                               doubt, float[3](0.0, 0.0, 0.0));
+}
+
+// Of each block of items that starts among those of a direction, its first direction.
+void write_blocks(uint direction, uint first_item, uint items) {
+    uint end = min(first_item + items, scratch[item_total]);
+    for (uint block = (first_item + search_block - 1u) / search_block; search_block * block < end;
+         ++block) {
+        scratch[push.first_directions + block] = direction;
+    }
+}
+
+void main() {
+    uint found = dispatched_index();
+    if (found >= scratch[pair_total]) {
+        return;
+    }
+    uint a = scratch[push.pairs + 2u * found];
+    uint b = scratch[push.pairs + 2u * found + 1u];
+    List list = list_of(a);
+    uint rank = rank_of(b, list);
+    SearchInstanceData first = instance_at(a);
+    SearchInstanceData second = instance_at(b);
+    uint chunks = unit_at(first.shape).x;
+    SearchDirectionData data = direction_between(first, second);
+    data.first_item = list.first_item + rank * chunks;
+    bool left_to_cpu = (first.left_to_cpu | second.left_to_cpu) != 0u;
+    float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
+    write_direction(list.first + rank, data, touching, a, b);
+    write_blocks(list.first + rank, data.first_item, chunks);
+}

@@ -1,0 +1,54 @@
+// The pairs of a world's instances (pairs.h): access to the instances and to the boxes over them.
+// Include after search.glsl.
+
+#include "pairs.h"
+
+layout(std430, set = 0, binding = 2) readonly buffer Instances {
+    uvec4 instance_units[];  // PairQueryData, then one instance after the other
+};
+layout(std430, set = 0, binding = 2) readonly buffer InstanceWords {
+    uint instance_words[];  // the same memory
+};
+
+PairQueryData pair_query() {
+    uvec4 unit = instance_units[0];
+    vec4 lengths = uintBitsToFloat(unit);
+    return PairQueryData(lengths.x, lengths.y, lengths.z, unit.w);
+}
+
+SearchInstanceData instance_at(uint number) {
+    uint unit = 1u + units_of_instance * number;
+    vec4 turned = uintBitsToFloat(instance_units[unit]);
+    uvec4 second = instance_units[unit + 1u];
+    uvec4 third = instance_units[unit + 2u];
+    vec4 lengths = uintBitsToFloat(second);
+    return SearchInstanceData(turned.xy, turned.zw, lengths.xy, lengths.z, lengths.w, third.x,
+                              third.y, third.z, third.w, instance_units[unit + 3u].x,
+                              uint[3](0u, 0u, 0u));
+}
+
+// The number of the instance at a place in the hierarchy.
+uint instance_in_order(uint place) {
+    return instance_words[instance_units[0].w + place];
+}
+
+// The number of boxes on a level.
+uint level_size(uint level) {
+    return (push.instances + (1u << (3u * level)) - 1u) >> (3u * level);
+}
+
+uint size_below(uint level, uint lower) {
+    return level > lower ? level_size(lower) : 0u;
+}
+
+// The first unit of a level; without a loop, since it is called in each step of long ones.
+uint level_unit(uint level) {
+    return push.boxes + size_below(level, 0u) + size_below(level, 1u) + size_below(level, 2u) +
+           size_below(level, 3u) + size_below(level, 4u);
+}
+
+vec4 merged(vec4 a, vec4 b) {
+    return vec4(min(a.xy, b.xy), max(a.zw, b.zw));
+}
+
+const vec4 empty_box = vec4(infinity, infinity, -infinity, -infinity);

@@ -1,0 +1,67 @@
+// The pairs of a world's instances that the device finds, for shaders and for C++ (see shared.h).
+#ifndef NEARFIELD_SHADERS_PAIRS_H
+#define NEARFIELD_SHADERS_PAIRS_H
+
+#include "search.h"
+
+NEARFIELD_SHARED_BEGIN
+
+// What holds for all pairs, at the start of the buffer of instances. World units.
+struct PairQueryData {
+    float cell NEARFIELD_DEFAULT(0.0F);      // of the samples
+    float rival NEARFIELD_DEFAULT(0.0F);     // see SearchDirectionData
+    float touching NEARFIELD_DEFAULT(0.0F);  // points that are not deeper only touch
+    uint order NEARFIELD_DEFAULT(0);  // first word of the instances in the order of the hierarchy
+};
+NEARFIELD_CHECK(sizeof(PairQueryData) == 16)
+
+// An instance. Positions are relative to an origin near the instances, in world units.
+struct SearchInstanceData {
+    vec2 axis;  // its x axis: cosine and sine of its angle
+    vec2 high;  // its shape's centre, rounded
+    vec2 low;   // what the rounding has left out
+    float unit NEARFIELD_DEFAULT(0.0F);    // length of a unit of the shape's frame
+    float radius NEARFIELD_DEFAULT(0.0F);  // of the shape around its centre, rounded up
+    uint shape NEARFIELD_DEFAULT(0);       // first unit in the input
+    uint parts NEARFIELD_DEFAULT(no_parts);
+    uint category NEARFIELD_DEFAULT(0);  // see WorldInstance
+    uint mask NEARFIELD_DEFAULT(0);
+    uint left_to_cpu NEARFIELD_DEFAULT(0);  // 1: the CPU answers its pairs
+    uint unused[3] NEARFIELD_DEFAULT({});
+};
+const uint units_of_instance = 4u;
+NEARFIELD_CHECK(sizeof(SearchInstanceData) == 16 * units_of_instance)
+
+// A pair that has penetrating points, or whose answer the CPU has to decide.
+struct PairRowData {
+    uint a NEARFIELD_DEFAULT(0);  // numbers of the instances
+    uint b NEARFIELD_DEFAULT(0);
+    uint count NEARFIELD_DEFAULT(0);  // of penetrating points, and flags
+    // Those that were found, among which they are: consecutive ones
+    uint first_record NEARFIELD_DEFAULT(0);
+    uint record_count NEARFIELD_DEFAULT(0);
+    uint edge NEARFIELD_DEFAULT(0);  // the deepest point, as FoundPointData has it
+    uint number NEARFIELD_DEFAULT(0);
+    uint word NEARFIELD_DEFAULT(0);
+};
+const uint units_of_row = 2u;
+NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
+
+// Flags of PairRowData::count.
+const uint row_undecided = 1u << 31;  // the CPU has to answer the pair
+const uint row_has_rival = 1u << 30;  // another point may be as deep
+const uint row_count_mask = row_has_rival - 1u;
+
+// A level of the hierarchy of instances has a box per eight boxes of the level below it, until at
+// most eight are left.
+const uint instance_levels = 6u;  // of as many as there can be
+const uint max_instances = 1u << 18u;
+// The steps of one walk over the boxes of instances, each of which is one turn of a loop: some
+// drivers end the loops of an invocation without notice after 65,535 turns.
+const uint max_instance_steps = 60000u;
+// Points of one pair whose depths one thread compares; pairs with more are the CPU's. Likewise.
+const uint max_compared_depths = 60000u;
+
+NEARFIELD_SHARED_END
+
+#endif
