@@ -150,7 +150,7 @@ void PairSearch::declare_points() {
         },
         [this](VkCommandBuffer commands, const Item& item) {
             rows_.bind(commands, item.sets[of_rows]);
-            dispatch(commands, item, rows_, plan::pair_total, no_stage);
+            dispatch(commands, item, rows_, plan::pair_total, plan::row_total);
         });
 }
 

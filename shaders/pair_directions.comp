@@ -10,9 +10,9 @@
 layout(local_size_x = group_size) in;
 
 // Everything happens in floats: rounded sines and cosines, a handful of operations, each of which
-// errs by at most 2^-24 of its result. 2^-19 of the largest coordinates covers them. The places of
+// errs by at most 2^-24 of its result. 2^-20 of the largest coordinates covers them. The places of
 // the instances are known to 2^-47 of theirs.
-const float margin_of_frames = 1.0 / 524288.0;
+const float margin_of_frames = 1.0 / 1048576.0;
 const float margin_of_places = 1.0 / 140737488355328.0;
 // plan::search_precision
 const float search_precision = 1.0 / 16384.0;

@@ -15,6 +15,9 @@ layout(std430, set = 0, binding = 0) readonly buffer Records {
 layout(std430, set = 0, binding = 2) buffer Rows {
     uvec4 rows[];  // in place of the first one: the number of those that the CPU decides
 };
+layout(std430, set = 0, binding = 2) buffer RowWords {
+    uint row_words[];  // the same memory: behind all rows, the numbers of these, in any order
+};
 
 void main() {
     uint direction = dispatched_index();
@@ -33,6 +36,7 @@ void main() {
     rows[unit] = uvec4(about.z, about.w, summary.w, summary.x);
     rows[unit + 1u] = uvec4(summary.y, deepest.y, deepest.z, deepest.w);
     if ((summary.w & row_undecided) != 0u) {
-        atomicAdd(rows[0].x, 1u);
+        uint first = 4u * units_of_row * (push.capacity + 1u);
+        row_words[first + atomicAdd(row_words[0], 1u)] = target;
     }
 }

@@ -65,7 +65,8 @@ void main() {
         end = first_record(direction + 1u);
         vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
         float touching = uintBitsToFloat(direction_unit(direction, 3u).y);
-        float margin = 2.0 * lengths.y;
+        // That of the point's place, and roundings of the distance.
+        float margin = 1.5 * lengths.y;
         bool is_short = end - first <= max_compared_depths;
         Depths depths = compare(first, is_short ? end : first, touching, margin);
         bool decided = touching >= 0.0 && is_short && depths.decided;

@@ -73,16 +73,21 @@ const PenetrationResult* DevicePairTable::State::find_decided(std::uint32_t row)
     return found != decided_.end() && found->row == row ? &found->result : nullptr;
 }
 
+PenetrationQuery DevicePairTable::State::query_on_cpu(const plan::PairRowData& data,
+                                                      bool with_records) const {
+    PenetrationQuery on_cpu = query;
+    on_cpu.a = instances_[data.a].instance;
+    on_cpu.b = instances_[data.b].instance;
+    on_cpu.technique = Technique::cpu;
+    on_cpu.records = with_records;
+    return on_cpu;
+}
+
 PenetrationResult DevicePairTable::State::answer_on_cpu(const plan::PairRowData& data,
                                                         bool with_records) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
-    PenetrationQuery on_cpu = query;
-    on_cpu.a = a.instance;
-    on_cpu.b = b.instance;
-    on_cpu.technique = Technique::cpu;
-    on_cpu.records = with_records;
-    cpu_queries_.assign(1, on_cpu);
+    cpu_queries_.assign(1, query_on_cpu(data, with_records));
     context_->ring().answer(
         cpu_queries_,
         [&](ShapeHandle shape) { return shape == a.instance.shape ? a.polygon : b.polygon; },

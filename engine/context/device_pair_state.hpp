@@ -46,6 +46,7 @@ private:
         Instance instance;
         InstanceHandle handle;
         const geometry::Polygon* polygon = nullptr;  // held
+        bool is_too_deviant = false;                 // for the tolerance, with one like it
         std::uint64_t moves = 0;                     // see world::Instances
         plan::SearchInstanceData data;
     };
@@ -58,18 +59,18 @@ private:
 
     void check() const;
     void list_instances(const world::Instances& instances);
-    void place(const world::Instances& instances, PairInstance& entry, std::uint32_t number);
-    void place_moved(const world::Instances& instances);
+    void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
+    void place_moved(const world::Instances& instances, bool all);
     void place_all(const world::Instances& instances);
     void order_instances();
-    [[nodiscard]] bool is_left_to_cpu(const PairInstance& entry,
-                                      const geometry::TransformedPolygon& placed) const;
     void search();
     void decide();
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
     /// Null if the device decided.
     [[nodiscard]] const PenetrationResult* find_decided(std::uint32_t row) const;
+    [[nodiscard]] PenetrationQuery query_on_cpu(const plan::PairRowData& data,
+                                                bool with_records) const;
     [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data,
                                                   bool with_records);
     void begin(const plan::PairRowData& data);

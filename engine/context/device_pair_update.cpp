@@ -8,7 +8,10 @@
 #include <engine/plan/error_budget.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace nearfield {
@@ -20,6 +23,9 @@ using geometry::Vector;
 /// After so many updates the instances are ordered anew: boxes that hold what has moved apart only
 /// cost time.
 constexpr std::uint32_t max_updates_in_order = 64;
+/// Sines and cosines of several poses are computed at the same time; those of one alone would have
+/// to be waited for.
+constexpr std::size_t poses_at_once = 16;
 
 }  // namespace
 
@@ -47,6 +53,7 @@ void DevicePairTable::State::start_anew() {
     instances_.clear();
     indices_.clear();
     membership_ = shapes_revision_ = 0;
+    buffers_.reset();
     world_.reset();
     if (context_ != nullptr) {
         context_->shapes().release(held_);
@@ -75,47 +82,46 @@ void DevicePairTable::State::list_instances(const world::Instances& instances) {
     instances_.resize(indices_.size());
 }
 
-/// Whether the pairs of an instance may have to be refused, for reasons that the CPU knows: its
-/// coordinates or its deviation are large for the tolerance.
-bool DevicePairTable::State::is_left_to_cpu(const PairInstance& entry,
-                                            const TransformedPolygon& placed) const {
-    const double deviation = entry.polygon->deviation();
-    const Pose& pose = entry.instance.pose;
-    const double magnitude =
-        std::max({placed.translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
-                  entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
-                  std::abs(pose.translation.y)});
-    const plan::Deviations both{deviation, deviation};
-    return !plan::check_resolution(query.tolerance, magnitude).ok() ||
-           !plan::check_deviations(query.tolerance, both,
-                                   plan::penetration_budget(query, both).bound)
-                .ok();
+/// Writes instances whose poses may have changed.
+void DevicePairTable::State::place(const world::Instances& instances,
+                                   std::span<const std::uint32_t> numbers) {
+    std::array<std::optional<TransformedPolygon>, poses_at_once> placed;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        PairInstance& entry = instances_[numbers[i]];
+        const std::uint32_t index = indices_[numbers[i]];
+        entry.instance.pose = instances[index].pose;
+        entry.moves = instances.moves(index);
+        entry.data.category = instances[index].category;
+        entry.data.mask = instances[index].mask;
+        placed[i].emplace(*entry.polygon, entry.instance.pose);
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        PairInstance& entry = instances_[numbers[i]];
+        const Pose& pose = entry.instance.pose;
+        plan::set_place(*placed[i], origin_, entry.data);
+        const double magnitude =
+            std::max({placed[i]->translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
+                      entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                      std::abs(pose.translation.y)});
+        const bool is_resolved = plan::check_resolution(query.tolerance, magnitude).ok();
+        entry.data.left_to_cpu = entry.is_too_deviant || !is_resolved ? 1 : 0;
+        buffers_->set_instance(numbers[i], entry.data);
+    }
 }
 
-void DevicePairTable::State::place(const world::Instances& instances, PairInstance& entry,
-                                   std::uint32_t number) {
-    const std::uint32_t index = indices_[number];
-    const WorldInstance& instance = instances[index];
-    entry.instance.pose = instance.pose;
-    entry.moves = instances.moves(index);
-    const TransformedPolygon placed(*entry.polygon, instance.pose);
-    const std::uint32_t shape = entry.data.shape;
-    const std::uint32_t parts = entry.data.parts;
-    entry.data = plan::search_instance(placed, origin_);
-    entry.data.shape = shape;
-    entry.data.parts = parts;
-    entry.data.category = instance.category;
-    entry.data.mask = instance.mask;
-    entry.data.left_to_cpu = is_left_to_cpu(entry, placed) ? 1 : 0;
-    buffers_->set_instance(number, entry.data);
-}
-
-void DevicePairTable::State::place_moved(const world::Instances& instances) {
+void DevicePairTable::State::place_moved(const world::Instances& instances, bool all) {
+    std::array<std::uint32_t, poses_at_once> numbers{};
+    std::size_t count = 0;
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
-        if (instances.moves(indices_[number]) != instances_[number].moves) {
-            place(instances, instances_[number], number);
+        if (all || instances.moves(indices_[number]) != instances_[number].moves) {
+            numbers[count++] = number;
+            if (count == poses_at_once) {
+                place(instances, numbers);
+                count = 0;
+            }
         }
     }
+    place(instances, std::span(numbers).first(count));
 }
 
 void DevicePairTable::State::place_all(const world::Instances& instances) {
@@ -132,12 +138,17 @@ void DevicePairTable::State::place_all(const world::Instances& instances) {
         entry.polygon = context_->shapes().hold(instance.shape, held_);
         entry.data.shape = shapes_.place(*entry.polygon);
         entry.data.parts = samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
+        plan::set_shape(*entry.polygon, entry.data);
+        const double deviation = entry.polygon->deviation();
+        const plan::Deviations both{deviation, deviation};
+        entry.is_too_deviant =
+            !plan::check_deviations(query.tolerance, both,
+                                    plan::penetration_budget(query, both).bound)
+                 .ok();
         sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
     }
     origin_ = sum / static_cast<double>(std::max<std::size_t>(instances_.size(), 1));
-    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
-        place(instances, instances_[number], number);
-    }
+    place_moved(instances, true);
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
@@ -163,12 +174,9 @@ void DevicePairTable::State::order_instances() {
 
 void DevicePairTable::State::search() {
     render::Renderer& renderer = *context_->renderer();
-    const Stopwatch start;
     const Status status = context_->unless_lost([&] {
-        buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(),
-                         timings.passes);
+        buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(), timings);
     });
-    timings.device = start.milliseconds();
     if (!status.ok()) {
         throw StatusException(status);
     }
@@ -177,17 +185,22 @@ void DevicePairTable::State::search() {
 
 /// Answers what single precision could not decide, and drops the rows without points.
 void DevicePairTable::State::decide() {
-    if (buffers_->undecided() == 0) {
+    if (buffers_->undecided().empty()) {
         return;
     }
     const Stopwatch start;
-    for (std::uint32_t i = 0; i < rows; ++i) {
-        const plan::PairRowData& data = buffers_->rows()[i];
-        if ((data.count & plan::row_undecided) != 0) {
-            PenetrationResult result = answer_on_cpu(data, false);
-            const bool has_row = result.count > 0 || !result.status.ok();
-            decided_.push_back({i, has_row, std::move(result)});
-        }
+    const std::span<const std::uint32_t> undecided = buffers_->undecided();
+    cpu_queries_.clear();
+    for (const std::uint32_t i : undecided) {
+        cpu_queries_.emplace_back(query_on_cpu(buffers_->rows()[i], false));
+    }
+    context_->ring().answer(
+        cpu_queries_, [this](ShapeHandle shape) { return context_->shapes().find(shape); },
+        cpu_results_);
+    for (std::size_t i = 0; i < undecided.size(); ++i) {
+        auto& result = std::get<PenetrationResult>(cpu_results_.results[i]);
+        const bool has_row = result.count > 0 || !result.status.ok();
+        decided_.push_back({undecided[i], has_row, std::move(result)});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
                                           [](const Decided& one) { return one.has_row; });
@@ -219,7 +232,7 @@ void DevicePairTable::State::update(Context::Implementation& with,
     drops_rows_ = false;
     decided_.clear();
     device_rows_.clear();
-    timings.device = timings.decode = 0.0;
+    timings.record = timings.device = timings.decode = 0.0;
     for (PassTime& pass : timings.passes) {
         pass.milliseconds = -1.0;
     }
@@ -231,7 +244,7 @@ void DevicePairTable::State::update(Context::Implementation& with,
     const bool is_same = membership_ == instances.membership() &&
                          shapes_revision_ == context_->shapes().revision();
     if (is_same) {
-        place_moved(instances);
+        place_moved(instances, false);
     } else {
         membership_ = 0;
         list_instances(instances);

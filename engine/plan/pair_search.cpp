@@ -19,17 +19,18 @@ Vector place_of(const SearchInstanceData& instance) {
 
 }  // namespace
 
-SearchInstanceData search_instance(const geometry::TransformedPolygon& placed,
-                                   const Vector& origin) {
-    SearchInstanceData data;
+void set_shape(const geometry::Polygon& polygon, SearchInstanceData& data) {
+    data.unit = static_cast<float>(unit_length_of(polygon));
+    data.radius = rounded_up(polygon.radius());
+}
+
+void set_place(const geometry::TransformedPolygon& placed, const Vector& origin,
+               SearchInstanceData& data) {
     const Vector axis = placed.rotation().col(0);
     const Vector place = placed.translation() - origin;
     data.axis = {static_cast<float>(axis.x()), static_cast<float>(axis.y())};
     data.high = {static_cast<float>(place.x()), static_cast<float>(place.y())};
     data.low = {rest_of(place.x(), data.high.x), rest_of(place.y(), data.high.y)};
-    data.unit = static_cast<float>(unit_length_of(placed.polygon()));
-    data.radius = rounded_up(placed.polygon().radius());
-    return data;
 }
 
 double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b) {
@@ -37,7 +38,7 @@ double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b) 
     const Vector place_b = place_of(b);
     const double extent = static_cast<double>(a.radius) + static_cast<double>(b.radius) +
                           (place_a - place_b).norm();
-    return std::ldexp(extent, -19) + std::ldexp(place_a.lpNorm<1>() + place_b.lpNorm<1>(), -47);
+    return std::ldexp(extent, -20) + std::ldexp(place_a.lpNorm<1>() + place_b.lpNorm<1>(), -47);
 }
 
 }  // namespace nearfield::plan

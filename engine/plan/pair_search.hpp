@@ -7,10 +7,11 @@
 
 namespace nearfield::plan {
 
-/// An instance for the search for all pairs (shaders/pairs.h), without its shape's places in the
-/// input and without its filter. `origin`: that positions are relative to.
-[[nodiscard]] SearchInstanceData search_instance(const geometry::TransformedPolygon& placed,
-                                                 const geometry::Vector& origin);
+/// Sets what an instance has of its shape, except for its places in the input.
+void set_shape(const geometry::Polygon& polygon, SearchInstanceData& data);
+/// Sets what it has of its pose. `origin`: that positions are relative to.
+void set_place(const geometry::TransformedPolygon& placed, const geometry::Vector& origin,
+               SearchInstanceData& data);
 
 /// Bound on the errors of the device's single precision for a pair, world units; as
 /// shaders/pair_directions.comp has it.

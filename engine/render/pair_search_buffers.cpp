@@ -1,5 +1,6 @@
 #include <engine/base/interruption.hpp>
 #include <engine/base/status_exception.hpp>
+#include <engine/base/stopwatch.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 
 #include <algorithm>
@@ -34,6 +35,12 @@ std::uint64_t blocks_for(std::uint64_t elements) {
 std::uint64_t instance_bytes(std::uint32_t count) {
     return sizeof(plan::PairQueryData) +
            count * (sizeof(SearchInstanceData) + 2 * sizeof(std::uint32_t));
+}
+
+/// Rows, one more, and the numbers of those that the CPU decides.
+std::uint64_t bytes_of_rows(std::uint32_t rows) {
+    return (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData) +
+           std::uint64_t{rows} * sizeof(std::uint32_t);
 }
 
 }  // namespace
@@ -167,7 +174,7 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     scratch_bytes_ = word * sizeof(std::uint32_t);
     const std::uint64_t record_bytes =
         std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData);
-    const std::uint64_t row_bytes = (std::uint64_t{rows} + 1) * sizeof(plan::PairRowData);
+    const std::uint64_t row_bytes = bytes_of_rows(rows);
     if (scratch_bytes_ + record_bytes + row_bytes > memory_limit) {
         throw StatusException(
             {StatusCode::too_large,
@@ -194,8 +201,7 @@ void PairSearchBuffers::bind() const {
     layout_->begin_updates();
     const std::uint64_t record_bytes =
         std::max(item_.capacities[plan::record_total], 1U) * sizeof(plan::FoundPointData);
-    const std::uint64_t row_bytes =
-        (item_.capacities[plan::row_total] + std::uint64_t{1}) * sizeof(plan::PairRowData);
+    const std::uint64_t row_bytes = bytes_of_rows(item_.capacities[plan::row_total]);
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         const auto write = [&](Layout::Binding binding, VkBuffer buffer, std::uint64_t bytes) {
             layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
@@ -218,7 +224,7 @@ void PairSearchBuffers::bind() const {
     layout_->end_updates();
 }
 
-void PairSearchBuffers::submit(const passes::PairSearch& passes) {
+void PairSearchBuffers::record(const passes::PairSearch& passes) {
     // A device that is lost leaves no counts of an earlier search.
     std::memset(arguments_.data(), 0, argument_bytes);
     arguments_.flush();
@@ -227,8 +233,6 @@ void PairSearchBuffers::submit(const passes::PairSearch& passes) {
     VkCommandBuffer commands = submission_.begin();
     timestamps_.reset(commands);
     passes.record(commands, timestamps_, item_);
-    submission_.submit();
-    is_submitted_ = true;
 }
 
 void PairSearchBuffers::read_back() {
@@ -240,6 +244,14 @@ void PairSearchBuffers::read_back() {
                     arguments_.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
                     sizeof(counts_[i]));
     }
+}
+
+void PairSearchBuffers::read_undecided() {
+    const std::uint32_t count = rows_data()[0].a;
+    const auto* const numbers = reinterpret_cast<const std::uint32_t*>(
+        rows_data() + 1 + item_.capacities[plan::row_total]);
+    undecided_.assign(numbers, numbers + std::min(count, counts_[plan::row_total]));
+    std::sort(undecided_.begin(), undecided_.end());
 }
 
 bool PairSearchBuffers::had_room() const {
@@ -268,7 +280,7 @@ void PairSearchBuffers::grow() {
 }
 
 void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                               std::uint64_t memory_limit, std::vector<PassTime>& times) {
+                               std::uint64_t memory_limit, Timings& timings) {
     upload_shapes(shapes);
     instances_.flush();
     for (;;) {
@@ -276,15 +288,22 @@ void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::Sea
         if (!is_laid_out_) {
             lay_out(memory_limit);
         }
-        submit(passes);
+        const Stopwatch start;
+        record(passes);
+        timings.record += start.milliseconds();
+        const Stopwatch submitted;
+        submission_.submit();
+        is_submitted_ = true;
         read_back();
-        timestamps_.collect(times);
+        timings.device += submitted.milliseconds();
+        timestamps_.collect(timings.passes);
         if (had_room()) {
             break;
         }
         grow();
     }
     rows_.invalidate();
+    read_undecided();
     if (records_.data() != nullptr) {
         records_.invalidate();
     }

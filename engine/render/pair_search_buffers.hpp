@@ -6,6 +6,7 @@
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/plan/search_shapes.hpp>
+#include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/compute_sets.hpp>
 #include <passes/pair_search.hpp>
@@ -44,13 +45,13 @@ public:
 
     /// Finds all pairs and waits for them: submits as often as it takes to have room for all.
     /// Throws StatusException, (too_large) if the device cannot hold them, or they need more bytes
-    /// than `memory_limit`.
+    /// than `memory_limit`. Adds the times of recording, of the device and of the passes.
     void search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
-                std::uint64_t memory_limit, std::vector<PassTime>& times);
+                std::uint64_t memory_limit, Timings& timings);
 
     [[nodiscard]] const PairCounts& counts() const { return counts_; }
-    /// How many of the rows the CPU has to decide.
-    [[nodiscard]] std::uint32_t undecided() const { return rows_data()[0].a; }
+    /// The rows that the CPU has to decide, in ascending order.
+    [[nodiscard]] std::span<const std::uint32_t> undecided() const { return undecided_; }
     /// In ascending order of the instances.
     [[nodiscard]] std::span<const plan::PairRowData> rows() const {
         return {rows_data() + 1, counts_[plan::row_total]};
@@ -68,8 +69,9 @@ private:
     void lay_out(std::uint64_t memory_limit);
     void lay_out_instances(std::uint64_t& word);
     void bind() const;
-    void submit(const passes::PairSearch& passes);
+    void record(const passes::PairSearch& passes);
     void read_back();
+    void read_undecided();
     [[nodiscard]] bool had_room() const;
     void grow();
 
@@ -92,6 +94,7 @@ private:
     std::uint64_t shapes_revision_ = 0;
     std::uint64_t scratch_bytes_ = 0;
     bool is_laid_out_ = false;
+    std::vector<std::uint32_t> undecided_;
     PairCounts counts_{};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -138,6 +139,191 @@ TEST_F(DevicePairs, AreThoseOfTheCpu) {
             }
         }
     });
+}
+
+/// Any sequence of changes, seen by one pair of tables.
+TEST_F(DevicePairs, DoNotShowTheirHistory) {
+    for_each_case(seed + 1000, 2, [&](Random& random) {
+        std::vector<ShapeHandle> shapes;
+        for (const Rings& rings : some_shapes(random)) {
+            shapes.push_back(add_shape(rings));
+        }
+        const auto any_shape = [&] {
+            return shapes[static_cast<std::size_t>(
+                random.whole(0, static_cast<int>(shapes.size()) - 1))];
+        };
+        std::vector<InstanceHandle> present;
+        Tables tables({.tolerance = 0.05, .points = PenetrationPoints::vertices});
+        for (int step = 0; step < 12; ++step) {
+            SCOPED_TRACE("step " + std::to_string(step));
+            const int added = step == 0 ? 150 : random.whole(0, 20);
+            for (int i = 0; i < added; ++i) {
+                present.push_back(add(any_shape(), any_pose(random, 25.0)));
+            }
+            for (const InstanceHandle handle : present) {
+                if (random.whole(0, 3) == 0) {
+                    ASSERT_TRUE(world().move(handle, any_pose(random, 25.0)).ok());
+                }
+                if (random.whole(0, 30) == 0) {
+                    const auto bits = static_cast<std::uint32_t>(random.whole(1, 3));
+                    ASSERT_TRUE(world().set_filter(handle, bits, 3 - bits / 2).ok());
+                }
+            }
+            for (int i = random.whole(0, 10); i > 0; --i) {
+                ASSERT_TRUE(world().remove(present.back()).ok());
+                present.pop_back();
+            }
+            if (random.whole(0, 2) == 0) {
+                ASSERT_TRUE(context().update_shape(any_shape(), star(random, 40, 0.4)).ok());
+            }
+            ASSERT_NO_FATAL_FAILURE(compare(tables));
+        }
+        for (const InstanceHandle handle : present) {
+            ASSERT_TRUE(world().remove(handle).ok());
+        }
+    });
+}
+
+/// More instances than three levels of boxes hold, sizes from 1/1000 to 10, and one below them all.
+TEST_F(DevicePairs, OfManyInstancesOfAllSizes) {
+    Random random(seed + 2000);
+    std::vector<ShapeHandle> shapes;
+    for (const double size : {0.001, 0.01, 0.1, 1.0}) {
+        shapes.push_back(add_shape(scaled_and_moved(star(random, 12, 0.5), size, {0.0, 0.0})));
+    }
+    add(add_shape(rectangle({-100.0, -100.0}, {100.0, 100.0})), {});
+    for (int i = 0; i < 700; ++i) {
+        add(shapes[static_cast<std::size_t>(i % 4)], any_pose(random, 10.0));
+    }
+    Tables tables({.tolerance = 1e-4, .points = PenetrationPoints::vertices, .records = false});
+    compare(tables);
+    EXPECT_GT(tables.device.size(), 700U);
+}
+
+TEST_F(DevicePairs, FarFromTheOrigin) {
+    for_each_case(seed + 3000, 3, [&](Random& random) {
+        std::vector<InstanceHandle> added;
+        for (const Rings& rings : some_shapes(random)) {
+            const ShapeHandle shape = add_shape(rings);
+            for (int i = 0; i < 3; ++i) {
+                Pose pose = any_pose(random, 4.0);
+                pose.translation.x += 1e6;
+                pose.translation.y -= 3e6;
+                added.push_back(add(shape, pose));
+            }
+        }
+        Tables tables({.tolerance = 0.01});
+        compare(tables);
+        for (const InstanceHandle handle : added) {
+            ASSERT_TRUE(world().remove(handle).ok());
+        }
+    });
+}
+
+/// Single precision cannot tell on which side of each other's boundary their corners lie.
+TEST_F(DevicePairs, OfSquaresThatTouchAreNone) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    for (int x = 0; x < 6; ++x) {
+        for (int y = 0; y < 6; ++y) {
+            add(square, {.translation = {x / 3.0 + x, y + y / 3.0}});
+            add(square, {.translation = {x / 3.0 + x + 1.0, y + y / 3.0}});
+        }
+    }
+    Tables tables({.tolerance = 1e-5, .points = PenetrationPoints::vertices});
+    compare(tables);
+    EXPECT_GT(tables.device.candidates(), 0U);
+    EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
+TEST_F(DevicePairs, StateTheErrorsOfTheirPairs) {
+    const ShapeHandle small = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    add(small, {});
+    add(small, {.translation = {0.5, 0.5}});
+    add(add_shape(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
+    Tables tables({.tolerance = 1e-6, .points = PenetrationPoints::vertices});
+    compare(tables);
+    EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// Rows are those of the last update, whatever happens to the world in between.
+TEST_F(DevicePairs, StayAsTheyWere) {
+    const ShapeHandle shape = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    const InstanceHandle one = add(shape, {});
+    add(shape, {.translation = {1.5, 0.25}});
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.01});
+    ASSERT_TRUE(world().update(table).ok());
+    ASSERT_EQ(table.size(), 2U);
+    const auto before = table.row(0);
+    std::vector<PenetrationRecord> records;
+    ASSERT_TRUE(table.records(1, records).ok());
+    const std::size_t count = records.size();
+    ASSERT_TRUE(world().move(one, {.translation = {50.0, 0.0}}).ok());
+    ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
+    const auto after = table.row(0);
+    ASSERT_TRUE(before.has_value() && after.has_value());
+    EXPECT_EQ(before->count, after->count);
+    EXPECT_EQ(before->deepest.depth, after->deepest.depth);
+    ASSERT_TRUE(table.records(1, records).ok());
+    EXPECT_EQ(records.size(), count);
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(table.size(), 0U);
+}
+
+/// The order of the rows and every bit of them are the same in each run.
+TEST_F(DevicePairs, AreTheSameInEachRun) {
+    Random random(seed + 4000);
+    for (const Rings& rings : some_shapes(random)) {
+        const ShapeHandle shape = add_shape(rings);
+        for (int i = 0; i < 12; ++i) {
+            add(shape, any_pose(random, 8.0));
+        }
+    }
+    const PenetrationQuery query{.tolerance = 0.02};
+    DevicePairTable first(query);
+    ASSERT_TRUE(world().update(first).ok());
+    for (int run = 0; run < 3; ++run) {
+        DevicePairTable second(query);
+        ASSERT_TRUE(world().update(second).ok());
+        ASSERT_EQ(first.size(), second.size());
+        for (std::uint32_t i = 0; i < first.size(); ++i) {
+            const auto one = first.row(i);
+            const auto other = second.row(i);
+            ASSERT_TRUE(one.has_value() && other.has_value());
+            EXPECT_EQ(one->a, other->a);
+            EXPECT_EQ(one->b, other->b);
+            EXPECT_EQ(one->count, other->count);
+            EXPECT_EQ(one->deepest.depth, other->deepest.depth);
+            EXPECT_EQ(one->deepest.point.x, other->deepest.point.x);
+        }
+    }
+}
+
+TEST_F(DevicePairs, BeyondTheMemoryLimitAreRefused) {
+    Settings settings;
+    settings.memory_limit = 1U << 21U;
+    Expected<Context> limited = Context::create(host_device(), settings);
+    ASSERT_TRUE(limited.has_value());
+    Random random(seed + 5000);
+    const auto shape = limited->add_shape(star(random, 50, 0.5));
+    ASSERT_TRUE(shape.has_value());
+    Expected<World> world = World::create(*limited);
+    ASSERT_TRUE(world.has_value());
+    std::vector<InstanceHandle> handles;
+    for (int i = 0; i < 300; ++i) {
+        const auto handle = world->add({.shape = *shape, .pose = any_pose(random, 1.0)});
+        ASSERT_TRUE(handle.has_value());
+        handles.push_back(*handle);
+    }
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.01});
+    const Status status = world->update(table);
+    EXPECT_EQ(status.code(), StatusCode::too_large) << status.message();
+    EXPECT_NE(status.message().find("memory_limit"), std::string::npos) << status.message();
+    EXPECT_EQ(table.size(), 0U);
+    for (std::size_t i = 2; i < handles.size(); ++i) {
+        ASSERT_TRUE(world->remove(handles[i]).ok());
+    }
+    EXPECT_TRUE(world->update(table).ok());
 }
 
 TEST_F(DevicePairs, OfAnEmptyWorldAreNone) {

@@ -1,0 +1,210 @@
+// Measures the penetrations of all pairs of a world in which everything moves, found by the device
+// and by the CPU, and prints tables in Markdown.
+
+#include <nearfield/nearfield.hpp>
+
+#include <tests/bench/take.hpp>
+#include <tests/support/polygons.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace {
+
+using nearfield::bench::require;
+using nearfield::bench::take;
+
+using nearfield::Context;
+using nearfield::DevicePairTable;
+using nearfield::InstanceHandle;
+using nearfield::PairTable;
+using nearfield::PenetrationPoints;
+using nearfield::PenetrationQuery;
+using nearfield::Pose;
+using nearfield::World;
+
+/// The time of this thread only: what the CPU does beside the device.
+double processor_milliseconds() {
+    timespec now{};
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
+        throw std::runtime_error("no processor time");
+    }
+    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double wall_milliseconds() {
+    return std::chrono::duration<double, std::milli>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Stars of 50 vertices and radius 1, scattered over a square, all of which move.
+class Crowd {
+public:
+    Crowd(Context& context, std::uint32_t count, double side)
+        : world_(take(World::create(context))) {
+        nearfield::test::Random random(count);
+        std::vector<nearfield::ShapeHandle> shapes;
+        for (int i = 0; i < 20; ++i) {
+            shapes.push_back(take(context.add_shape(nearfield::test::star(random, 50, 0.5))));
+        }
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Pose pose{{random.between(0.0, side), random.between(0.0, side)},
+                            random.between(0.0, 6.0)};
+            handles_.push_back(take(world_.add({.shape = shapes[i % 20], .pose = pose})));
+            poses_.push_back(pose);
+        }
+    }
+
+    World& world() { return world_; }
+    void move() {
+        for (Pose& pose : poses_) {
+            pose.translation.x += 1e-3;
+            pose.angle += 1e-3;
+        }
+        require(world_.move(handles_, poses_));
+    }
+
+private:
+    World world_;
+    std::vector<InstanceHandle> handles_;
+    std::vector<Pose> poses_;
+};
+
+struct Times {
+    double move = 0.0;  // of the CPU, as all that follow but `whole`
+    double update = 0.0;
+    double whole = 0.0;  // of the update, as a clock shows it
+    double read = 0.0;   // of all rows
+    double upload = 0.0;  // as a clock shows it, with recording: what the CPU does of the update
+    std::vector<nearfield::PassTime> passes;
+};
+
+double read_all(DevicePairTable& table) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        sum += take(table.row(i)).deepest.depth;
+    }
+    return sum;
+}
+
+double read_all(const PairTable<PenetrationQuery>& table) {
+    double sum = 0.0;
+    for (const auto& row : table.rows()) {
+        sum += row.count > 0 ? row.deepest.depth : 0.0;
+    }
+    return sum;
+}
+
+double work_of_cpu(const DevicePairTable& table) {
+    return table.timings().plan + table.timings().record + table.timings().decode;
+}
+
+double work_of_cpu(const PairTable<PenetrationQuery>& /*table*/) {
+    return 0.0;
+}
+
+template <class Table>
+Times measure(Crowd& crowd, Table& table, int frames) {
+    std::vector<double> move;
+    std::vector<double> update;
+    std::vector<double> whole;
+    std::vector<double> read;
+    std::vector<double> upload;
+    Times times;
+    double sum = 0.0;
+    for (int frame = -2; frame < frames; ++frame) {
+        const double start = processor_milliseconds();
+        crowd.move();
+        const double moved = processor_milliseconds();
+        const double begin = wall_milliseconds();
+        require(crowd.world().update(table));
+        const double end = wall_milliseconds();
+        const double updated = processor_milliseconds();
+        sum += read_all(table);
+        const double done = processor_milliseconds();
+        if (frame >= 0) {
+            move.push_back(moved - start);
+            update.push_back(updated - moved);
+            whole.push_back(end - begin);
+            read.push_back(done - updated);
+            upload.push_back(work_of_cpu(table));
+        }
+    }
+    if (!std::isfinite(sum)) {
+        throw std::runtime_error("depths are not finite");
+    }
+    if constexpr (std::is_same_v<Table, DevicePairTable>) {
+        times.passes = table.timings().passes;
+    }
+    times.move = median(move);
+    times.update = median(update);
+    times.whole = median(whole);
+    times.read = median(read);
+    times.upload = median(upload);
+    return times;
+}
+
+void compare(Context& context, std::uint32_t count, double side, PenetrationQuery query,
+             int frames, bool shows_passes) {
+    Crowd crowd(context, count, side);
+    DevicePairTable on_device(query);
+    PairTable<PenetrationQuery> on_cpu(query, {.hits_only = true});
+    const Times device = measure(crowd, on_device, frames);
+    const Times cpu = measure(crowd, on_cpu, frames);
+    std::printf("| %u | %s | %s | %u | %u | %.3f | %.3f | %.3f | %.3f | %.2f | %.2f |\n", count,
+                query.points == PenetrationPoints::vertices ? "vertices" : "samples",
+                query.records ? "yes" : "no", on_device.candidates(), on_device.size(), device.move,
+                device.upload, device.whole, device.read, cpu.update + cpu.read,
+                device.whole / (cpu.update + cpu.read));
+    if (shows_passes) {
+        for (const nearfield::PassTime& pass : device.passes) {
+            std::fprintf(stderr, "  %s %.3f\n", pass.name.c_str(), pass.milliseconds);
+        }
+    }
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    const bool shows_passes = count > 1 && std::string(arguments[1]) == "--passes";
+    try {
+        Context context = take(Context::create_headless());
+        std::printf("Device: %s\n\n", context.device_name().c_str());
+        std::puts(
+            "| objects | points | records | pairs | rows | CPU: move | CPU: update | update | "
+            "CPU: read all rows | cpu: update | update / cpu |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|");
+        for (const PenetrationPoints points :
+             {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
+            PenetrationQuery query{.tolerance = 0.03, .points = points, .records = false};
+            compare(context, 1'000, 50.0, query, 20, shows_passes);
+            query.records = true;
+            compare(context, 1'000, 50.0, query, 20, shows_passes);
+            query.records = false;
+            compare(context, 1'000, 16.0, query, 10, false);
+            compare(context, 1'000, 7.5, query, 5, false);
+            compare(context, 40'000, 320.0, query, 5, shows_passes);
+        }
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}
