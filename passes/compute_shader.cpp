@@ -3,8 +3,7 @@
 namespace nearfield::passes {
 
 ComputeShader::ComputeShader(const gpu::Device& device, const ComputeLayout& layout,
-                             gpu::Spirv code, const char* name,
-                             std::span<const VkBool32> constants)
+                             gpu::Spirv code, const char* name, std::span<const VkBool32> constants)
     : functions_(&device.functions()),
       layout_(layout.pipeline_layout()),
       pipeline_(gpu::make_compute_pipeline(device, layout_, code, name, constants)) {}

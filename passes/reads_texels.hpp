@@ -3,7 +3,6 @@
 #include <engine/gpu/device.hpp>
 
 #include <shaders/search.h>
-
 #include <vulkan/vulkan_core.h>
 
 namespace nearfield::passes {

@@ -17,9 +17,9 @@ NEARFIELD_CHECK(sizeof(PairQueryData) == 16)
 
 // An instance. Positions are relative to an origin near the instances, in world units.
 struct SearchInstanceData {
-    vec2 axis;  // its x axis: cosine and sine of its angle
-    vec2 high;  // its shape's centre, rounded
-    vec2 low;   // what the rounding has left out
+    vec2 axis;                             // its x axis: cosine and sine of its angle
+    vec2 high;                             // its shape's centre, rounded
+    vec2 low;                              // what the rounding has left out
     float unit NEARFIELD_DEFAULT(0.0F);    // length of a unit of the shape's frame
     float radius NEARFIELD_DEFAULT(0.0F);  // of the shape around its centre, rounded up
     uint shape NEARFIELD_DEFAULT(0);       // first unit in the input

@@ -118,8 +118,7 @@ void DevicePairTable::State::begin(const plan::PairRowData& data) {
 
 void DevicePairTable::State::add_point(const plan::FoundPointData& found) {
     plan::PlannedQuery& planned = plan_.queries.front();
-    plan_.points.push_back(
-        {plan::found_point(planned, found), plan::PlannedPoint::no_tile});
+    plan_.points.push_back({plan::found_point(planned, found), plan::PlannedPoint::no_tile});
     words_.push_back(found.word);
     ++planned.points().count;
 }

@@ -71,8 +71,7 @@ private:
     [[nodiscard]] const PenetrationResult* find_decided(std::uint32_t row) const;
     [[nodiscard]] PenetrationQuery query_on_cpu(const plan::PairRowData& data,
                                                 bool with_records) const;
-    [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data,
-                                                  bool with_records);
+    [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data, bool with_records);
     void begin(const plan::PairRowData& data);
     void add_point(const plan::FoundPointData& found);
     template <class Use>
@@ -92,8 +91,8 @@ private:
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
     geometry::Vector origin_ = geometry::Vector::Zero();
     world::HilbertOrder hilbert_order_;
-    std::vector<Vector2> places_;  // of the instances
-    std::vector<Decided> decided_;           // in ascending order of the rows
+    std::vector<Vector2> places_;   // of the instances
+    std::vector<Decided> decided_;  // in ascending order of the rows
     bool drops_rows_ = false;
     std::vector<std::uint32_t> device_rows_;  // by row, if some were dropped
     // For reading rows.

@@ -32,15 +32,16 @@ constexpr std::size_t poses_at_once = 16;
 void DevicePairTable::State::check() const {
     if (query.resident ||
         (query.technique != Technique::compute && query.technique != Technique::automatic)) {
-        refuse("update", "the device finds these pairs by Technique::compute; the table's query asks "
-                         "for another technique, or for resident results");
+        refuse("update",
+               "the device finds these pairs by Technique::compute; the table's query asks "
+               "for another technique, or for resident results");
     }
     PenetrationQuery by_compute = query;
     by_compute.technique = Technique::compute;
     const DeviceTechniques& techniques = context_->techniques();
-    if (Status status = plan::check_query(
-            by_compute, {.device = context_->device() != nullptr, .raster = techniques.raster,
-                         .compute = techniques.compute});
+    if (Status status = plan::check_query(by_compute, {.device = context_->device() != nullptr,
+                                                       .raster = techniques.raster,
+                                                       .compute = techniques.compute});
         !status.ok()) {
         throw StatusException({status.code(), "update: " + status.message()});
     }
@@ -71,10 +72,10 @@ void DevicePairTable::State::list_instances(const world::Instances& instances) {
         }
     }
     if (indices_.size() > plan::max_instances) {
-        throw StatusException({StatusCode::too_large,
-                               "update: the world has " + std::to_string(indices_.size()) +
-                                   " instances, of which the device takes at most " +
-                                   std::to_string(plan::max_instances)});
+        throw StatusException(
+            {StatusCode::too_large, "update: the world has " + std::to_string(indices_.size()) +
+                                        " instances, of which the device takes at most " +
+                                        std::to_string(plan::max_instances)});
     }
     std::sort(indices_.begin(), indices_.end(), [&](std::uint32_t i, std::uint32_t j) {
         return instances.number(i) < instances.number(j);
@@ -141,10 +142,9 @@ void DevicePairTable::State::place_all(const world::Instances& instances) {
         plan::set_shape(*entry.polygon, entry.data);
         const double deviation = entry.polygon->deviation();
         const plan::Deviations both{deviation, deviation};
-        entry.is_too_deviant =
-            !plan::check_deviations(query.tolerance, both,
-                                    plan::penetration_budget(query, both).bound)
-                 .ok();
+        entry.is_too_deviant = !plan::check_deviations(query.tolerance, both,
+                                                       plan::penetration_budget(query, both).bound)
+                                    .ok();
         sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
     }
     origin_ = sum / static_cast<double>(std::max<std::size_t>(instances_.size(), 1));
@@ -165,8 +165,8 @@ void DevicePairTable::State::order_instances() {
     std::vector<Vector2>& places = places_;
     places.clear();
     for (const PairInstance& entry : instances_) {
-        places.push_back({static_cast<double>(entry.data.high.x),
-                          static_cast<double>(entry.data.high.y)});
+        places.push_back(
+            {static_cast<double>(entry.data.high.x), static_cast<double>(entry.data.high.y)});
     }
     buffers_->set_order(hilbert_order_.sort(
         places.size(), [&places](std::size_t i) -> const Vector2& { return places[i]; }));
@@ -241,8 +241,8 @@ void DevicePairTable::State::update(Context::Implementation& with,
         renderer_ = context_->renderer()->number();
         membership_ = 0;
     }
-    const bool is_same = membership_ == instances.membership() &&
-                         shapes_revision_ == context_->shapes().revision();
+    const bool is_same =
+        membership_ == instances.membership() && shapes_revision_ == context_->shapes().revision();
     if (is_same) {
         place_moved(instances, false);
     } else {

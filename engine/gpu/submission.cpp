@@ -50,13 +50,15 @@ Submission::Submission(const Device& device) : device_(&device), completion_(dev
     device.name_object(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "nearfield commands");
 }
 
-VkCommandBuffer Submission::begin() {
+VkCommandBuffer Submission::begin(bool again) {
     const Functions& functions = device_->functions();
     check(functions.vkResetCommandPool(device_->handle(), pool_.get(), 0), "vkResetCommandPool",
           "a submission");
     VkCommandBufferBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    if (!again) {
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    }
     check(functions.vkBeginCommandBuffer(commands_, &info), "vkBeginCommandBuffer", "a submission");
     return commands_;
 }
@@ -64,6 +66,14 @@ VkCommandBuffer Submission::begin() {
 void Submission::submit(const nearfield::Submission& order) {
     const Functions& functions = device_->functions();
     check(functions.vkEndCommandBuffer(commands_), "vkEndCommandBuffer", "a submission");
+    send_commands(order);
+}
+
+void Submission::submit_again() {
+    send_commands({});
+}
+
+void Submission::send_commands(const nearfield::Submission& order) {
     completion_.begin();
     take(order);
     if (const VkSemaphore semaphore = completion_.semaphore(); semaphore != VK_NULL_HANDLE) {

@@ -19,10 +19,14 @@ class Submission {
 public:
     explicit Submission(const Device& device);
 
-    /// Starts a new recording. The former submission must have been waited for.
-    VkCommandBuffer begin();
+    /// Starts a new recording. The former submission must have been waited for. `again`: it may be
+    /// submitted more than once.
+    VkCommandBuffer begin(bool again = false);
     /// Ends recording and submits, with the semaphores of `order`.
     void submit(const nearfield::Submission& order = {});
+    /// Submits the last recording, made for that, once more. The former submission must have been
+    /// waited for.
+    void submit_again();
     /// Submits only the semaphores of `order`, if there are any; then there is nothing to wait for.
     void submit_semaphores(const nearfield::Submission& order);
     /// Returns, without waiting, whether the device has finished the work. True if the status
@@ -37,6 +41,7 @@ public:
 private:
     /// Takes the semaphores of the next submission.
     void take(const nearfield::Submission& order);
+    void send_commands(const nearfield::Submission& order);
     void send(std::uint32_t command_buffers, VkFence fence);
 
     const Device* device_;

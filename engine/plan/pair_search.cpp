@@ -36,8 +36,8 @@ void set_place(const geometry::TransformedPolygon& placed, const Vector& origin,
 double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b) {
     const Vector place_a = place_of(a);
     const Vector place_b = place_of(b);
-    const double extent = static_cast<double>(a.radius) + static_cast<double>(b.radius) +
-                          (place_a - place_b).norm();
+    const double extent =
+        static_cast<double>(a.radius) + static_cast<double>(b.radius) + (place_a - place_b).norm();
     return std::ldexp(extent, -20) + std::ldexp(place_a.lpNorm<1>() + place_b.lpNorm<1>(), -47);
 }
 

@@ -85,7 +85,8 @@ void PointSearchBuilder::add(Plan& plan, const SearchedQuery& searched, PointSea
     data.first_item = search.items;
     // Of each block of items, the direction of its first one.
     const auto direction = static_cast<std::uint32_t>(search.queries.size());
-    const std::uint32_t end = search.items + shapes_.units()[data.shape_a][0];  // its number of chunks
+    const std::uint32_t end =
+        search.items + shapes_.units()[data.shape_a][0];  // its number of chunks
     while (search_block * search.first_directions.size() < end) {
         search.first_directions.push_back(direction);
     }

@@ -182,8 +182,7 @@ void SearchShapes::make_shape(const Polygon& polygon) {
     made_[unit_of_box] = unit_of(boxes_.front());
 }
 
-void SearchShapes::add_chunks(const Polygon& polygon, std::uint32_t edges,
-                                    std::uint32_t infos) {
+void SearchShapes::add_chunks(const Polygon& polygon, std::uint32_t edges, std::uint32_t infos) {
     const std::span<const Vector> vertices = polygon.vertices();
     const double unit = unit_length_of(polygon);
     const auto end_of = [&](std::uint32_t vertex) -> std::array<float, 2> {

@@ -101,9 +101,9 @@ void PairSearchBuffers::set_instance(std::uint32_t number, const SearchInstanceD
 }
 
 void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
-    auto* const words = reinterpret_cast<std::uint32_t*>(
-        instances_.data() + sizeof(plan::PairQueryData) +
-        instance_room_ * sizeof(SearchInstanceData));
+    auto* const words =
+        reinterpret_cast<std::uint32_t*>(instances_.data() + sizeof(plan::PairQueryData) +
+                                         instance_room_ * sizeof(SearchInstanceData));
     for (std::uint32_t place = 0; place < order.size(); ++place) {
         words[place] = order[place];
         words[order.size() + order[place]] = place;
@@ -177,11 +177,10 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     const std::uint64_t row_bytes = bytes_of_rows(rows);
     if (scratch_bytes_ + record_bytes + row_bytes > memory_limit) {
         throw StatusException(
-            {StatusCode::too_large,
-             "the pairs of the world need " +
-                 std::to_string(scratch_bytes_ + record_bytes + row_bytes) +
-                 " bytes on the device; Settings::memory_limit is " +
-                 std::to_string(memory_limit)});
+            {StatusCode::too_large, "the pairs of the world need " +
+                                        std::to_string(scratch_bytes_ + record_bytes + row_bytes) +
+                                        " bytes on the device; Settings::memory_limit is " +
+                                        std::to_string(memory_limit)});
     }
     scratch_.reserve(scratch_bytes_);
     records_.reserve(record_bytes);
@@ -224,15 +223,24 @@ void PairSearchBuffers::bind() const {
     layout_->end_updates();
 }
 
-void PairSearchBuffers::record(const passes::PairSearch& passes) {
+/// The commands stay the same as long as the memory does.
+void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timings) {
+    const Stopwatch start;
     // A device that is lost leaves no counts of an earlier search.
     std::memset(arguments_.data(), 0, argument_bytes);
     arguments_.flush();
     std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
     rows_.flush();
-    VkCommandBuffer commands = submission_.begin();
-    timestamps_.reset(commands);
-    passes.record(commands, timestamps_, item_);
+    if (is_recorded_) {
+        submission_.submit_again();
+    } else {
+        VkCommandBuffer commands = submission_.begin(true);
+        timestamps_.reset(commands);
+        passes.record(commands, timestamps_, item_);
+        submission_.submit();
+    }
+    is_submitted_ = is_recorded_ = true;
+    timings.record += start.milliseconds();
 }
 
 void PairSearchBuffers::read_back() {
@@ -248,8 +256,8 @@ void PairSearchBuffers::read_back() {
 
 void PairSearchBuffers::read_undecided() {
     const std::uint32_t count = rows_data()[0].a;
-    const auto* const numbers = reinterpret_cast<const std::uint32_t*>(
-        rows_data() + 1 + item_.capacities[plan::row_total]);
+    const auto* const numbers =
+        reinterpret_cast<const std::uint32_t*>(rows_data() + 1 + item_.capacities[plan::row_total]);
     undecided_.assign(numbers, numbers + std::min(count, counts_[plan::row_total]));
     std::sort(undecided_.begin(), undecided_.end());
 }
@@ -286,14 +294,11 @@ void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::Sea
     for (;;) {
         checkpoint();
         if (!is_laid_out_) {
+            is_recorded_ = false;
             lay_out(memory_limit);
         }
-        const Stopwatch start;
-        record(passes);
-        timings.record += start.milliseconds();
+        submit(passes, timings);
         const Stopwatch submitted;
-        submission_.submit();
-        is_submitted_ = true;
         read_back();
         timings.device += submitted.milliseconds();
         timestamps_.collect(timings.passes);

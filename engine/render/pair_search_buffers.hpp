@@ -45,7 +45,8 @@ public:
 
     /// Finds all pairs and waits for them: submits as often as it takes to have room for all.
     /// Throws StatusException, (too_large) if the device cannot hold them, or they need more bytes
-    /// than `memory_limit`. Adds the times of recording, of the device and of the passes.
+    /// than `memory_limit`. Adds the times of recording and submission, of the
+    /// device and of the passes.
     void search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
                 std::uint64_t memory_limit, Timings& timings);
 
@@ -61,6 +62,7 @@ public:
         return {reinterpret_cast<const plan::FoundPointData*>(records_.data()),
                 counts_[plan::record_total]};
     }
+
 private:
     [[nodiscard]] const plan::PairRowData* rows_data() const {
         return reinterpret_cast<const plan::PairRowData*>(rows_.data());
@@ -69,7 +71,7 @@ private:
     void lay_out(std::uint64_t memory_limit);
     void lay_out_instances(std::uint64_t& word);
     void bind() const;
-    void record(const passes::PairSearch& passes);
+    void submit(const passes::PairSearch& passes, Timings& timings);
     void read_back();
     void read_undecided();
     [[nodiscard]] bool had_room() const;
@@ -94,6 +96,7 @@ private:
     std::uint64_t shapes_revision_ = 0;
     std::uint64_t scratch_bytes_ = 0;
     bool is_laid_out_ = false;
+    bool is_recorded_ = false;  // since then
     std::vector<std::uint32_t> undecided_;
     PairCounts counts_{};
 };

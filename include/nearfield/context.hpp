@@ -351,7 +351,7 @@ public:
 
 private:
     class NEARFIELD_HIDDEN Implementation;
-    friend struct ContextAccess;  // of diagnostics.hpp
+    friend struct ContextAccess;   // of diagnostics.hpp
     friend class World;            // of world.hpp
     friend class DevicePairTable;  // of world_device.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;

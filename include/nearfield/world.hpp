@@ -18,10 +18,11 @@
 /// instead of two shapes. Input and output are spans of flat structures, one entry per pose, point
 /// or segment, in the caller's memory.
 ///
-/// All queries of a world are answered on the CPU, exact up to the rounding that each answer's
-/// error bound states. What a world keeps between queries makes them faster and never changes an
-/// answer: after any sequence of calls, each answer is the same, bit for bit, as in a new world to
-/// which the present instances were added in the order of their adding.
+/// Queries of a world are answered on the CPU, except for tables that the device fills
+/// (world_device.hpp), exact up to the rounding that each answer's error bound states. What a world
+/// keeps between queries makes them faster and never changes an answer: after any sequence of
+/// calls, each answer is the same, bit for bit, as in a new world to which the present instances
+/// were added in the order of their adding.
 
 namespace nearfield {
 

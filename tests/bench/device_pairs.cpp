@@ -89,8 +89,8 @@ private:
 struct Times {
     double move = 0.0;  // of the CPU, as all that follow but `whole`
     double update = 0.0;
-    double whole = 0.0;  // of the update, as a clock shows it
-    double read = 0.0;   // of all rows
+    double whole = 0.0;   // of the update, as a clock shows it
+    double read = 0.0;    // of all rows
     double upload = 0.0;  // as a clock shows it, with recording: what the CPU does of the update
     std::vector<nearfield::PassTime> passes;
 };
@@ -160,8 +160,8 @@ Times measure(Crowd& crowd, Table& table, int frames) {
     return times;
 }
 
-void compare(Context& context, std::uint32_t count, double side, PenetrationQuery query,
-             int frames, bool shows_passes) {
+void compare(Context& context, std::uint32_t count, double side, PenetrationQuery query, int frames,
+             bool shows_passes) {
     Crowd crowd(context, count, side);
     DevicePairTable on_device(query);
     PairTable<PenetrationQuery> on_cpu(query, {.hits_only = true});

@@ -110,11 +110,16 @@ protected:
 };
 
 std::vector<Rings> some_shapes(Random& random) {
-    std::vector<Rings> shapes{star(random, 50, 0.5),          star(random, 7, 0.3),
-                              comb(8),                        with_holes(random, 5),
-                              several_parts(random, 3),       spiral(2.0, 0.2, 60),
-                              coast(random, 300, 0.3),        pentagram(),
-                              needle(1e-6),                   rectangle({-1.0, -1.0}, {1.0, 1.0}),
+    std::vector<Rings> shapes{star(random, 50, 0.5),
+                              star(random, 7, 0.3),
+                              comb(8),
+                              with_holes(random, 5),
+                              several_parts(random, 3),
+                              spiral(2.0, 0.2, 60),
+                              coast(random, 300, 0.3),
+                              pentagram(),
+                              needle(1e-6),
+                              rectangle({-1.0, -1.0}, {1.0, 1.0}),
                               with_repeated_vertices(random, star(random, 20, 0.6), 0.3)};
     shapes.push_back(scaled_and_moved(star(random, 30, 0.5), 0.05, {100.0, -50.0}));
     shapes.push_back(scaled_and_moved(coast(random, 200, 0.3), 8.0, {0.0, 0.0}));
