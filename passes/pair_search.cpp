@@ -18,9 +18,9 @@ namespace {
 
 using graph::Access;
 
-constexpr VkDeviceSize argument_bytes = plan::words_of_arguments * sizeof(std::uint32_t);
+constexpr VkDeviceSize bytes_of_arguments = plan::words_of_arguments * sizeof(std::uint32_t);
 
-std::array<VkBool32, 2> constants_of(const gpu::Device& device) {
+std::array<VkBool32, 2> pair_constants_of(const gpu::Device& device) {
     return {reads_texels(device), VK_TRUE};
 }
 
@@ -28,24 +28,26 @@ std::array<VkBool32, 2> constants_of(const gpu::Device& device) {
 
 PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout)
     : boxes_(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes",
-             constants_of(device)),
+             pair_constants_of(device)),
       levels_(device, layout, shaders::pair_levels_comp, "nearfield pair levels"),
       lists_(device, layout, shaders::pair_lists_comp, "nearfield pair lists",
-             constants_of(device)),
+             pair_constants_of(device)),
       directions_(device, layout, shaders::pair_directions_comp, "nearfield pair directions",
-                  constants_of(device)),
-      scan_(device, layout, shaders::search_scan_comp, "nearfield pair scan", constants_of(device)),
+                  pair_constants_of(device)),
+      scan_(device, layout, shaders::search_scan_comp, "nearfield pair scan",
+            pair_constants_of(device)),
       items_(device, layout, shaders::search_items_comp, "nearfield pair items",
-             constants_of(device)),
+             pair_constants_of(device)),
       edges_(device, layout, shaders::search_edges_comp, "nearfield pair edges",
-             constants_of(device)),
+             pair_constants_of(device)),
       points_(device, layout, shaders::search_points_comp, "nearfield pair points",
-              constants_of(device)),
+              pair_constants_of(device)),
       pack_(device, layout, shaders::search_pack_comp, "nearfield pair packing",
-            constants_of(device)),
+            pair_constants_of(device)),
       summaries_(device, layout, shaders::pair_summaries_comp, "nearfield pair summaries",
-                 constants_of(device)),
-      rows_(device, layout, shaders::pair_rows_comp, "nearfield pair rows", constants_of(device)),
+                 pair_constants_of(device)),
+      rows_(device, layout, shaders::pair_rows_comp, "nearfield pair rows",
+            pair_constants_of(device)),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"})),
@@ -185,7 +187,7 @@ void PairSearch::dispatch(VkCommandBuffer commands, const Item& item, const Comp
         return;
     }
     push(commands, item, shader, 0, stage);
-    shader.dispatch_indirect(commands, item.arguments, argument_bytes * threads_of);
+    shader.dispatch_indirect(commands, item.arguments, bytes_of_arguments * threads_of);
 }
 
 }  // namespace nearfield::passes

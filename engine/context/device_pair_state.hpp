@@ -78,9 +78,10 @@ private:
     void resolve_points(const Use& use);
     [[nodiscard]] Row row_of(const plan::PairRowData& data, const PenetrationResult& result) const;
 
+    geometry::Vector origin_ = geometry::Vector::Zero();
+    records::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
     std::weak_ptr<const void> world_;
-    std::uint32_t renderer_ = 0;  // its number
     std::unique_ptr<render::PairSearchBuffers> buffers_;
     plan::SearchShapes shapes_;
     batch::ShapeStore::Held held_;
@@ -88,20 +89,18 @@ private:
     std::vector<std::uint32_t> indices_;   // of these in the world
     std::uint64_t membership_ = 0;         // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;
-    std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
-    geometry::Vector origin_ = geometry::Vector::Zero();
     world::HilbertOrder hilbert_order_;
-    std::vector<Vector2> places_;   // of the instances
-    std::vector<Decided> decided_;  // in ascending order of the rows
-    bool drops_rows_ = false;
+    std::vector<Vector2> places_;             // of the instances
+    std::vector<Decided> decided_;            // in ascending order of the rows
     std::vector<std::uint32_t> device_rows_;  // by row, if some were dropped
-    // For reading rows.
-    AnyQuery asked_;
+    AnyQuery asked_;                          // for reading rows, as are those that follow
     plan::Plan plan_;
     std::vector<std::uint32_t> words_;
-    records::PointResolver resolver_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;
+    std::uint32_t renderer_ = 0;          // number of that of the last update
+    std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
+    bool drops_rows_ = false;             // device_rows_ holds those that are left
 };
 
 }  // namespace nearfield

@@ -15,11 +15,11 @@ namespace {
 using plan::SearchInstanceData;
 using plan::SearchUnit;
 
-constexpr std::array<const char*, passes::PairSearch::set_count> names_of_sets{
+constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_sets{
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
 
-constexpr std::uint64_t argument_bytes =
+constexpr std::uint64_t bytes_of_pair_arguments =
     std::uint64_t{plan::stages_of_pairs} * plan::words_of_arguments * sizeof(std::uint32_t);
 
 /// Room for what the first search may find.
@@ -28,7 +28,7 @@ constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
 /// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
 
-std::uint64_t blocks_for(std::uint64_t elements) {
+std::uint64_t pair_blocks_for(std::uint64_t elements) {
     return (elements + plan::search_block - 1) / plan::search_block + 1;
 }
 
@@ -64,8 +64,8 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
                "nearfield pair points"),
       rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
             "nearfield pair rows"),
-      sets_(device, layout, names_of_sets) {
-    arguments_.reserve(argument_bytes);
+      sets_(device, layout, names_of_pair_sets) {
+    arguments_.reserve(bytes_of_pair_arguments);
     item_.capacities = first_capacities;
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
@@ -144,8 +144,8 @@ void PairSearchBuffers::lay_out_instances(std::uint64_t& word) {
     }
     push.boxes = words(4 * boxes) / 4;
     push.lists = words(4 * std::uint64_t{push.instances}) / 4;
-    push.pair_blocks = words(blocks_for(push.instances));
-    push.list_item_blocks = words(blocks_for(push.instances));
+    push.pair_blocks = words(pair_blocks_for(push.instances));
+    push.list_item_blocks = words(pair_blocks_for(push.instances));
 }
 
 void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
@@ -161,13 +161,13 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     push.pairs = words(2 * std::uint64_t{pairs});
     push.directions = words(4 * std::uint64_t{plan::units_of_direction} * pairs) / 4;
     push.summaries = words(8 * std::uint64_t{pairs}) / 4;
-    push.row_blocks = words(blocks_for(pairs));
-    push.first_directions = words(blocks_for(items));
-    push.item_blocks = words(blocks_for(items));
+    push.row_blocks = words(pair_blocks_for(pairs));
+    push.first_directions = words(pair_blocks_for(items));
+    push.item_blocks = words(pair_blocks_for(items));
     push.item_words = words(items);
-    push.edge_blocks = words(blocks_for(edges));
+    push.edge_blocks = words(pair_blocks_for(edges));
     push.edge_units = words(8 * std::uint64_t{edges}) / 4;
-    push.point_blocks = words(blocks_for(points / plan::points_per_thread + 1));
+    push.point_blocks = words(pair_blocks_for(points / plan::points_per_thread + 1));
     push.point_units = words(4 * std::uint64_t{points}) / 4;
     push.depths = words(points);
     push.record_depths = words(found);
@@ -206,7 +206,7 @@ void PairSearchBuffers::bind() const {
             layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
         };
         write(Layout::geometry, item_.scratch, scratch_bytes_);
-        write(Layout::output, item_.arguments, argument_bytes);
+        write(Layout::output, item_.arguments, bytes_of_pair_arguments);
         layout_->write_texels(item_.sets[i], texels_.get());
         if (i == passes::PairSearch::of_rows) {
             write(Layout::tiles, item_.records, record_bytes);
@@ -227,7 +227,7 @@ void PairSearchBuffers::bind() const {
 void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timings) {
     const Stopwatch start;
     // A device that is lost leaves no counts of an earlier search.
-    std::memset(arguments_.data(), 0, argument_bytes);
+    std::memset(arguments_.data(), 0, bytes_of_pair_arguments);
     arguments_.flush();
     std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
     rows_.flush();

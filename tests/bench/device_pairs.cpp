@@ -60,6 +60,7 @@ public:
         : world_(take(World::create(context))) {
         nearfield::test::Random random(count);
         std::vector<nearfield::ShapeHandle> shapes;
+        shapes.reserve(20);
         for (int i = 0; i < 20; ++i) {
             shapes.push_back(take(context.add_shape(nearfield::test::star(random, 50, 0.5))));
         }
