@@ -72,6 +72,21 @@ protected:
         run(batch);
     }
 
+    /// Pairs of several workgroups of instances, found by the device.
+    void update_device_pairs(bool records) {
+        Expected<World> world = World::create(*context_);
+        ASSERT_TRUE(world.has_value()) << world.error().text();
+        for (int i = 0; i < 100; ++i) {
+            const WorldInstance instance{.shape = i % 2 == 0 ? a_ : b_,
+                                         .pose = {{0.5 * i, 0.0}, 0.1 * i}};
+            ASSERT_TRUE(world->add(instance).has_value());
+        }
+        DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .records = records});
+        const Status status = world->update(table);
+        EXPECT_TRUE(status.ok()) << status.text();
+        EXPECT_GT(table.size(), 0U);
+    }
+
     /// What was recorded has no hazard, and would have one without any of its dependencies.
     static void check() {
         const auto recordings = BufferAccesses::recordings();
@@ -128,6 +143,11 @@ TEST_F(Hazards, AreInNoQueryThatIsAlone) {
         }
     }
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
+}
+
+TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
+    update_device_pairs(true);
+    check();
 }
 
 TEST_F(Hazards, AreInNoFrameOfAHost) {

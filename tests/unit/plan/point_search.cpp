@@ -56,10 +56,10 @@ protected:
         plan_.queries.front().points().outside = true;
     }
 
-    [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units.size(); }
+    [[nodiscard]] std::size_t builder_size() const { return builder_.shapes().units().size(); }
     [[nodiscard]] const PointSearch& search() const { return searches_.front(); }
     [[nodiscard]] const SearchUnit& unit(std::size_t index) const {
-        return builder_.shapes().units[index];
+        return builder_.shapes().units()[index];
     }
     [[nodiscard]] std::uint32_t word(std::size_t index) const { return unit(index / 4)[index % 4]; }
 
