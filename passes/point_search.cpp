@@ -86,7 +86,8 @@ void PointSearch::declare() {
         "pack points", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments, Access::indirect_arguments);
-            pass.read(scratch, Access::storage_read_in_compute);
+            // Its shader also writes there, but only where the device finds the pairs.
+            scratch = pass.write(scratch, Access::storage_write_in_compute);
             static_cast<void>(pass.write(records_, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
