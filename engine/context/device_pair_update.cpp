@@ -174,12 +174,7 @@ void DevicePairTable::State::order_instances() {
 
 void DevicePairTable::State::search() {
     render::Renderer& renderer = *context_->renderer();
-    const Status status = context_->unless_lost([&] {
-        buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(), timings);
-    });
-    if (!status.ok()) {
-        throw StatusException(status);
-    }
+    buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(), timings);
     rows = buffers_->counts()[plan::row_total];
 }
 
@@ -266,11 +261,11 @@ void DevicePairTable::State::update(Context::Implementation& with,
 
 void World::Implementation::update(DevicePairTable& table) {
     DevicePairTable::State& state = *table.state_;
-    try {
-        state.update(*context_, identity_, instances_);
-    } catch (...) {
+    const Status status =
+        context_->unless_lost([&] { state.update(*context_, identity_, instances_); });
+    if (!status.ok()) {
         state.start_anew();
-        throw;
+        throw StatusException(status);
     }
 }
 

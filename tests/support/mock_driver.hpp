@@ -89,10 +89,11 @@ public:
     [[nodiscard]] const std::vector<Submitted>& submissions() const;
 
     /// The simulated results of shaders: if a descriptor at `binding` refers to words of which the
-    /// host set the first to 0, the first becomes `count`, and the following words become 0.
+    /// host set the first to 0, the one at `word` becomes `count`, and the others become 0.
     struct Finding {
         std::uint32_t binding = 0;
         std::uint32_t count = 0;
+        std::uint32_t word = 0;
     };
     void let_shaders_find(const Finding& finding);
 

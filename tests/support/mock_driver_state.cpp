@@ -214,10 +214,10 @@ void MockDriver::State::write_counts(const std::set<Number>& used) {
         const auto [first, count] = range->second;
         const Number buffer = set.needs.at(finding->binding);
         const std::span words = words_of(buffer);
-        if (objects[buffer].written && first < words.size() && words[first] == 0) {
+        if (first + finding->word < words.size() && words[first] == 0) {
             const std::span found = words.subspan(first, std::min(count, words.size() - first));
             std::fill(found.begin(), found.end(), 0);
-            found.front() = finding->count;
+            found[finding->word] = finding->count;
         }
     }
 }
