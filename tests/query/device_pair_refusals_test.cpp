@@ -1,0 +1,66 @@
+#include <tests/query/query_test.hpp>
+
+#include <string>
+
+namespace nearfield::test {
+namespace {
+
+class DevicePairRefusals : public QueryTest {
+protected:
+    /// Updates a table with a world of two instances that overlap. The refusal names the call, and
+    /// leaves no row.
+    static void expect_refused(Context& context, const PenetrationQuery& query, StatusCode code) {
+        DevicePairTable table(query);
+        update(context, table, code);
+    }
+    static void update(Context& context, DevicePairTable& table, StatusCode code) {
+        const Expected<ShapeHandle> shape = context.add_shape(rectangle({0, 0}, {4, 4}));
+        ASSERT_TRUE(shape.has_value()) << shape.error().text();
+        Expected<World> world = World::create(context);
+        ASSERT_TRUE(world.has_value()) << world.error().text();
+        for (const double x : {0.0, 2.0}) {
+            ASSERT_TRUE(world->add({.shape = *shape, .pose = {{x, x}, 0.0}}).has_value());
+        }
+        const Status status = world->update(table);
+        EXPECT_EQ(status.code(), code) << status.text();
+        EXPECT_EQ(table.size() > 0, code == StatusCode::ok);
+        if (code != StatusCode::ok) {
+            EXPECT_EQ(status.message().find("update: "), 0U) << status.text();
+            EXPECT_EQ(table.candidates(), 0U);
+            EXPECT_EQ(table.row(0).error().code(), StatusCode::invalid_query);
+        }
+    }
+};
+
+TEST_F(DevicePairRefusals, OfContextsThatDoNotCompute) {
+    Settings settings;
+    settings.techniques.compute = false;
+    Expected<Context> drawing_only = Context::create(host_device(), settings);
+    ASSERT_TRUE(drawing_only.has_value()) << drawing_only.error().text();
+    expect_refused(*drawing_only, {.tolerance = 0.1}, StatusCode::unsupported_technique);
+    Expected<Context> without_device = Context::create_cpu();
+    ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
+    expect_refused(*without_device, {.tolerance = 0.1}, StatusCode::unsupported_technique);
+}
+
+TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
+    for (const Technique technique : {Technique::cpu, Technique::raster}) {
+        expect_refused(context(), {.tolerance = 0.1, .technique = technique},
+                       StatusCode::invalid_query);
+    }
+    expect_refused(context(), {.tolerance = 0.1, .resident = true}, StatusCode::invalid_query);
+    expect_refused(context(), {.tolerance = -1.0}, StatusCode::invalid_query);
+}
+
+/// Rows of an earlier update do not stay.
+TEST_F(DevicePairRefusals, LeaveATableThatWasFilledEmpty) {
+    DevicePairTable table({.tolerance = 0.1});
+    update(context(), table, StatusCode::ok);
+    Expected<Context> without_device = Context::create_cpu();
+    ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
+    update(*without_device, table, StatusCode::unsupported_technique);
+    table = DevicePairTable({.tolerance = 0.1});
+}
+
+}  // namespace
+}  // namespace nearfield::test
