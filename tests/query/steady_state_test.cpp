@@ -55,6 +55,7 @@ protected:
 
     [[nodiscard]] Context& watched() { return *watched_; }
     [[nodiscard]] const Batch& batch() const { return batch_; }
+    [[nodiscard]] std::vector<ShapeHandle> shapes_of_frame() const { return {a_, b_}; }
 
     /// Queries with resident outputs: fields first, then penetration, contacts and intersections.
     [[nodiscard]] Batch resident_batch() const {
@@ -235,6 +236,36 @@ TEST_F(SteadyState, FramesThatAreWaitedForAllocateAndCreateNothing) {
     expect_nothing_made(
         50, [&](int number) { return deform(number) && watched().run(batch(), results).ok(); });
     expect_answers(results);
+}
+
+TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
+    Expected<World> world = World::create(watched());
+    ASSERT_TRUE(world.has_value()) << world.error().text();
+    const std::vector<ShapeHandle> shapes = shapes_of_frame();
+    std::vector<InstanceHandle> instances;
+    for (std::size_t i = 0; i < 20; ++i) {
+        const auto instance = world->add({.shape = shapes[i % 2], .pose = {}});
+        ASSERT_TRUE(instance.has_value()) << instance.error().text();
+        instances.push_back(*instance);
+    }
+    DevicePairTable table({.tolerance = 0.08});
+    std::vector<PenetrationRecord> records;
+    std::uint32_t rows = 0;
+    expect_nothing_made(200, [&](int number) {
+        bool ok = true;
+        for (std::size_t i = 0; i < instances.size(); ++i) {
+            // The same poses again and again, so that warming up has seen all.
+            const double angle = 0.7 * (number % 8) + static_cast<double>(i);
+            ok = world->move(instances[i], {{0.8 * static_cast<double>(i), 0.0}, angle}).ok() && ok;
+        }
+        ok = world->update(table).ok() && ok;
+        for (std::uint32_t row = 0; row < table.size(); ++row) {
+            ok = table.row(row).has_value() && table.records(row, records).ok() && ok;
+        }
+        rows = table.size();
+        return ok;
+    });
+    EXPECT_GT(rows, 10U);
 }
 
 TEST_F(SteadyState, WhatStaysOnTheDeviceAllocatesAndCreatesNothing) {
