@@ -23,7 +23,11 @@ protected:
         const ShapeHandle a = *context->add_shape(coast(random, 100, 0.5));
         const ShapeHandle b = *context->add_shape(with_holes(random, 3));
         std::vector<double> numbers;
+        Expected<World> world = World::create(*context);
+        EXPECT_TRUE(world.has_value()) << world.error().text();
+        DevicePairTable table({.tolerance = 0.05});
         for (int i = 0; i < 2; ++i) {
+            add_pairs(*world, {a, b}, table, numbers);
             Results results;
             const Status status = context->run(every_query(a, b, i, false), results);
             EXPECT_TRUE(status.ok()) << status.text();
@@ -32,6 +36,27 @@ protected:
             EXPECT_TRUE(context->update_shape(a, coast(random, 80, 0.4)).ok());
         }
         return numbers;
+    }
+
+    /// The rows and records of all pairs, after more instances were added.
+    static void add_pairs(World& world, const std::vector<ShapeHandle>& shapes,
+                          DevicePairTable& table, std::vector<double>& numbers) {
+        for (const ShapeHandle shape : shapes) {
+            const auto x = static_cast<double>(world.size());
+            const Pose pose{{0.5 * x, 0.0}, x};
+            EXPECT_TRUE(world.add({.shape = shape, .pose = pose}).has_value());
+        }
+        const Status status = world.update(table);
+        EXPECT_TRUE(status.ok()) << status.text();
+        EXPECT_GT(table.size(), 0U);
+        std::vector<PenetrationRecord> records;
+        for (std::uint32_t row = 0; row < table.size(); ++row) {
+            numbers.push_back(table.row(row)->deepest.depth);
+            EXPECT_TRUE(table.records(row, records).ok());
+            for (const PenetrationRecord& record : records) {
+                numbers.push_back(record.depth);
+            }
+        }
     }
 };
 
