@@ -72,11 +72,11 @@ protected:
         run(batch);
     }
 
-    /// Pairs of several workgroups of instances, found by the device.
-    void update_device_pairs(bool records) {
+    /// Pairs found by the device. Several workgroups have the boxes of more than 64 instances.
+    void update_device_pairs(int count, bool records) {
         Expected<World> world = World::create(*context_);
         ASSERT_TRUE(world.has_value()) << world.error().text();
-        for (int i = 0; i < 100; ++i) {
+        for (int i = 0; i < count; ++i) {
             const WorldInstance instance{.shape = i % 2 == 0 ? a_ : b_,
                                          .pose = {{0.5 * i, 0.0}, 0.1 * i}};
             ASSERT_TRUE(world->add(instance).has_value());
@@ -146,7 +146,12 @@ TEST_F(Hazards, AreInNoQueryThatIsAlone) {
 }
 
 TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
-    update_device_pairs(true);
+    for (const int count : {3, 100}) {
+        update_device_pairs(count, false);
+    }
+    EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
+    update_device_pairs(3, true);
+    update_device_pairs(100, true);
     check();
 }
 
