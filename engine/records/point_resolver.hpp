@@ -49,6 +49,21 @@ public:
     /// come in ascending order, and none that is in doubt may be left out.
     [[nodiscard]] ResolvedPoint resolve(std::uint32_t index);
 
+    /// Calls `use(record)` for the points of a penetration query that penetrate B, in their order.
+    template <class Use>
+    void for_each_penetration(double tolerance, const Use& use) {
+        const double touching = tolerance * static_cast<double>(plan::touching_depth);
+        for (std::uint32_t i = query_->points().first; i < query_->points().end(); ++i) {
+            if ((words_[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
+                continue;
+            }
+            const ResolvedPoint resolved = resolve(i);
+            if (resolved.inside && resolved.distance > touching) {
+                use(penetration_record(resolved));
+            }
+        }
+    }
+
     [[nodiscard]] const geometry::TransformedPolygon& a() const { return *a_; }
     [[nodiscard]] const geometry::TransformedPolygon& b() const { return *b_; }
     /// For queries that the device leaves open.

@@ -51,18 +51,8 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         return;
     }
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
-    const double touching = result.tolerance * plan::touching_depth;
     resolver_.begin(asked.plan, planned, asked.words);
-    const plan::PlannedPoints& points = planned.points();
-    for (std::uint32_t i = points.first; i < points.end(); ++i) {
-        if ((asked.words[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
-            continue;
-        }
-        const records::ResolvedPoint resolved = resolver_.resolve(i);
-        if (!resolved.inside || resolved.distance <= touching) {
-            continue;
-        }
-        const PenetrationRecord record = penetration_record(resolved);
+    resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
         if (result.count == 0 || record.depth > result.deepest.depth) {
             result.deepest = record;
         }
@@ -70,7 +60,7 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         if (keep) {
             result.records.push_back(record);
         }
-    }
+    });
     result.intersects = result.count > 0 || shapes_intersect(asked, result);
 }
 
