@@ -1,5 +1,4 @@
 #include <passes/pair_search.hpp>
-#include <passes/reads_texels.hpp>
 
 #include <shaders/pair_boxes_comp.hpp>
 #include <shaders/pair_directions_comp.hpp>
@@ -7,47 +6,29 @@
 #include <shaders/pair_lists_comp.hpp>
 #include <shaders/pair_rows_comp.hpp>
 #include <shaders/pair_summaries_comp.hpp>
-#include <shaders/search_edges_comp.hpp>
-#include <shaders/search_items_comp.hpp>
-#include <shaders/search_pack_comp.hpp>
-#include <shaders/search_points_comp.hpp>
-#include <shaders/search_scan_comp.hpp>
 
 namespace nearfield::passes {
 namespace {
 
 using graph::Access;
 
-constexpr VkDeviceSize bytes_of_arguments = plan::words_of_arguments * sizeof(std::uint32_t);
-
-std::array<VkBool32, 2> pair_constants_of(const gpu::Device& device) {
-    return {reads_texels(device), VK_TRUE};
+ComputeShader make_pair_shader(const gpu::Device& device, const ComputeLayout& layout,
+                               gpu::Spirv code, const char* name) {
+    return {device, layout, code, name, search_constants(device, true)};
 }
 
 }  // namespace
 
 PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout)
-    : boxes_(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes",
-             pair_constants_of(device)),
-      levels_(device, layout, shaders::pair_levels_comp, "nearfield pair levels"),
-      lists_(device, layout, shaders::pair_lists_comp, "nearfield pair lists",
-             pair_constants_of(device)),
-      directions_(device, layout, shaders::pair_directions_comp, "nearfield pair directions",
-                  pair_constants_of(device)),
-      scan_(device, layout, shaders::search_scan_comp, "nearfield pair scan",
-            pair_constants_of(device)),
-      items_(device, layout, shaders::search_items_comp, "nearfield pair items",
-             pair_constants_of(device)),
-      edges_(device, layout, shaders::search_edges_comp, "nearfield pair edges",
-             pair_constants_of(device)),
-      points_(device, layout, shaders::search_points_comp, "nearfield pair points",
-              pair_constants_of(device)),
-      pack_(device, layout, shaders::search_pack_comp, "nearfield pair packing",
-            pair_constants_of(device)),
-      summaries_(device, layout, shaders::pair_summaries_comp, "nearfield pair summaries",
-                 pair_constants_of(device)),
-      rows_(device, layout, shaders::pair_rows_comp, "nearfield pair rows",
-            pair_constants_of(device)),
+    : search_(device, layout, true, "nearfield pair"),
+      boxes_(make_pair_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
+      levels_(make_pair_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")),
+      lists_(make_pair_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
+      directions_(make_pair_shader(device, layout, shaders::pair_directions_comp,
+                                   "nearfield pair directions")),
+      summaries_(make_pair_shader(device, layout, shaders::pair_summaries_comp,
+                                  "nearfield pair summaries")),
+      rows_(make_pair_shader(device, layout, shaders::pair_rows_comp, "nearfield pair rows")),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"})),
@@ -88,9 +69,9 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
             arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
         },
         [this, stage](VkCommandBuffer commands, const Item& item) {
-            scan_.bind(commands, item.sets[of_points]);
-            push(commands, item, scan_, 0, stage);
-            scan_.dispatch(commands, 1);
+            search_.scan.bind(commands, item.sets[of_points]);
+            push(commands, item, search_.scan, 0, stage);
+            search_.scan.dispatch(commands, 1);
         });
 }
 
@@ -113,11 +94,11 @@ void PairSearch::declare_pairs() {
 }
 
 void PairSearch::declare_points() {
-    add("pair items", items_, of_points, plan::item_total);
+    add("pair items", search_.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
-    add("pair edges", edges_, of_points, plan::edge_total);
+    add("pair edges", search_.edges, of_points, plan::edge_total);
     add_scan("count points", plan::point_total);
-    add("pair points", points_, of_points, plan::point_total);
+    add("pair points", search_.points, of_points, plan::point_total);
     add_scan("count found points", plan::record_total);
     graph_.add_pass(
         "pack points", graph::PassKind::compute,
@@ -127,8 +108,8 @@ void PairSearch::declare_points() {
             records_ = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            pack_.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, pack_, plan::point_total, no_stage);
+            search_.pack.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, search_.pack, plan::point_total, no_stage);
         });
     graph_.add_pass(
         "pair summaries", graph::PassKind::compute,
@@ -187,7 +168,7 @@ void PairSearch::dispatch(VkCommandBuffer commands, const Item& item, const Comp
         return;
     }
     push(commands, item, shader, 0, stage);
-    shader.dispatch_indirect(commands, item.arguments, bytes_of_arguments * threads_of);
+    shader.dispatch_indirect(commands, item.arguments, search_argument_bytes * threads_of);
 }
 
 }  // namespace nearfield::passes

@@ -3,14 +3,12 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <nearfield/diagnostics.hpp>
-#include <passes/compute_shader.hpp>
+#include <passes/search_shaders.hpp>
 
 #include <shaders/pairs.h>
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 namespace nearfield::passes {
 
@@ -23,8 +21,8 @@ class PairSearch {
 public:
     PairSearch(const gpu::Device& device, const ComputeLayout& layout);
 
-    /// The descriptor sets of one search: of the passes about instances, about points, and of the
-    /// last.
+    /// The descriptor sets of one search: for the passes about instances, those about points, and
+    /// the last one.
     enum Set : std::uint8_t { of_instances, of_points, of_rows };
     static constexpr std::size_t set_count = 3;
 
@@ -45,8 +43,6 @@ public:
 
     static constexpr std::uint32_t pass_count = 16;
 
-    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
-
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.
     static constexpr std::uint32_t no_stage = UINT32_MAX;
@@ -61,15 +57,11 @@ private:
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
 
+    SearchShaders search_;
     ComputeShader boxes_;
     ComputeShader levels_;
     ComputeShader lists_;
     ComputeShader directions_;
-    ComputeShader scan_;
-    ComputeShader items_;
-    ComputeShader edges_;
-    ComputeShader points_;
-    ComputeShader pack_;
     ComputeShader summaries_;
     ComputeShader rows_;
     graph::RecordedGraph<Item> graph_;

@@ -4,23 +4,13 @@
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/recorded_graph.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/compute_shader.hpp>
+#include <passes/search_shaders.hpp>
 
 #include <array>
 #include <cstdint>
 #include <string>
 
 namespace nearfield::passes {
-
-/// Where the arrays of a search lie in its scratch memory, in words or units of four words, and how
-/// many elements they have room for.
-struct SearchLayout {
-    std::uint32_t item_blocks = 0, edge_blocks = 0, point_blocks = 0, item_words = 0;  // words
-    std::uint32_t edge_units = 0, point_units = 0;                                     // units
-    std::uint64_t units = 0;  ///< of the whole
-    /// Of edges, points, and points that were found.
-    std::array<std::uint32_t, plan::stages> capacities{};
-};
 
 /// The passes that search for boundary points (plan::PointSearch), in a separate graph: items,
 /// edges, points, each followed by a scan that counts what they leave to the next; at last, the
@@ -36,10 +26,9 @@ public:
         VkBuffer scratch = VK_NULL_HANDLE;
         VkBuffer records = VK_NULL_HANDLE;
         VkBuffer arguments = VK_NULL_HANDLE;
-        SearchLayout layout;
-        std::uint32_t items = 0;
-        std::uint32_t first_direction = 0;  ///< unit of the input
-        std::uint32_t directions = 0;
+        plan::SearchPush push{};  ///< without stage and capacities
+        /// How many elements of each stage there is room for.
+        std::array<std::uint32_t, plan::stages> capacities{};
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
@@ -56,11 +45,7 @@ private:
     void dispatch(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                   std::uint32_t arguments) const;
 
-    ComputeShader items_;
-    ComputeShader scan_;
-    ComputeShader edges_;
-    ComputeShader points_;
-    ComputeShader pack_;
+    SearchShaders shaders_;
     graph::RecordedGraph<Item> graph_;
     graph::Handle input_;
     graph::Handle scratch_;

@@ -11,7 +11,7 @@ layout(local_size_x = group_size) in;
 
 shared vec4 boxes[group_size];
 
-// A shape with more chunks has boxes of a level in place of its vertices.
+// The most edges, or boxes of one level, of a shape that a thread looks at.
 const uint few_boxes = 64u;
 const float rounding = 1.0 / 1048576.0;  // of a handful of operations
 
@@ -50,13 +50,13 @@ vec4 box_of(SearchInstanceData instance) {
     Shape shape = shape_at(instance.shape);
     mat2 frame = instance.unit *
                  mat2(instance.axis.x, instance.axis.y, -instance.axis.y, instance.axis.x);
-    vec4 box = shape.chunks <= few_boxes / 8u ? box_of_vertices(shape, frame)
+    vec4 box = chunk_size * shape.chunks <= few_boxes ? box_of_vertices(shape, frame)
                                               : box_of_boxes(shape, frame);
     float grow = rounding * (instance.radius + abs(instance.high.x) + abs(instance.high.y));
     return box + instance.high.xyxy + vec4(-grow, -grow, grow, grow);
 }
 
-// Replaces each eighth of the boxes that are `step` apart by what holds it and the next seven.
+// Of the boxes that are `step` apart, grows every eighth one to hold the seven that follow it.
 void merge_boxes(uint step) {
     uint own = gl_LocalInvocationID.x;
     barrier();

@@ -2,35 +2,26 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/render/pair_search_buffers.hpp>
+#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 
 namespace nearfield::render {
 namespace {
 
 using plan::SearchInstanceData;
-using plan::SearchUnit;
 
 constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_sets{
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
-
-constexpr std::uint64_t bytes_of_pair_arguments =
-    std::uint64_t{plan::stages_of_pairs} * plan::words_of_arguments * sizeof(std::uint32_t);
 
 /// Room for what the first search may find.
 constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
 
 /// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
-
-std::uint64_t pair_blocks_for(std::uint64_t elements) {
-    return (elements + plan::search_block - 1) / plan::search_block + 1;
-}
 
 std::uint64_t instance_bytes(std::uint32_t count) {
     return sizeof(plan::PairQueryData) +
@@ -65,7 +56,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
             "nearfield pair rows"),
       sets_(device, layout, names_of_pair_sets) {
-    arguments_.reserve(bytes_of_pair_arguments);
+    arguments_.reserve(argument_bytes(plan::stages_of_pairs));
     item_.capacities = first_capacities;
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
@@ -128,50 +119,29 @@ void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
     }
 }
 
-/// The arrays about instances.
-void PairSearchBuffers::lay_out_instances(std::uint64_t& word) {
+void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     plan::SearchPush& push = item_.push;
-    const auto words = [&word](std::uint64_t count) {
-        const std::uint64_t first = word;
-        word += (count + 3) / 4 * 4;
-        return static_cast<std::uint32_t>(first);
-    };
+    const auto [edges, points, found, pairs, items, rows] = item_.capacities;
+    ScratchLayout layout;
     std::uint64_t boxes = 0;
     std::uint64_t level = push.instances;
     for (std::uint32_t i = 0; i < plan::instance_levels; ++i) {
         boxes += level;
         level = (level + 7) / 8;
     }
-    push.boxes = words(4 * boxes) / 4;
-    push.lists = words(4 * std::uint64_t{push.instances}) / 4;
-    push.pair_blocks = words(pair_blocks_for(push.instances));
-    push.list_item_blocks = words(pair_blocks_for(push.instances));
-}
-
-void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
-    plan::SearchPush& push = item_.push;
-    const auto [edges, points, found, pairs, items, rows] = item_.capacities;
-    std::uint64_t word = plan::words_of_totals;
-    const auto words = [&word](std::uint64_t count) {
-        const std::uint64_t first = word;
-        word += (count + 3) / 4 * 4;
-        return static_cast<std::uint32_t>(first);
-    };
-    lay_out_instances(word);
-    push.pairs = words(2 * std::uint64_t{pairs});
-    push.directions = words(4 * std::uint64_t{plan::units_of_direction} * pairs) / 4;
-    push.summaries = words(8 * std::uint64_t{pairs}) / 4;
-    push.row_blocks = words(pair_blocks_for(pairs));
-    push.first_directions = words(pair_blocks_for(items));
-    push.item_blocks = words(pair_blocks_for(items));
-    push.item_words = words(items);
-    push.edge_blocks = words(pair_blocks_for(edges));
-    push.edge_units = words(8 * std::uint64_t{edges}) / 4;
-    push.point_blocks = words(pair_blocks_for(points / plan::points_per_thread + 1));
-    push.point_units = words(4 * std::uint64_t{points}) / 4;
-    push.depths = words(points);
-    push.record_depths = words(found);
-    scratch_bytes_ = word * sizeof(std::uint32_t);
+    push.boxes = layout.units(boxes);
+    push.lists = layout.units(push.instances);
+    push.pair_blocks = layout.sums(push.instances);
+    push.list_item_blocks = layout.sums(push.instances);
+    push.pairs = layout.words(2 * std::uint64_t{pairs});
+    push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
+    push.summaries = layout.units(2 * std::uint64_t{pairs});
+    push.row_blocks = layout.sums(pairs);
+    push.first_directions = layout.sums(items);
+    layout.add_stages(items, edges, points, push);
+    push.depths = layout.words(points);
+    push.record_depths = layout.words(found);
+    scratch_bytes_ = layout.bytes();
     const std::uint64_t record_bytes =
         std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData);
     const std::uint64_t row_bytes = bytes_of_rows(rows);
@@ -206,7 +176,7 @@ void PairSearchBuffers::bind() const {
             layout_->write_buffer(item_.sets[i], binding, buffer, 0, bytes);
         };
         write(Layout::geometry, item_.scratch, scratch_bytes_);
-        write(Layout::output, item_.arguments, bytes_of_pair_arguments);
+        write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
         layout_->write_texels(item_.sets[i], texels_.get());
         if (i == passes::PairSearch::of_rows) {
             write(Layout::tiles, item_.records, record_bytes);
@@ -226,9 +196,7 @@ void PairSearchBuffers::bind() const {
 /// The commands stay the same as long as the memory does.
 void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timings) {
     const Stopwatch start;
-    // A device that is lost leaves no counts of an earlier search.
-    std::memset(arguments_.data(), 0, bytes_of_pair_arguments);
-    arguments_.flush();
+    clear_counts(arguments_, plan::stages_of_pairs);
     std::memset(rows_.data(), 0, sizeof(plan::PairRowData));
     rows_.flush();
     if (is_recorded_) {
@@ -246,12 +214,7 @@ void PairSearchBuffers::submit(const passes::PairSearch& passes, Timings& timing
 void PairSearchBuffers::read_back() {
     submission_.wait();
     is_submitted_ = false;
-    arguments_.invalidate();
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        std::memcpy(&counts_[i],
-                    arguments_.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
-                    sizeof(counts_[i]));
-    }
+    read_counts(arguments_, counts_);
 }
 
 void PairSearchBuffers::read_undecided() {
@@ -260,15 +223,6 @@ void PairSearchBuffers::read_undecided() {
         reinterpret_cast<const std::uint32_t*>(rows_data() + 1 + item_.capacities[plan::row_total]);
     undecided_.assign(numbers, numbers + std::min(count, counts_[plan::row_total]));
     std::sort(undecided_.begin(), undecided_.end());
-}
-
-bool PairSearchBuffers::had_room() const {
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        if (counts_[i] > item_.capacities[i]) {
-            return false;
-        }
-    }
-    return true;
 }
 
 /// Makes room for what the device has counted, and a little more. Later stages have counted nothing
@@ -302,7 +256,7 @@ void PairSearchBuffers::search(const passes::PairSearch& passes, const plan::Sea
         read_back();
         timings.device += submitted.milliseconds();
         timestamps_.collect(timings.passes);
-        if (had_room()) {
+        if (have_room(counts_, item_.capacities)) {
             break;
         }
         grow();

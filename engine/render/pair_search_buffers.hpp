@@ -20,7 +20,7 @@
 
 namespace nearfield::render {
 
-/// By stage (shaders/search.h): pairs, their items, edges, points, points found, and rows.
+/// By stage (shaders/search.h): edges, points, points found, pairs, their items, and rows.
 using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
 
 /// The memory of a search for all pairs of a world's instances, with its descriptor sets and its
@@ -45,8 +45,8 @@ public:
 
     /// Finds all pairs and waits for them: submits as often as it takes to have room for all.
     /// Throws StatusException, (too_large) if the device cannot hold them, or they need more bytes
-    /// than `memory_limit`. Adds the times of recording and submission, of the
-    /// device and of the passes.
+    /// than `memory_limit`. Adds the times of recording and submission, of the device, and of the
+    /// passes.
     void search(const passes::PairSearch& passes, const plan::SearchShapes& shapes,
                 std::uint64_t memory_limit, Timings& timings);
 
@@ -69,12 +69,10 @@ private:
     }
     void upload_shapes(const plan::SearchShapes& shapes);
     void lay_out(std::uint64_t memory_limit);
-    void lay_out_instances(std::uint64_t& word);
     void bind() const;
     void submit(const passes::PairSearch& passes, Timings& timings);
     void read_back();
     void read_undecided();
-    [[nodiscard]] bool had_room() const;
     void grow();
 
     const gpu::Device* device_;

@@ -1,22 +1,15 @@
 #include <engine/base/status_exception.hpp>
 #include <engine/render/search_buffers.hpp>
+#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 namespace nearfield::render {
 namespace {
 
 constexpr std::array<const char*, 1> names_of_sets{"nearfield search set"};
-
-constexpr std::uint64_t argument_bytes =
-    std::uint64_t{plan::stages} * plan::words_of_arguments * sizeof(std::uint32_t);
-
-std::uint32_t blocks_for(std::uint32_t elements) {
-    return (elements + plan::search_block - 1) / plan::search_block + 1;
-}
 
 std::uint32_t rounded_up(double value) {
     return static_cast<std::uint32_t>(std::ceil(value));
@@ -36,7 +29,7 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield search arguments"),
       sets_(device, layout, names_of_sets) {
-    arguments_.reserve(argument_bytes);
+    arguments_.reserve(argument_bytes(plan::stages));
     item_.set = sets_[0];
 }
 
@@ -56,9 +49,9 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     target = std::copy(directions.begin(), directions.end(), target);
     std::copy(blocks.begin(), blocks.end(), target);
     input_.flush();
-    item_.items = search.items;
-    item_.first_direction = static_cast<std::uint32_t>(shapes.units().size());
-    item_.directions = static_cast<std::uint32_t>(search.directions.size());
+    item_.push.items = search.items;
+    item_.push.directions = static_cast<std::uint32_t>(shapes.units().size());
+    item_.push.direction_count = static_cast<std::uint32_t>(search.directions.size());
     const std::uint32_t max_points = rounded_up(search.max_points);
     max_counts_ = {rounded_up(search.max_edges), max_points, max_points};
     lay_out(expected);
@@ -77,29 +70,16 @@ bool SearchBuffers::reserve_input() {
 }
 
 void SearchBuffers::lay_out(const SearchCounts& expected) {
-    passes::SearchLayout& layout = item_.layout;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        layout.capacities[i] = std::min(expected[i], max_counts_[i]);
+        item_.capacities[i] = std::min(expected[i], max_counts_[i]);
     }
-    const auto [edges, points, found] = layout.capacities;
-    std::uint32_t word = plan::words_of_totals;
-    const auto words = [&word](std::uint32_t count) {
-        const std::uint32_t first = word;
-        word += (count + 3) / 4 * 4;
-        return first;
-    };
-    layout.item_blocks = words(blocks_for(item_.items));
-    layout.edge_blocks = words(blocks_for(edges));
-    layout.point_blocks = words(blocks_for(points / plan::points_per_thread + 1));
-    layout.item_words = words(item_.items);
-    layout.edge_units = word / 4;
-    layout.point_units = layout.edge_units + 2 * edges;
-    layout.units = std::uint64_t{layout.point_units} + points;
-    scratch_.reserve(layout.units * sizeof(plan::SearchUnit));
+    const auto [edges, points, found] = item_.capacities;
+    ScratchLayout layout;
+    layout.add_stages(item_.push.items, edges, points, item_.push);
+    scratch_bytes_ = layout.bytes();
+    scratch_.reserve(scratch_bytes_);
     records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
-    // A device that is lost leaves no counts of an earlier search.
-    std::memset(arguments_.data(), 0, argument_bytes);
-    arguments_.flush();
+    clear_counts(arguments_, plan::stages);
     item_.input = input_.handle();
     item_.scratch = scratch_.handle();
     item_.records = records_.handle();
@@ -114,21 +94,16 @@ void SearchBuffers::bind() const {
     };
     layout_->begin_updates();
     write(Layout::tiles, item_.input, input_bytes_);
-    write(Layout::geometry, item_.scratch, item_.layout.units * sizeof(plan::SearchUnit));
+    write(Layout::geometry, item_.scratch, scratch_bytes_);
     write(Layout::points, item_.records,
-          std::max(item_.layout.capacities[2], 1U) * sizeof(plan::FoundPointData));
-    write(Layout::output, item_.arguments, argument_bytes);
+          std::max(item_.capacities[2], 1U) * sizeof(plan::FoundPointData));
+    write(Layout::output, item_.arguments, argument_bytes(plan::stages));
     layout_->write_texels(item_.set, texels_.get());
     layout_->end_updates();
 }
 
 void SearchBuffers::read_back() {
-    arguments_.invalidate();
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        std::memcpy(&counts_[i],
-                    arguments_.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
-                    sizeof(counts_[i]));
-    }
+    read_counts(arguments_, counts_);
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         if (counts_[i] > max_counts_[i]) {
             throw StatusException({StatusCode::device_error, "a search for points counted " +
@@ -143,16 +118,11 @@ void SearchBuffers::read_back() {
 }
 
 bool SearchBuffers::had_room() const {
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-        if (counts_[i] > item_.layout.capacities[i]) {
-            return false;
-        }
-    }
-    return true;
+    return have_room(counts_, item_.capacities);
 }
 
 void SearchBuffers::grow() {
-    SearchCounts expected = item_.layout.capacities;
+    SearchCounts expected = item_.capacities;
     double growth = 1.0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
         // A stage that came after one without room counted only a part.

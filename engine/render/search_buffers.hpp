@@ -57,6 +57,7 @@ private:
     passes::DescriptorSets sets_;
     passes::PointSearch::Item item_;
     std::uint64_t input_bytes_ = 0;
+    std::uint64_t scratch_bytes_ = 0;
     std::uint64_t revision_ = 0;  // of the shapes in the input
     SearchCounts max_counts_{};
     SearchCounts counts_{};

@@ -1,0 +1,50 @@
+#include <engine/render/search_memory.hpp>
+
+#include <cstring>
+
+namespace nearfield::render {
+
+std::uint32_t ScratchLayout::words(std::uint64_t count) {
+    const std::uint64_t first = words_;
+    words_ += (count + 3) / 4 * 4;
+    return static_cast<std::uint32_t>(first);
+}
+
+std::uint32_t ScratchLayout::sums(std::uint64_t elements) {
+    return words((elements + plan::search_block - 1) / plan::search_block + 1);
+}
+
+void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
+                               plan::SearchPush& push) {
+    push.item_blocks = sums(items);
+    push.item_words = words(items);
+    push.edge_blocks = sums(edges);
+    push.edge_units = units(2 * edges);
+    push.point_blocks = sums(points / plan::points_per_thread + 1);
+    push.point_units = units(points);
+}
+
+void clear_counts(const gpu::MappedBuffer& arguments, std::uint64_t stages) {
+    std::memset(arguments.data(), 0, argument_bytes(stages));
+    arguments.flush();
+}
+
+void read_counts(const gpu::MappedBuffer& arguments, std::span<std::uint32_t> counts) {
+    arguments.invalidate();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        std::memcpy(&counts[i],
+                    arguments.data() + (plan::words_of_arguments * i + 3) * sizeof(std::uint32_t),
+                    sizeof(counts[i]));
+    }
+}
+
+bool have_room(std::span<const std::uint32_t> counts, std::span<const std::uint32_t> capacities) {
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > capacities[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace nearfield::render

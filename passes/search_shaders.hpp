@@ -1,0 +1,38 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/compute_shader.hpp>
+
+#include <shaders/push.h>
+#include <shaders/search.h>
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <string>
+
+namespace nearfield::passes {
+
+/// Bytes of the arguments of one stage's dispatch.
+inline constexpr VkDeviceSize search_argument_bytes =
+    plan::words_of_arguments * sizeof(std::uint32_t);
+
+/// The specialization constants of the shaders that include search.glsl. `finds_pairs`: the
+/// directions are found by the device, and not given in the input.
+[[nodiscard]] std::array<VkBool32, 2> search_constants(const gpu::Device& device, bool finds_pairs);
+
+/// The shaders that search for boundary points: in the directions of a batch (PointSearch), or
+/// between all pairs of a world (PairSearch).
+struct SearchShaders {
+    /// `prefix`: of the names of the pipelines.
+    SearchShaders(const gpu::Device& device, const ComputeLayout& layout, bool finds_pairs,
+                  const std::string& prefix);
+
+    ComputeShader items;
+    ComputeShader scan;
+    ComputeShader edges;
+    ComputeShader points;
+    ComputeShader pack;
+};
+
+}  // namespace nearfield::passes
