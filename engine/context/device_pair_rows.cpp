@@ -2,6 +2,7 @@
 
 #include <engine/base/catch_to_status.hpp>
 #include <engine/context/device_pair_state.hpp>
+#include <engine/context/pair_row.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
@@ -63,14 +64,15 @@ std::uint32_t DevicePairTable::State::device_row(const char* call, std::uint32_t
         refuse(call, "there is no row " + std::to_string(index) + "; the table has " +
                          std::to_string(rows));
     }
-    return drops_rows_ ? device_rows_[index] : index;
+    return device_rows_.empty() ? index : device_rows_[index];
 }
 
-const PenetrationResult* DevicePairTable::State::find_decided(std::uint32_t row) const {
+const DevicePairTable::State::Decided* DevicePairTable::State::find_decided(
+    std::uint32_t row) const {
     const auto found =
         std::lower_bound(decided_.begin(), decided_.end(), row,
                          [](const Decided& one, std::uint32_t other) { return one.row < other; });
-    return found != decided_.end() && found->row == row ? &found->result : nullptr;
+    return found != decided_.end() && found->row == row ? &*found : nullptr;
 }
 
 PenetrationQuery DevicePairTable::State::query_on_cpu(const plan::PairRowData& data,
@@ -123,31 +125,10 @@ void DevicePairTable::State::add_point(const plan::FoundPointData& found) {
     ++planned.points().count;
 }
 
-/// Calls `use(record)` for the points added that penetrate, in their order.
-template <class Use>
-void DevicePairTable::State::resolve_points(const Use& use) {
-    const double touching = query.tolerance * static_cast<double>(plan::touching_depth);
-    resolver_.begin(plan_, plan_.queries.front(), words_);
-    for (std::uint32_t i = 0; i < plan_.points.size(); ++i) {
-        if ((words_[i] & (plan::point_inside | plan::point_doubtful)) == 0) {
-            continue;
-        }
-        const records::ResolvedPoint resolved = resolver_.resolve(i);
-        if (resolved.inside && resolved.distance > touching) {
-            use(records::penetration_record(resolved));
-        }
-    }
-}
-
 DevicePairTable::Row DevicePairTable::State::row_of(const plan::PairRowData& data,
                                                     const PenetrationResult& result) const {
-    Row row;
-    static_cast<PenetrationValues&>(row) = result;
-    row.a = instances_[data.a].handle;
-    row.b = instances_[data.b].handle;
-    row.status = result.status.code();
-    row.intersects = result.intersects;
-    row.error_bound = result.error_bound;
+    Row row = nearfield::row_of<PenetrationQuery>(instances_[data.a].handle,
+                                                  instances_[data.b].handle, result);
     row.record_count = query.records ? result.count : 0;
     return row;
 }
@@ -155,8 +136,8 @@ DevicePairTable::Row DevicePairTable::State::row_of(const plan::PairRowData& dat
 DevicePairTable::Row DevicePairTable::State::row(std::uint32_t index) {
     const std::uint32_t number = device_row("row", index);
     const plan::PairRowData& data = buffers_->rows()[number];
-    if (const PenetrationResult* const decided = find_decided(number)) {
-        return row_of(data, *decided);
+    if (const Decided* const decided = find_decided(number)) {
+        return decided->answer;
     }
     if ((data.count & plan::row_has_rival) != 0) {
         return row_of(data, answer_on_cpu(data, false));
@@ -164,7 +145,9 @@ DevicePairTable::Row DevicePairTable::State::row(std::uint32_t index) {
     begin(data);
     add_point({0, data.edge, data.number, data.word});
     PenetrationResult result;
-    resolve_points([&](const PenetrationRecord& record) { result.deepest = record; });
+    resolver_.begin(plan_, plan_.queries.front(), words_);
+    resolver_.for_each_penetration(
+        query.tolerance, [&](const PenetrationRecord& record) { result.deepest = record; });
     result.count = data.count & plan::row_count_mask;
     result.intersects = true;
     result.error_bound = plan_.queries.front().budget.bound;
@@ -187,7 +170,9 @@ void DevicePairTable::State::records(std::uint32_t index, std::vector<Penetratio
          buffers_->records().subspan(data.first_record, data.record_count)) {
         add_point(found);
     }
-    resolve_points([&](const PenetrationRecord& record) { records.push_back(record); });
+    resolver_.begin(plan_, plan_.queries.front(), words_);
+    resolver_.for_each_penetration(
+        query.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });
 }
 
 }  // namespace nearfield

@@ -41,26 +41,28 @@ struct DevicePairTable::State {
     }
 
 private:
+    static constexpr std::uint64_t not_placed = UINT64_MAX;
     /// An instance as the last update found it. Its number is its place among all.
     struct PairInstance {
         Instance instance;
         InstanceHandle handle;
         const geometry::Polygon* polygon = nullptr;  // held
-        bool is_too_deviant = false;                 // for the tolerance, with one like it
-        std::uint64_t moves = 0;                     // see world::Instances
+        bool is_left_to_cpu = false;                 // wherever it is
+        std::uint64_t moves = not_placed;            // see world::Instances
         plan::SearchInstanceData data;
     };
     /// A row that the CPU decided.
     struct Decided {
         std::uint32_t row = 0;  // of the device
         bool has_row = false;   // in the table
-        PenetrationResult result;
+        Row answer;
     };
 
     void check() const;
     void list_instances(const world::Instances& instances);
     void place(const world::Instances& instances, std::span<const std::uint32_t> numbers);
-    void place_moved(const world::Instances& instances, bool all);
+    void place_moved(const world::Instances& instances);
+    [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
     void order_instances();
     void search();
@@ -68,14 +70,12 @@ private:
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
     /// Null if the device decided.
-    [[nodiscard]] const PenetrationResult* find_decided(std::uint32_t row) const;
+    [[nodiscard]] const Decided* find_decided(std::uint32_t row) const;
     [[nodiscard]] PenetrationQuery query_on_cpu(const plan::PairRowData& data,
                                                 bool with_records) const;
     [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data, bool with_records);
     void begin(const plan::PairRowData& data);
     void add_point(const plan::FoundPointData& found);
-    template <class Use>
-    void resolve_points(const Use& use);
     [[nodiscard]] Row row_of(const plan::PairRowData& data, const PenetrationResult& result) const;
 
     geometry::Vector origin_ = geometry::Vector::Zero();
@@ -92,7 +92,7 @@ private:
     world::HilbertOrder hilbert_order_;
     std::vector<Vector2> places_;             // of the instances
     std::vector<Decided> decided_;            // in ascending order of the rows
-    std::vector<std::uint32_t> device_rows_;  // by row, if some were dropped
+    std::vector<std::uint32_t> device_rows_;  // by row; empty: they are the same
     AnyQuery asked_;                          // for reading rows, as are those that follow
     plan::Plan plan_;
     std::vector<std::uint32_t> words_;
@@ -100,7 +100,6 @@ private:
     Results cpu_results_;
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
-    bool drops_rows_ = false;             // device_rows_ holds those that are left
 };
 
 }  // namespace nearfield

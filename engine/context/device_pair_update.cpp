@@ -1,5 +1,6 @@
 // How a table of pairs that the device finds is brought up to date.
 
+#include <engine/base/interruption.hpp>
 #include <engine/base/stopwatch.hpp>
 #include <engine/context/call_within.hpp>
 #include <engine/context/device_pair_state.hpp>
@@ -26,6 +27,9 @@ constexpr std::uint32_t max_updates_in_order = 64;
 /// Sines and cosines of several poses are computed at the same time; those of one alone would have
 /// to be waited for.
 constexpr std::size_t poses_at_once = 16;
+/// Ratios and squares of lengths between these stay within the range of floats.
+constexpr double smallest_unit = 0x1p-30;
+constexpr double largest_unit = 0x1p+30;
 
 }  // namespace
 
@@ -61,13 +65,12 @@ void DevicePairTable::State::start_anew() {
     }
 }
 
-/// Lists the instances whose shapes exist in the order in which they were added, and holds these.
+/// Lists the instances whose shapes exist in the order in which they were added.
 void DevicePairTable::State::list_instances(const world::Instances& instances) {
-    context_->shapes().release(held_);
     indices_.clear();
     for (std::uint32_t index = 0; index < instances.size(); ++index) {
         if (instances.is_present(index) &&
-            context_->shapes().hold(instances[index].shape, held_) != nullptr) {
+            context_->shapes().find(instances[index].shape) != nullptr) {
             indices_.push_back(index);
         }
     }
@@ -80,7 +83,7 @@ void DevicePairTable::State::list_instances(const world::Instances& instances) {
     std::sort(indices_.begin(), indices_.end(), [&](std::uint32_t i, std::uint32_t j) {
         return instances.number(i) < instances.number(j);
     });
-    instances_.resize(indices_.size());
+    instances_.assign(indices_.size(), {});
 }
 
 /// Writes instances whose poses may have changed.
@@ -105,16 +108,16 @@ void DevicePairTable::State::place(const world::Instances& instances,
                       entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
                       std::abs(pose.translation.y)});
         const bool is_resolved = plan::check_resolution(query.tolerance, magnitude).ok();
-        entry.data.left_to_cpu = entry.is_too_deviant || !is_resolved ? 1 : 0;
+        entry.data.left_to_cpu = entry.is_left_to_cpu || !is_resolved ? 1 : 0;
         buffers_->set_instance(numbers[i], entry.data);
     }
 }
 
-void DevicePairTable::State::place_moved(const world::Instances& instances, bool all) {
+void DevicePairTable::State::place_moved(const world::Instances& instances) {
     std::array<std::uint32_t, poses_at_once> numbers{};
     std::size_t count = 0;
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
-        if (all || instances.moves(indices_[number]) != instances_[number].moves) {
+        if (instances.moves(indices_[number]) != instances_[number].moves) {
             numbers[count++] = number;
             if (count == poses_at_once) {
                 place(instances, numbers);
@@ -125,9 +128,21 @@ void DevicePairTable::State::place_moved(const world::Instances& instances, bool
     place(instances, std::span(numbers).first(count));
 }
 
+/// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
+/// tolerance, or it is so small or large that floats do not hold what is computed.
+bool DevicePairTable::State::is_for_cpu(const geometry::Polygon& polygon) const {
+    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
+    const double unit = plan::unit_length_of(polygon);
+    return unit < smallest_unit || unit > largest_unit ||
+           !plan::check_deviations(query.tolerance, both,
+                                   plan::penetration_budget(query, both).bound)
+                .ok();
+}
+
 void DevicePairTable::State::place_all(const world::Instances& instances) {
     const double cell = plan::penetration_budget(query, {}).cell;
     const bool samples = query.points == PenetrationPoints::boundary;
+    context_->shapes().release(held_);
     shapes_.begin_batch();
     Vector sum = Vector::Zero();
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
@@ -140,15 +155,11 @@ void DevicePairTable::State::place_all(const world::Instances& instances) {
         entry.data.shape = shapes_.place(*entry.polygon);
         entry.data.parts = samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
         plan::set_shape(*entry.polygon, entry.data);
-        const double deviation = entry.polygon->deviation();
-        const plan::Deviations both{deviation, deviation};
-        entry.is_too_deviant = !plan::check_deviations(query.tolerance, both,
-                                                       plan::penetration_budget(query, both).bound)
-                                    .ok();
+        entry.is_left_to_cpu = is_for_cpu(*entry.polygon);
         sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
     }
     origin_ = sum / static_cast<double>(std::max<std::size_t>(instances_.size(), 1));
-    place_moved(instances, true);
+    place_moved(instances);
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
@@ -162,14 +173,13 @@ void DevicePairTable::State::order_instances() {
         return;
     }
     updates_in_order_ = 1;
-    std::vector<Vector2>& places = places_;
-    places.clear();
+    places_.clear();
     for (const PairInstance& entry : instances_) {
-        places.push_back(
+        places_.push_back(
             {static_cast<double>(entry.data.high.x), static_cast<double>(entry.data.high.y)});
     }
     buffers_->set_order(hilbert_order_.sort(
-        places.size(), [&places](std::size_t i) -> const Vector2& { return places[i]; }));
+        places_.size(), [this](std::size_t i) -> const Vector2& { return places_[i]; }));
 }
 
 void DevicePairTable::State::search() {
@@ -192,10 +202,11 @@ void DevicePairTable::State::decide() {
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return context_->shapes().find(shape); },
         cpu_results_);
+    checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
-        auto& result = std::get<PenetrationResult>(cpu_results_.results[i]);
+        const auto& result = std::get<PenetrationResult>(cpu_results_.results[i]);
         const bool has_row = result.count > 0 || !result.status.ok();
-        decided_.push_back({undecided[i], has_row, std::move(result)});
+        decided_.push_back({undecided[i], has_row, row_of(buffers_->rows()[undecided[i]], result)});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
                                           [](const Decided& one) { return one.has_row; });
@@ -208,7 +219,6 @@ void DevicePairTable::State::decide() {
             }
         }
         rows = static_cast<std::uint32_t>(device_rows_.size());
-        drops_rows_ = true;
     }
     timings.decode = start.milliseconds();
 }
@@ -224,12 +234,11 @@ void DevicePairTable::State::update(Context::Implementation& with,
     }
     check();
     rows = 0;
-    drops_rows_ = false;
     decided_.clear();
     device_rows_.clear();
-    timings.record = timings.device = timings.decode = 0.0;
+    timings.plan = timings.record = timings.device = timings.decode = 0.0;
     for (PassTime& pass : timings.passes) {
-        pass.milliseconds = -1.0;
+        pass.milliseconds = 0.0;
     }
     if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
         buffers_ = context_->renderer()->make_pair_buffers(query.records);
@@ -239,7 +248,7 @@ void DevicePairTable::State::update(Context::Implementation& with,
     const bool is_same =
         membership_ == instances.membership() && shapes_revision_ == context_->shapes().revision();
     if (is_same) {
-        place_moved(instances, false);
+        place_moved(instances);
     } else {
         membership_ = 0;
         list_instances(instances);

@@ -1,4 +1,5 @@
 #include <engine/context/call_within.hpp>
+#include <engine/context/pair_row.hpp>
 #include <engine/context/pair_table_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
@@ -134,13 +135,8 @@ void World::Implementation::append_rows(PairTable<Query>& table) {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         const Result& result = *std::get_if<Result>(&results_.results[i]);
         const world::PairList::Pair& pair = pairs[candidates_[i].number];
-        PairRow<Query>& row = rows.emplace_back();
-        static_cast<typename Result::Values&>(row) = result;
-        row.a = instances_.handle(pair.a);
-        row.b = instances_.handle(pair.b);
-        row.status = result.status.code();
-        row.intersects = result.intersects;
-        row.error_bound = result.error_bound;
+        PairRow<Query>& row = rows.emplace_back(
+            row_of<Query>(instances_.handle(pair.a), instances_.handle(pair.b), result));
         row.first_record = static_cast<std::uint32_t>(records.size());
         if (const auto* const found = records_of(result)) {
             row.record_count = static_cast<std::uint32_t>(found->size());

@@ -17,9 +17,9 @@
 namespace nearfield {
 
 /// The penetrations between all pairs of instances in a world, found by the device: boxes, pairs,
-/// points and their depths are computed there (Technique::compute). The time that the CPU spends on
-/// World::update() grows with the number of instances that have moved, not with that of pairs. A
-/// row is made exact, in double precision, when it is read.
+/// points and their depths are computed there (Technique::compute). The CPU's time in
+/// World::update() grows with the number of instances that have moved and with that of pairs left
+/// to it, not with the number of pairs. A row is made exact, in double precision, when it is read.
 ///
 /// There is one row per ordered pair of instances of which `a` has a point that penetrates `b`, in
 /// ascending order of the pairs, in the order in which their instances were added: by `a`, then by

@@ -1,3 +1,4 @@
+#include <tests/limits/cut.hpp>
 #include <tests/query/query_test.hpp>
 
 #include <algorithm>
@@ -238,6 +239,53 @@ TEST_F(DevicePairs, OfSquaresThatTouchAreNone) {
     compare(tables);
     EXPECT_GT(tables.device.candidates(), 0U);
     EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// Cut at any checkpoint, those of the pairs that the CPU decides included, an update fails as a
+/// whole, and the next one is as if nothing had been.
+TEST_F(DevicePairs, CutByLimitsAreNone) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    for (int i = 0; i < 8; ++i) {
+        add(square, {.translation = {i / 3.0 + i, 0.0}});
+        add(square, {.translation = {i / 3.0 + i + 1.0, 0.5}});
+    }
+    Tables tables({.tolerance = 1e-5, .points = PenetrationPoints::vertices});
+    const std::uint64_t cuts = cut_everywhere(dense, [&](std::uint64_t n) {
+        SCOPED_TRACE("cut at checkpoint " + std::to_string(n));
+        const Cut cut(n);
+        const Status status = world().update(tables.device, cut.limits());
+        EXPECT_EQ(status.code(), cut.has_cut() ? StatusCode::cancelled : StatusCode::ok)
+            << status.text();
+        if (cut.has_cut()) {
+            EXPECT_EQ(tables.device.size(), 0U);
+        }
+        compare(tables);
+        EXPECT_GT(tables.device.left_to_cpu(), 0U);
+        return cut.has_cut() && !HasFailure();
+    });
+    EXPECT_GE(cuts, 12U);
+}
+
+/// The CPU answers what floats may not hold: products of the least and the largest lengths.
+TEST_F(DevicePairs, OfTheSmallestAndLargestShapes) {
+    for (const double size : {1e-18, 1e-12, 1e11}) {
+        SCOPED_TRACE("size " + std::to_string(size));
+        Random random(seed + 6000);
+        std::vector<InstanceHandle> added;
+        for (int i = 0; i < 4; ++i) {
+            const ShapeHandle shape =
+                add_shape(scaled_and_moved(star(random, 9, 0.5), size, {0.0, 0.0}));
+            for (int k = 0; k < 2; ++k) {
+                added.push_back(add(shape, any_pose(random, size)));
+            }
+        }
+        Tables tables({.tolerance = 0.01 * size, .points = PenetrationPoints::vertices});
+        compare(tables);
+        EXPECT_GT(tables.device.size(), 0U);
+        for (const InstanceHandle handle : added) {
+            ASSERT_TRUE(world().remove(handle).ok());
+        }
+    }
 }
 
 /// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
