@@ -96,7 +96,7 @@ struct Times {
     std::vector<nearfield::PassTime> passes;
 };
 
-double read_all(DevicePairTable& table) {
+double read_all(DevicePairTable<PenetrationQuery>& table) {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
         sum += take(table.row(i)).deepest.depth;
@@ -112,7 +112,7 @@ double read_all(const PairTable<PenetrationQuery>& table) {
     return sum;
 }
 
-double work_of_cpu(const DevicePairTable& table) {
+double work_of_cpu(const DevicePairTable<PenetrationQuery>& table) {
     return table.timings().plan + table.timings().record + table.timings().decode;
 }
 
@@ -150,7 +150,7 @@ Times measure(Crowd& crowd, Table& table, int frames) {
     if (!std::isfinite(sum)) {
         throw std::runtime_error("depths are not finite");
     }
-    if constexpr (std::is_same_v<Table, DevicePairTable>) {
+    if constexpr (std::is_same_v<Table, DevicePairTable<PenetrationQuery>>) {
         times.passes = table.timings().passes;
     }
     times.move = median(move);

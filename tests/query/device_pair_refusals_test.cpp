@@ -13,7 +13,8 @@ protected:
         DevicePairTable table(query);
         update(context, table, code);
     }
-    static void update(Context& context, DevicePairTable& table, StatusCode code) {
+    static void update(Context& context, DevicePairTable<PenetrationQuery>& table,
+                       StatusCode code) {
         const Expected<ShapeHandle> shape = context.add_shape(rectangle({0, 0}, {4, 4}));
         ASSERT_TRUE(shape.has_value()) << shape.error().text();
         Expected<World> world = World::create(context);
@@ -54,12 +55,12 @@ TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
 
 /// Rows of an earlier update do not stay.
 TEST_F(DevicePairRefusals, LeaveATableThatWasFilledEmpty) {
-    DevicePairTable table({.tolerance = 0.1});
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
     update(context(), table, StatusCode::ok);
     Expected<Context> without_device = Context::create_cpu();
     ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
     update(*without_device, table, StatusCode::unsupported_technique);
-    table = DevicePairTable({.tolerance = 0.1});
+    table = DevicePairTable<PenetrationQuery>({.tolerance = 0.1});
 }
 
 }  // namespace

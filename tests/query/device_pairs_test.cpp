@@ -20,7 +20,7 @@ protected:
     struct Tables {
         explicit Tables(const PenetrationQuery& query) : device(query), cpu(query) {}
 
-        DevicePairTable device;
+        DevicePairTable<PenetrationQuery> device;
         PairTable<PenetrationQuery> cpu;
     };
 

@@ -248,7 +248,7 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         ASSERT_TRUE(instance.has_value()) << instance.error().text();
         instances.push_back(*instance);
     }
-    DevicePairTable table({.tolerance = 0.08});
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.08});
     std::vector<PenetrationRecord> records;
     std::uint32_t rows = 0;
     expect_nothing_made(200, [&](int number) {
