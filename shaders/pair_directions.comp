@@ -57,11 +57,14 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
     vec2 offset = (to_b * apart) / b.unit;
     float extent = (a.radius + b.radius) / b.unit + length(offset);
     float places = (abs(a.high.x) + abs(a.high.y) + abs(b.high.x) + abs(b.high.y)) / b.unit;
-    float margin = margin_of_frames * extent + margin_of_places * places;
+    float margin = margin_of_frames * extent + margin_of_places * places +
+                   2.0 * (a.rounding + b.rounding) / b.unit;
     float rival = query.rival / b.unit;
     float doubt = margin > search_precision * query.cell / b.unit ? rival + 4.0 * margin : -1.0;
-    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, 0.0, margin, rival, 0.0,
-                               doubt, float[3](0.0, 0.0, 0.0));
+    // In a test, three margins apart in all is certainly apart.
+    float reach = query.is_test != 0u ? margin : (1.0 + margin_of_frames) * query.reach / b.unit;
+    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
+                               query.reach > 0.0 ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
 }
 
 // Of each block of items that starts among those of a direction, its first direction.
@@ -91,4 +94,7 @@ void main() {
     float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
     write_direction(list.first + rank, data, touching, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
+    if (pair_query().is_test != 0u) {
+        scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;
+    }
 }

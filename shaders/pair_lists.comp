@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The pairs of each instance, one thread per instance: those with whose boxes its own overlaps and
-// whose filters match. In the stage of pairs they are counted, and after that they are listed.
+// whose filters match; in a test, only those with later instances. In the stage of pairs they are
+// counted, and after that they are listed.
 
 #include "search.glsl"
 #include "block_sum.glsl"
@@ -42,7 +43,7 @@ uint top_level() {
 }
 
 bool is_pair(uvec2 filter_a, uint b) {
-    uvec2 filter_b = instance_units[1u + units_of_instance * b + 2u].zw;
+    uvec2 filter_b = instance_unit(b, 2u).zw;
     return (filter_a.x & filter_b.y) != 0u && (filter_b.x & filter_a.y) != 0u;
 }
 
@@ -55,7 +56,8 @@ void write_pair(uint a, uint b, uint target) {
 
 // Returns the number of pairs with instance `a` first.
 uint find_pairs(uint a, vec4 own, bool lists, uint target) {
-    uvec2 filter_a = instance_units[1u + units_of_instance * a + 2u].zw;
+    uvec2 filter_a = instance_unit(a, 2u).zw;
+    bool is_test = pair_query().is_test != 0u;
     uint count = 0u;
     Walk walk = Walk(top_level(), 0u, uvec2(0u));
     bool enters = true;
@@ -73,7 +75,7 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
             continue;
         }
         uint b = instance_in_order(box);
-        if (b != a && is_pair(filter_a, b)) {
+        if ((is_test ? b > a : b != a) && is_pair(filter_a, b)) {
             if (lists) {
                 write_pair(a, b, target + count);
             }
@@ -84,7 +86,7 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
 }
 
 uint items_of(uint a, uint count) {
-    uint chunks = unit_at(instance_units[1u + units_of_instance * a + 2u].x).x;
+    uint chunks = unit_at(instance_unit(a, 2u).x).x;
     return float(count) * float(chunks) < float(too_many) ? count * chunks : too_many;
 }
 

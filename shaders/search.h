@@ -19,7 +19,8 @@ const uint max_levels = 8u;
 // edge, eight per chunk), and its first word of infos: of each chunk, its first edge << 4 | its
 // number of edges; then, of each place along the rings, its chunk.
 const uint unit_of_box = 1u;
-const uint unit_of_first_boxes = 2u;  // a word per level: its first unit
+const uint unit_of_rings = 2u;        // their number, and the first word of their first chunks
+const uint unit_of_first_boxes = 3u;  // a word per level: its first unit
 const uint units_of_header = unit_of_first_boxes + max_levels / 4u;
 
 const uint search_block = group_size;  // elements that the device sums at once

@@ -7,13 +7,9 @@
 
 #include "search.glsl"
 #include "block_sum.glsl"
+#include "edge_items.glsl"
 
 layout(local_size_x = group_size) in;
-
-struct Item {
-    uint direction;
-    uint slot;  // of the edge of A
-};
 
 // Restricts t to where a + t * d lies between low and high.
 bool clip(float a, float d, float low, float high, inout vec2 t) {
@@ -89,22 +85,6 @@ bool find_stretch(vec2 from, vec2 to, Shape b, float grow, bool sides, out Stret
         }
     }
     return false;
-}
-
-Item item_of(uint index) {
-    uint block = block_of(index, push.item_blocks, item_count());
-    uint rest = index - scratch[push.item_blocks + block];
-    uint low = block * search_block;
-    low += last_at_most(rest, push.item_words + low, min(search_block, item_count() - low), 1u, 8u);
-    uint word = scratch[push.item_words + low];
-    uint mask = word & 255u;
-    for (uint skip = rest - (word >> 8); skip > 0u; --skip) {
-        mask &= mask - 1u;
-    }
-    uint direction = direction_of(low);
-    uvec4 shapes = direction_unit(direction, 1u);
-    uint chunk = chunk_along_rings(shape_at(shapes.x), low - shapes.w);
-    return Item(direction, chunk_size * chunk + findLSB(mask));
 }
 
 // The points of an edge that the next step looks at: `first`, ..., `first + count - 1`. It asks for

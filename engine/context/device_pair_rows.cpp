@@ -4,6 +4,7 @@
 #include <engine/context/device_pair_state.hpp>
 #include <engine/context/pair_row.hpp>
 #include <engine/context/world_checks.hpp>
+#include <engine/localize/hierarchy.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
 
@@ -53,6 +54,7 @@ Status DevicePairTable<Query>::records(std::uint32_t index, std::vector<Record>&
 }
 
 template class DevicePairTable<PenetrationQuery>;
+template class DevicePairTable<IntersectionTestQuery>;
 
 DevicePairTableBase::State::State(const AnyQuery& query)
     : query_(query), question_(plan::pair_question(query)) {
@@ -181,6 +183,24 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
     fill(row, data, result);
 }
 
+void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
+    const std::uint32_t number = device_row("row", index);
+    const plan::PairRowData& data = buffers_->rows()[number];
+    if (const AnyResult* const decided = find_decided(number)) {
+        fill(row, data, std::get<IntersectionTestResult>(*decided));
+        return;
+    }
+    IntersectionTestResult result;
+    result.intersects = true;
+    for (const std::uint32_t instance : {data.a, data.b}) {
+        const PairInstance& entry = instances_[instance];
+        const geometry::TransformedPolygon placed(*entry.polygon, entry.instance.pose);
+        result.error_bound +=
+            localize::placement_rounding(placed, placed.box()) + entry.polygon->deviation();
+    }
+    fill(row, data, result);
+}
+
 void DevicePairTableBase::State::records(std::uint32_t index,
                                          std::vector<PenetrationRecord>& records) {
     require_records();
@@ -199,6 +219,11 @@ void DevicePairTableBase::State::records(std::uint32_t index,
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
         question_.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });
+}
+
+void DevicePairTableBase::State::records(std::uint32_t /*index*/,
+                                         std::vector<NoRecord>& /*records*/) const {
+    require_records();
 }
 
 }  // namespace nearfield

@@ -29,7 +29,9 @@ struct DevicePairTableBase::State {
     void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
                 const world::Instances& instances);
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
+    void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
     void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
+    void records(std::uint32_t index, std::vector<NoRecord>& records) const;
     void start_anew();
 
     std::uint32_t rows = 0;
@@ -65,6 +67,7 @@ private:
     void place_all(const world::Instances& instances);
     void order_instances();
     void search();
+    [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     void decide();
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;

@@ -6,6 +6,7 @@
 #include <engine/context/device_pair_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
+#include <engine/localize/hierarchy.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/error_budget.hpp>
 
@@ -15,6 +16,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 namespace nearfield {
@@ -35,8 +37,15 @@ constexpr double largest_unit = 0x1p+30;
 
 /// Whether a pair with this answer has a row.
 bool is_hit(const AnyResult& answer) {
-    const auto& result = std::get<PenetrationResult>(answer);
-    return result.count > 0 || !result.status.ok();
+    return std::visit(
+        [](const auto& result) {
+            bool has_answer = result.intersects;
+            if constexpr (requires { result.count; }) {
+                has_answer = result.count > 0;
+            }
+            return has_answer || !result.status.ok();
+        },
+        answer);
 }
 
 }  // namespace
@@ -47,7 +56,7 @@ void DevicePairTableBase::State::check() const {
                                               .raster = techniques.raster,
                                               .compute = techniques.compute};
     const Status status = std::visit(
-        [&](auto asked) {
+        [&]<class Query>(Query asked) {
             bool is_asked =
                 asked.technique == Technique::compute || asked.technique == Technique::automatic;
             if constexpr (requires { asked.resident; }) {
@@ -59,7 +68,13 @@ void DevicePairTableBase::State::check() const {
                        "asks for another technique, or for resident results");
             }
             asked.technique = Technique::compute;
-            return plan::check_query(asked, available);
+            if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
+                // Its only number is the technique, which answers no such query of a batch.
+                return plan::check_query(
+                    PenetrationQuery{.tolerance = 1.0, .technique = asked.technique}, available);
+            } else {
+                return plan::check_query(asked, available);
+            }
         },
         query_);
     if (!status.ok()) {
@@ -105,6 +120,7 @@ void DevicePairTableBase::State::list_instances(const world::Instances& instance
 /// Writes instances whose poses may have changed.
 void DevicePairTableBase::State::place(const world::Instances& instances,
                                        std::span<const std::uint32_t> numbers) {
+    const bool has_tolerance = question_.tolerance > 0.0;
     std::array<std::optional<TransformedPolygon>, poses_at_once> placed;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         PairInstance& entry = instances_[numbers[i]];
@@ -123,7 +139,9 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
             std::max({placed[i]->translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
                       entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
                       std::abs(pose.translation.y)});
-        const bool is_resolved = plan::check_resolution(question_.tolerance, magnitude).ok();
+        const bool is_resolved =
+            has_tolerance ? plan::check_resolution(question_.tolerance, magnitude).ok() : true;
+        entry.data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
         entry.data.left_to_cpu = entry.is_left_to_cpu || !is_resolved ? 1 : 0;
         buffers_->set_instance(numbers[i], entry.data);
     }
@@ -147,10 +165,15 @@ void DevicePairTableBase::State::place_moved(const world::Instances& instances) 
 /// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
 /// tolerance, or it is so small or large that floats do not hold what is computed.
 bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) const {
-    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
     const double unit = plan::unit_length_of(polygon);
-    return unit < smallest_unit || unit > largest_unit ||
-           !plan::check_deviations(question_.tolerance, both, plan::pair_budget(query_, both).bound)
+    if (unit < smallest_unit || unit > largest_unit) {
+        return true;
+    }
+    if (question_.goal == plan::PairGoal::tests) {
+        return false;
+    }
+    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
+    return !plan::check_deviations(question_.tolerance, both, plan::pair_budget(query_, both).bound)
                 .ok();
 }
 
@@ -180,6 +203,7 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
     all.touching =
         static_cast<float>(question_.tolerance * static_cast<double>(plan::touching_depth));
+    all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
     buffers_->set_query(all);
     updates_in_order_ = max_updates_in_order;
 }
@@ -200,8 +224,19 @@ void DevicePairTableBase::State::order_instances() {
 
 void DevicePairTableBase::State::search() {
     render::Renderer& renderer = *context_->renderer();
-    buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(), timings);
+    buffers_->search(renderer.pair_search(question_.goal), shapes_, context_->memory_limit(),
+                     timings);
     rows = buffers_->counts()[plan::row_total];
+}
+
+/// Whether the pair is one that a PairTable asks about: those in whose boxes only rounding leaves a
+/// gap are not, but the device does not tell them apart.
+bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const {
+    const auto box_of = [this](std::uint32_t number) {
+        const PairInstance& entry = instances_[number];
+        return TransformedPolygon(*entry.polygon, entry.instance.pose).box();
+    };
+    return localize::boxes_meet(box_of(data.a), box_of(data.b), 0.0);
 }
 
 /// Answers what single precision could not decide, and drops the rows without points.
@@ -220,7 +255,9 @@ void DevicePairTableBase::State::decide() {
         decided_results_);
     checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
-        decided_.push_back({undecided[i], is_hit(decided_results_.results[i])});
+        decided_.push_back({undecided[i], is_hit(decided_results_.results[i]) &&
+                                              (question_.goal != plan::PairGoal::tests ||
+                                               boxes_meet(buffers_->rows()[undecided[i]]))});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
                                           [](const Decided& one) { return one.has_row; });
@@ -255,7 +292,7 @@ void DevicePairTableBase::State::update(Context::Implementation& with,
         pass.milliseconds = 0.0;
     }
     if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
-        buffers_ = context_->renderer()->make_pair_buffers(question_.records);
+        buffers_ = context_->renderer()->make_pair_buffers(question_);
         renderer_ = context_->renderer()->number();
         membership_ = 0;
     }
@@ -293,6 +330,10 @@ void World::Implementation::update(DevicePairTableBase& table) {
 }
 
 Status World::update(DevicePairTable<PenetrationQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
 }
 

@@ -5,8 +5,11 @@
 namespace nearfield::plan {
 
 PairQuestion pair_question(const AnyQuery& query) {
+    if (std::holds_alternative<IntersectionTestQuery>(query)) {
+        return {.goal = PairGoal::tests};
+    }
     const auto& penetration = std::get<PenetrationQuery>(query);
-    return {penetration.tolerance, penetration_budget(penetration).cell,
+    return {PairGoal::penetrations, penetration.tolerance, penetration_budget(penetration).cell,
             penetration.points == PenetrationPoints::boundary, penetration.records};
 }
 

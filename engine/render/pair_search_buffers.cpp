@@ -17,8 +17,9 @@ constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_s
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
 
-/// Room for what the first search may find.
+/// Room for what the first search may find; a test looks at no points.
 constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
+constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
 
 /// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
@@ -37,11 +38,11 @@ std::uint64_t bytes_of_rows(std::uint32_t rows) {
 }  // namespace
 
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                     bool reads_records, bool timestamps)
+                                     const plan::PairQuestion& question, bool timestamps)
     : device_(&device),
       layout_(&layout),
       submission_(device),
-      timestamps_(device, passes::PairSearch::pass_count, timestamps),
+      timestamps_(device, passes::PairSearch::max_passes, timestamps),
       shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield pair shapes"),
       instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
@@ -51,13 +52,13 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield pair arguments"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               reads_records ? gpu::Direction::readback : gpu::Direction::none,
+               question.records ? gpu::Direction::readback : gpu::Direction::none,
                "nearfield pair points"),
       rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
             "nearfield pair rows"),
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
-    item_.capacities = first_capacities;
+    item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
     }
@@ -82,7 +83,7 @@ void PairSearchBuffers::reserve_instances(std::uint32_t count) {
 }
 
 void PairSearchBuffers::set_query(plan::PairQueryData query) {
-    query.order = 4 * (1 + plan::units_of_instance * instance_room_);
+    query.order = 4 * (plan::units_of_query + plan::units_of_instance * instance_room_);
     std::memcpy(instances_.data(), &query, sizeof(query));
 }
 
@@ -137,6 +138,7 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
     push.summaries = layout.units(2 * std::uint64_t{pairs});
     push.row_blocks = layout.sums(pairs);
+    push.verdicts = layout.words(pairs);
     push.first_directions = layout.sums(items);
     layout.add_stages(items, edges, points, push);
     push.depths = layout.words(points);

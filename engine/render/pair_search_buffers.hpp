@@ -5,6 +5,7 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
@@ -27,9 +28,8 @@ using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
 /// submission. It only grows.
 class PairSearchBuffers {
 public:
-    /// `reads_records`: the host reads the points that are found.
     PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                      bool reads_records, bool timestamps);
+                      const plan::PairQuestion& question, bool timestamps);
     /// Waits for the device if it is still working.
     ~PairSearchBuffers();
     PairSearchBuffers(const PairSearchBuffers&) = delete;

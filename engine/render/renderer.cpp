@@ -67,7 +67,10 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
     if (techniques.compute) {
         passes_.compute.emplace(device, layout_);
         point_search_.emplace(device, layout_);
-        pair_search_.emplace(device, layout_);
+        pair_shaders_.emplace(device, layout_);
+        for (std::size_t goal = 0; goal < plan::pair_goals; ++goal) {
+            pair_searches_[goal].emplace(device, *pair_shaders_, static_cast<plan::PairGoal>(goal));
+        }
     }
 }
 
@@ -79,8 +82,8 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
     return std::make_unique<BatchResources>(*device_, layout_, target_views_, timestamps_);
 }
 
-std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(bool reads_records) {
-    return std::make_unique<PairSearchBuffers>(*device_, layout_, reads_records, timestamps_);
+std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
+    return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.

@@ -330,6 +330,8 @@ public:
     /// points than the device has memory for; if `limits` end the call; and as Context::run(). The
     /// table is empty then. Errors of single pairs are the status of their rows.
     Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
+    /// Likewise.
+    Status update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

@@ -49,17 +49,23 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One query of all pairs of instances in a world, answered by the device, PenetrationQuery: boxes,
-/// pairs, points and their depths are computed there (Technique::compute). The CPU's time in
-/// World::update() grows with the number of instances that have moved and with that of pairs left
-/// to it, not with the number of pairs. A row is made exact, in double precision, when it is read.
+/// One query of all pairs of instances in a world, answered by the device: PenetrationQuery or
+/// IntersectionTestQuery. Boxes, pairs and what is asked about them are computed there
+/// (Technique::compute). The CPU's time in World::update() grows with the number of instances that
+/// have moved and with that of pairs left to it, not with the number of pairs. A row is made exact,
+/// in double precision, when it is read.
 ///
-/// There is one row per ordered pair of instances of which `a` has a point that penetrates `b`, in
-/// ascending order of the pairs, in the order in which their instances were added: by `a`, then by
-/// `b`. A pair whose boundaries cross without such a point, where they overlap by less than the
-/// samples tell, has no row. Filters apply (WorldInstance). Rows agree with those of a PairTable as
-/// the answers of two techniques do (Technique). Where single precision cannot tell whether a
-/// point penetrates, or which one is deepest, the CPU answers the pair.
+/// Only pairs that are hit have a row, in ascending order of the pairs, in the order in which their
+/// instances were added: by `a`, then by `b`. Filters apply (WorldInstance). Where single precision
+/// cannot decide, the CPU answers the pair.
+///
+/// Penetrations: one row per ordered pair of which `a` has a point that penetrates `b`. A pair
+/// whose boundaries cross without such a point, where they overlap by less than the samples tell,
+/// has no row. Rows agree with those of a PairTable as the answers of two techniques do
+/// (Technique).
+///
+/// Intersection tests: one row per pair that intersects, with the instance added first as `a`: the
+/// same pairs as in a PairTable with `hits_only`.
 ///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
@@ -92,5 +98,6 @@ private:
 };
 
 extern template class DevicePairTable<PenetrationQuery>;
+extern template class DevicePairTable<IntersectionTestQuery>;
 
 }  // namespace nearfield

@@ -249,6 +249,7 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         instances.push_back(*instance);
     }
     DevicePairTable<PenetrationQuery> table({.tolerance = 0.08});
+    DevicePairTable intersections(IntersectionTestQuery{});
     std::vector<PenetrationRecord> records;
     std::uint32_t rows = 0;
     expect_nothing_made(200, [&](int number) {
@@ -263,6 +264,10 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
             ok = table.row(row).has_value() && table.records(row, records).ok() && ok;
         }
         rows = table.size();
+        ok = world->update(intersections).ok() && ok;
+        for (std::uint32_t row = 0; row < intersections.size(); ++row) {
+            ok = intersections.row(row).has_value() && ok;
+        }
         return ok;
     });
     EXPECT_GT(rows, 10U);
