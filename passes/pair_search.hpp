@@ -45,6 +45,10 @@ public:
 
     static constexpr std::uint32_t max_passes = 16;
 
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
+
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.
     static constexpr std::uint32_t no_stage = UINT32_MAX;

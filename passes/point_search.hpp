@@ -34,7 +34,9 @@ public:
 
     static constexpr std::uint32_t pass_count = 7;
 
-    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
 
 private:
     void declare();

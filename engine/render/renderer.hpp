@@ -50,7 +50,8 @@ public:
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
         const plan::PairQuestion& question);
     /// The passes of such searches. The precondition: pipelines of the compute technique.
-    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const {
+    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) {
+        last_pairs_ = goal;
         return *pair_searches_[static_cast<std::size_t>(goal)];
     }
     /// Differs from that of every other renderer.
@@ -86,8 +87,8 @@ public:
     /// Destroys the views of an image of the host, which no batch on the device may write.
     void release_target(VkImage image) { target_views_.release(image); }
 
-    /// Prints the graph of the last submitted tile batch and the export graphs; empty before the
-    /// first.
+    /// Prints the graphs of the last batch, one after the other, each with a title, or that of a
+    /// later search for pairs; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
@@ -117,6 +118,7 @@ private:
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
     bool last_had_searches_ = false;
+    std::optional<plan::PairGoal> last_pairs_;  // since the last batch
     SearchCounts max_counts_{};      // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
