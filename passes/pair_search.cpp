@@ -77,7 +77,10 @@ void PairSearch::declare_pairs() {
 void PairSearch::declare_points() {
     add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
+    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
     add("pair edges", shaders_->search.edges, of_points, plan::edge_total);
+    add_scan("count points of edges", plan::edge_point_total);
+    add("pair ranges", shaders_->search.ranges, of_points, plan::pair_total);
     add_scan("count points", plan::point_total);
     add("pair points", shaders_->search.points, of_points, plan::point_total);
     add_scan("count found points", plan::record_total);
@@ -109,6 +112,7 @@ void PairSearch::declare_points() {
 void PairSearch::declare_tests() {
     add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
+    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
     add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
     add("pair verdicts", shaders_->verdicts, of_points, plan::pair_total);
     declare_rows();

@@ -43,7 +43,7 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t max_passes = 16;
+    static constexpr std::uint32_t max_passes = 19;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return graph_.print(format, title);

@@ -5,7 +5,6 @@
 // another edge of the same pair is known to meet B.
 
 #include "search.glsl"
-#include "edge_items.glsl"
 #include "pairs.h"
 
 layout(local_size_x = group_size) in;
@@ -55,34 +54,32 @@ void enter(inout Walk walk, Shape b, vec4 own) {
     add_boxes(walk, boxes);
 }
 
-uint verdict_of(Item item) {
-    SearchDirectionData direction = direction_at(item.direction);
+uint verdict_of(uint direction_index, uint edge_slot) {
+    SearchDirectionData direction = direction_at(direction_index);
     Shape b = shape_at(direction.shape_b);
-    vec4 edge = floats_at(shape_at(direction.shape_a).edges + item.slot);
+    vec4 edge = floats_at(shape_at(direction.shape_a).edges + edge_slot);
     vec2 from = placed(direction, edge.xy);
     vec2 to = placed(direction, edge.zw);
     float margin = direction.reach + 2.0 * direction.margin;
     vec4 own = vec4(min(from, to) - margin, max(from, to) + margin);
     uint verdict = 0u;
     Walk walk = start_walk(b);
-    bool enters = true;
-    for (uint i = 0u; i < max_steps && (verdict & pair_meets) == 0u; ++i) {
-        if (enters) {
-            enter(walk, b, own);
+    for (uint steps = 0u; steps < max_steps && (verdict & pair_meets) == 0u; ++steps) {
+        enter(walk, b, own);
+        uint chunks = take_chunks(walk);
+        steps += bitCount(chunks);
+        while (chunks != 0u) {
+            uint chunk = chunk_size * walk.group + take_bit(chunks);
+            uint end = edges_end(b, chunk);
+            for (uint slot = chunk_size * chunk; slot < end; ++slot) {
+                verdict |= verdict_on(from, to, floats_at(b.edges + slot), margin);
+            }
         }
         uint box;
         if (!next_box(walk, box)) {
             return verdict;
         }
-        enters = walk.level > 0u;
-        if (enters) {
-            descend(walk, box);
-            continue;
-        }
-        uint end = edges_end(b, box);
-        for (uint slot = chunk_size * box; slot < end; ++slot) {
-            verdict |= verdict_on(from, to, floats_at(b.edges + slot), margin);
-        }
+        descend(walk, box);
     }
     return verdict | pair_in_doubt;
 }
@@ -92,12 +89,12 @@ void main() {
     if (index >= scratch[edge_total]) {
         return;
     }
-    Item item = item_of(index);
-    uint word = push.verdicts + item.direction;
+    uvec2 edge = scratch_unit(push.edge_units + units_of_edge * index).xy;  // direction and slot
+    uint word = push.verdicts + edge.x;
     if ((atomicOr(scratch[word], 0u) & (pair_meets | pair_left_to_cpu)) != 0u) {
         return;
     }
-    uint verdict = verdict_of(item);
+    uint verdict = verdict_of(edge.x, edge.y);
     if (verdict != 0u) {
         atomicOr(scratch[word], verdict);
     }

@@ -24,9 +24,9 @@ struct List {
 };
 
 List list_of(uint a) {
-    uvec4 list = scratch_units[push.lists + a];
-    uint first = list.x + scratch[push.pair_blocks + a / search_block];
-    return List(first, list.y + scratch[push.list_item_blocks + a / search_block],
+    uvec4 list = scratch_unit(push.lists + a);
+    uint first = list.x + scratch_word(push.pair_blocks + a / search_block);
+    return List(first, list.y + scratch_word(push.list_item_blocks + a / search_block),
                 min(first + list.z, scratch[pair_total]));
 }
 
@@ -34,7 +34,7 @@ List list_of(uint a) {
 uint rank_of(uint b, List list) {
     uint rank = 0u;
     for (uint i = list.first; i < list.end; ++i) {
-        rank += scratch[push.pairs + 2u * i + 1u] < b ? 1u : 0u;
+        rank += scratch_word(push.pairs + 2u * i + 1u) < b ? 1u : 0u;
     }
     return rank;
 }
@@ -81,8 +81,8 @@ void main() {
     if (found >= scratch[pair_total]) {
         return;
     }
-    uint a = scratch[push.pairs + 2u * found];
-    uint b = scratch[push.pairs + 2u * found + 1u];
+    uint a = scratch_word(push.pairs + 2u * found);
+    uint b = scratch_word(push.pairs + 2u * found + 1u);
     List list = list_of(a);
     uint rank = rank_of(b, list);
     SearchInstanceData first = instance_at(a);

@@ -18,7 +18,7 @@ uint overlaps(uint unit, bool exists, vec4 own, uint bit) {
     if (!exists) {
         return 0u;
     }
-    vec4 box = uintBitsToFloat(scratch_units[unit + bit]);
+    vec4 box = uintBitsToFloat(scratch_unit(unit + bit));
     bool do_overlap = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
     return do_overlap ? 1u << bit : 0u;
 }
@@ -99,11 +99,12 @@ void main() {
     if (exists) {
         uint target = 0u;
         if (lists) {
-            target = scratch_units[push.lists + a].x + scratch[push.pair_blocks + a / search_block];
+            target = scratch_unit(push.lists + a).x +
+                     scratch_word(push.pair_blocks + a / search_block);
         }
         // The box of instance `a` is at its place in the order.
         uint place_of_box = instance_words[instance_units[0].w + push.instances + a];
-        vec4 own = uintBitsToFloat(scratch_units[level_unit(0u) + place_of_box]);
+        vec4 own = uintBitsToFloat(scratch_unit(level_unit(0u) + place_of_box));
         count = find_pairs(a, own, lists, target);
     }
     if (lists) {
@@ -111,7 +112,6 @@ void main() {
     }
     uint items = exists ? items_of(a, count) : 0u;
     uint pairs_before = sum_before(count, push.pair_blocks + place / search_block);
-    barrier();
     uint items_before = sum_before(items, push.list_item_blocks + place / search_block);
     if (exists) {
         scratch_units[push.lists + a] = uvec4(pairs_before, items_before, count, 0u);

@@ -22,6 +22,15 @@ vec2 ring_start(uint shape, uint ring) {
     return floats_at(unit_at(shape).z + chunk_size * chunk).xy;
 }
 
+bool crosses(vec2 p, vec2 a, vec2 b) {
+    // Half-open in y, so a vertex on the ray counts once.
+    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+}
+
+bool ray_meets(vec2 p, vec4 box) {
+    return p.y >= box.y && p.y <= box.w && p.x <= box.z;
+}
+
 // A vertex of one shape, and a walk over those boxes of the other that its ray meets.
 struct Ray {
     vec2 from;

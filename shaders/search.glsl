@@ -8,6 +8,7 @@ layout(std430, set = 0, binding = 0) readonly buffer Input {
     uvec4 units[];
 };
 layout(set = 0, binding = 8) uniform usamplerBuffer texels;  // the same memory
+// Some devices read texels several times as fast, and others allow too few.
 layout(constant_id = 0) const bool reads_texels = false;
 // Directions, and how many items there are, are in the scratch memory (pairs.h).
 layout(constant_id = 1) const bool finds_pairs = false;
@@ -18,6 +19,7 @@ layout(std430, set = 0, binding = 1) buffer Scratch {
 layout(std430, set = 0, binding = 1) buffer ScratchUnits {
     uvec4 scratch_units[];  // the same memory
 };
+layout(set = 0, binding = 9) uniform usamplerBuffer scratch_texels;  // and again
 
 layout(push_constant) uniform Push { SearchPush push; };
 
@@ -25,7 +27,7 @@ layout(push_constant) uniform Push { SearchPush push; };
 const uint local_shift = 24u;
 const float infinity = 1.0 / 0.0;
 
-// The parts of the input. Some devices read texels several times as fast, and others allow too few.
+// The parts of the input.
 uvec4 unit_at(uint unit) {
     return reads_texels ? texelFetch(texels, int(unit)) : units[unit];
 }
@@ -38,6 +40,15 @@ uint word_at(uint word) {
     return unit_at(word >> 2)[word & 3u];
 }
 
+// The parts of the scratch memory that earlier dispatches have written.
+uvec4 scratch_unit(uint unit) {
+    return reads_texels ? texelFetch(scratch_texels, int(unit)) : scratch_units[unit];
+}
+
+uint scratch_word(uint word) {
+    return reads_texels ? texelFetch(scratch_texels, int(word >> 2))[word & 3u] : scratch[word];
+}
+
 uint dispatched_index() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * search_block +
            gl_LocalInvocationID.x;
@@ -47,10 +58,14 @@ uint item_count() {
     return finds_pairs ? scratch[item_total] : push.items;
 }
 
+uint direction_count() {
+    return finds_pairs ? scratch[pair_total] : push.direction_count;
+}
+
 // A unit of a direction.
 uvec4 direction_unit(uint index, uint i) {
     uint unit = push.directions + units_of_direction * index + i;
-    return finds_pairs ? scratch_units[unit] : unit_at(unit);
+    return finds_pairs ? scratch_unit(unit) : unit_at(unit);
 }
 
 SearchDirectionData direction_at(uint index) {
@@ -76,7 +91,7 @@ vec2 placed(SearchDirectionData direction, vec2 point) {
 // The direction of the first item of a block.
 uint first_direction(uint block) {
     // These follow the directions in the input.
-    return finds_pairs ? scratch[push.first_directions + block]
+    return finds_pairs ? scratch_word(push.first_directions + block)
                        : word_at(4u * (push.directions + units_of_direction * push.direction_count) +
                                  block);
 }
@@ -85,9 +100,8 @@ uint first_direction(uint block) {
 uint direction_of(uint item) {
     uint block = item / search_block;
     uint low = first_direction(block);
-    uint directions = finds_pairs ? scratch[pair_total] : push.direction_count;
     uint count = (search_block * (block + 1u) < item_count() ? first_direction(block + 1u) + 1u
-                                                             : directions) - low;
+                                                             : direction_count()) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
         if (direction_unit(low + half_count, 1u).w <= item) {
@@ -136,13 +150,13 @@ uint parts_of(SearchDirectionData direction, uint edge) {
     return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
 
-// The last of `count` words of the scratch memory, `stride` apart, whose value without its low bits
-// is at most `key`; the values ascend.
-uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) {
+// The last of `count` words of the scratch memory, `stride` apart, whose value is at most `key`; the
+// values ascend.
+uint last_at_most(uint key, uint first, uint count, uint stride) {
     uint last = 0u;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (scratch[first + stride * (last + half_count)] >> low_bits <= key) {
+        if (scratch_word(first + stride * (last + half_count)) <= key) {
             last += half_count;
             count -= half_count;
         } else {
@@ -154,32 +168,26 @@ uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) 
 
 // The block of elements that counts an element of the next stage. `elements`: of all blocks.
 uint block_of(uint index, uint first_block, uint elements) {
-    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u, 0u);
+    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u);
 }
 
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
-    vec2 d = b - a;
-    float squared = dot(d, d);
-    return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
+// The points of the edges before one.
+uint points_before(uint edge) {
+    return scratch_word(push.edge_blocks + edge / search_block) +
+           scratch_unit(push.edge_units + units_of_edge * edge).w;
 }
 
-bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so a vertex on the ray counts once.
-    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-}
-
-bool ray_meets(vec2 p, vec4 box) {
-    return p.y >= box.y && p.y <= box.w && p.x <= box.z;
-}
-
-// A walk over the boxes of a shape from the top level to chunks, depth first.
+// A walk over the boxes of a shape from the top level to chunks, depth first: groups of boxes are
+// entered, and the chunks of a group are looked at together, since some devices execute the body of a
+// condition for none of the threads too.
 struct Walk {
     uint level;
     uint group;     // the boxes of this level that were entered last are 8 * group, ...
     uvec2 pending;  // boxes still to be visited: eight bits per level
 };
 
-// The steps of one walk, each of which takes up to nine turns of loops. Some drivers end the loops of
+// The steps of one walk, which are its groups and chunks, each of which takes up to nine turns of
+// loops. Some drivers end the loops of
 // an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
 // of three walks each, and the threads that run in step with it may take the longest of each. What a
 // longer walk would find is left to the CPU, which takes less time than long walks where boxes do
@@ -206,6 +214,21 @@ Walk start_walk(Shape shape) {
 void add_boxes(inout Walk walk, uint boxes) {
     uint bits = boxes << (chunk_size * (walk.level & 3u));
     walk.pending |= walk.level < 4u ? uvec2(bits, 0u) : uvec2(0u, bits);
+}
+
+// The marked chunks of the walk's group, one bit each, which then need no visit. The first one of the
+// group has the number chunk_size * walk.group.
+uint take_chunks(inout Walk walk) {
+    uint chunks = walk.level == 0u ? walk.pending.x & ((1u << chunk_size) - 1u) : 0u;
+    walk.pending.x ^= chunks;
+    return chunks;
+}
+
+// Takes the lowest bit, and returns its number.
+uint take_bit(inout uint bits) {
+    uint bit = findLSB(bits);
+    bits &= bits - 1u;
+    return bit;
 }
 
 // Goes to the next box to visit, on the lowest level that has one, and says which it is; false at

@@ -41,7 +41,12 @@ const uint pair_total = 3u;
 const uint item_total = 4u;
 const uint row_total = 5u;
 const uint stages_of_pairs = 6u;
+// The points of all edges, before those of each direction are padded to whole threads; counted
+// without room for them, and without a dispatch.
+const uint edge_point_total = 6u;
 const uint words_of_totals = 8u;  // whole units
+const uint words_of_item = 2u;    // in the scratch memory: its mask of edges, and its direction
+const uint units_of_edge = 2u;
 const uint words_of_arguments = 4u;
 
 // The points of A's boundary in the field of B. Positions and lengths in B's frame, relative to its

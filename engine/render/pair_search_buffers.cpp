@@ -47,8 +47,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
               gpu::Direction::upload, "nearfield pair shapes"),
       instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
                  "nearfield pair instances"),
-      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
-               "nearfield pair scratch"),
+      scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield pair arguments"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
@@ -104,13 +103,9 @@ void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
 
 void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
     const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new = !texels_ || bytes.size() > shapes_.capacity();
-    if (is_new) {
-        texels_.reset();
-        is_laid_out_ = false;
-        shapes_.reserve(bytes.size());
-        texels_ = gpu::make_texel_view(*device_, shapes_, "nearfield pair texels");
-    }
+    const bool is_new =
+        reserve_with_texels(*device_, shapes_, texels_, bytes.size(), "nearfield pair texels");
+    is_laid_out_ = is_laid_out_ && !is_new;
     if (is_new || shapes.revision() != shapes_revision_) {
         std::copy(bytes.begin(), bytes.end(), shapes_.data());
         shapes_.flush();
@@ -140,7 +135,7 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     push.row_blocks = layout.sums(pairs);
     push.verdicts = layout.words(pairs);
     push.first_directions = layout.sums(items);
-    layout.add_stages(items, edges, points, push);
+    layout.add_stages(pairs, items, edges, points, push);
     push.depths = layout.words(points);
     push.record_depths = layout.words(found);
     scratch_bytes_ = layout.bytes();
@@ -154,7 +149,8 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
                                         " bytes on the device; Settings::memory_limit is " +
                                         std::to_string(memory_limit)});
     }
-    scratch_.reserve(scratch_bytes_);
+    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
+                        "nearfield pair scratch texels");
     records_.reserve(record_bytes);
     rows_.reserve(row_bytes);
     item_.shapes = shapes_.handle();
@@ -179,7 +175,8 @@ void PairSearchBuffers::bind() const {
         };
         write(Layout::geometry, item_.scratch, scratch_bytes_);
         write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
-        layout_->write_texels(item_.sets[i], texels_.get());
+        layout_->write_texels(item_.sets[i], Layout::texels, texels_.get());
+        layout_->write_texels(item_.sets[i], Layout::scratch_texels, scratch_texels_.get());
         if (i == passes::PairSearch::of_rows) {
             write(Layout::tiles, item_.records, record_bytes);
             write(Layout::points, item_.rows, row_bytes);

@@ -86,7 +86,8 @@ private:
     gpu::MappedBuffer arguments_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
-    gpu::Owned<VkBufferView> texels_;  // of the shapes
+    gpu::Owned<VkBufferView> texels_;          // of the shapes
+    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;
     passes::PairSearch::Item item_;
     std::uint32_t instance_room_ = 0;
