@@ -16,7 +16,7 @@ PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders, pl
         declare_tests();
     } else {
         records_ = graph_.import_buffer({"pair points", false, true});
-        declare_points();
+        declare_points(goal == plan::PairGoal::contacts ? shaders.contacts : shaders.summaries);
     }
     graph_.compile(device);
 }
@@ -74,7 +74,7 @@ void PairSearch::declare_pairs() {
     add("pair directions", shaders_->directions, of_instances, plan::pair_total);
 }
 
-void PairSearch::declare_points() {
+void PairSearch::declare_points(const ComputeShader& summaries) {
     add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
     add("spread edges", shaders_->search.spread, of_points, plan::item_total);
@@ -102,9 +102,9 @@ void PairSearch::declare_points() {
             pass.read(records_, Access::storage_read_in_compute);
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
         },
-        [this](VkCommandBuffer commands, const Item& item) {
-            shaders_->summaries.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, shaders_->summaries, plan::pair_total, no_stage);
+        [this, &summaries](VkCommandBuffer commands, const Item& item) {
+            summaries.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, summaries, plan::pair_total, no_stage);
         });
     declare_rows();
 }

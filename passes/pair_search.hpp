@@ -54,7 +54,7 @@ private:
     static constexpr std::uint32_t no_stage = UINT32_MAX;
 
     void declare_pairs();
-    void declare_points();
+    void declare_points(const ComputeShader& summaries);
     void declare_tests();
     void declare_rows();
     void add(const char* name, const ComputeShader& shader, Set set, std::uint32_t threads_of,

@@ -1,6 +1,7 @@
 #include <passes/pair_shaders.hpp>
 
 #include <shaders/pair_boxes_comp.hpp>
+#include <shaders/pair_contacts_comp.hpp>
 #include <shaders/pair_crossings_comp.hpp>
 #include <shaders/pair_directions_comp.hpp>
 #include <shaders/pair_levels_comp.hpp>
@@ -28,6 +29,8 @@ PairShaders::PairShaders(const gpu::Device& device, const ComputeLayout& layout)
                                   "nearfield pair directions")),
       summaries(make_pair_shader(device, layout, shaders::pair_summaries_comp,
                                  "nearfield pair summaries")),
+      contacts(
+          make_pair_shader(device, layout, shaders::pair_contacts_comp, "nearfield pair contacts")),
       crossings(make_pair_shader(device, layout, shaders::pair_crossings_comp,
                                  "nearfield pair crossings")),
       verdicts(

@@ -16,6 +16,7 @@ struct PairShaders {
     ComputeShader lists;
     ComputeShader directions;
     ComputeShader summaries;
+    ComputeShader contacts;
     ComputeShader crossings;
     ComputeShader verdicts;
     ComputeShader rows;

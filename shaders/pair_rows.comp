@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The last step, one thread per pair: the rows of those that have points, or that the CPU decides,
-// one after the other.
+// The last step, one thread per pair: the rows of those that have points or intersect, or that the
+// CPU decides, one after the other.
 
 #include "search.glsl"
 #include "pairs.h"
@@ -25,8 +25,8 @@ void main() {
         return;
     }
     uvec4 summary = scratch_unit(push.summaries + 2u * direction);
-    uint target = scratch_unit(push.summaries + 2u * direction + 1u).x +
-                  scratch_word(push.row_blocks + direction / search_block);
+    uvec4 place = scratch_unit(push.summaries + 2u * direction + 1u);
+    uint target = place.x + scratch_word(push.row_blocks + direction / search_block);
     if (summary.w == 0u || target >= scratch[row_total]) {
         return;
     }
@@ -35,6 +35,7 @@ void main() {
     uint unit = units_of_row * (target + 1u);
     rows[unit] = uvec4(about.z, about.w, summary.w, summary.x);
     rows[unit + 1u] = uvec4(summary.y, deepest.y, deepest.z, deepest.w);
+    rows[unit + 2u] = uvec4(place.y, place.z, 0u, 0u);
     if ((summary.w & row_undecided) != 0u) {
         uint first = 4u * units_of_row * (push.capacity + 1u);
         row_words[first + atomicAdd(row_words[0], 1u)] = target;

@@ -6,29 +6,9 @@
 
 #include "search.glsl"
 #include "block_sum.glsl"
-#include "pairs.h"
+#include "found_records.glsl"
 
 layout(local_size_x = group_size) in;
-
-layout(std430, set = 0, binding = 2) readonly buffer Records {
-    uvec4 records[];
-};
-
-// The first record of a direction, or of those after it.
-uint first_record(uint direction) {
-    uint first = 0u;
-    uint count = scratch[record_total];
-    while (count > 0u) {
-        uint half_count = count / 2u;
-        if (records[first + half_count].x < direction) {
-            first += half_count + 1u;
-            count -= half_count + 1u;
-        } else {
-            count = half_count;
-        }
-    }
-    return first;
-}
 
 struct Depths {
     uint count;
@@ -71,7 +51,7 @@ void main() {
         Depths depths = compare(first, is_short ? end : first, touching, margin);
         bool decided = touching >= 0.0 && is_short && depths.decided;
         bool has_rival = depths.second >= depths.depth - 2.0 * margin;
-        count = depths.count | (decided ? 0u : row_undecided) | (has_rival ? row_has_rival : 0u);
+        count = depths.count | (decided ? 0u : row_undecided) | (has_rival ? row_to_resolve : 0u);
         count = depths.count == 0u && decided ? 0u : count;
         scratch_units[unit] = uvec4(first, end - first, depths.deepest, count);
     }

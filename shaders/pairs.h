@@ -37,25 +37,32 @@ struct SearchInstanceData {
 const uint units_of_instance = 4u;
 NEARFIELD_CHECK(sizeof(SearchInstanceData) == 16 * units_of_instance)
 
-// A pair that has penetrating points or intersects, or whose answer the CPU has to decide.
+// A pair that has penetrating points or contacts, or intersects, or whose answer the CPU has to
+// decide.
 struct PairRowData {
     uint a NEARFIELD_DEFAULT(0);  // numbers of the instances
     uint b NEARFIELD_DEFAULT(0);
-    uint count NEARFIELD_DEFAULT(0);  // of penetrating points, or 1; and flags
+    uint count NEARFIELD_DEFAULT(0);  // of penetrating points or contacts, or 1; and flags
     // Those that were found, among which they are: consecutive ones
     uint first_record NEARFIELD_DEFAULT(0);
     uint record_count NEARFIELD_DEFAULT(0);
     uint edge NEARFIELD_DEFAULT(0);  // the deepest point, as FoundPointData has it
     uint number NEARFIELD_DEFAULT(0);
     uint word NEARFIELD_DEFAULT(0);
+    // Contacts: those of B that were found
+    uint first_of_b NEARFIELD_DEFAULT(0);
+    uint count_of_b NEARFIELD_DEFAULT(0);
+    uint unused[2] NEARFIELD_DEFAULT({});
 };
-const uint units_of_row = 2u;
+const uint units_of_row = 3u;
 NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
 
 // Flags of PairRowData::count.
 const uint row_undecided = 1u << 31;  // the CPU has to answer the pair
-const uint row_has_rival = 1u << 30;  // another point may be as deep
-const uint row_count_mask = row_has_rival - 1u;
+// Another point may be as deep; or not every contact is certain, and the count has those that are
+const uint row_to_resolve = 1u << 30;
+const uint row_intersects = 1u << 29;  // a contact lies inside the other shape for certain
+const uint row_count_mask = row_intersects - 1u;
 
 // What is known of two shapes that may intersect; 0: their boundaries do not meet.
 const uint pair_meets = 1u;

@@ -230,8 +230,8 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, SearchDirecti
     return rivals;
 }
 
-// Returns the words of four points; 0 for those that are not asked for. `depth`: 0 outside;
-// negative where a walk takes too long.
+// Returns the words of four points; 0 for those that are not asked for. `depth`: the distance from
+// the boundary; 0 outside, unless points there are asked for; negative where a walk takes too long.
 uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 depth) {
     Shape b = shape_at(direction.shape_b);
     bool too_long = false;
@@ -249,7 +249,8 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 dep
     if (found != uvec4(0u)) {
         rivals = find_rivals(p, b, nearest, edge, direction, too_long);
     }
-    depth = too_long ? vec4(-1.0) : mix(vec4(0.0), sqrt(nearest.squared), inside);
+    bvec4 has_depth = bvec4(uvec4(inside) | uvec4(direction.outside != 0.0));
+    depth = too_long ? vec4(-1.0) : mix(vec4(0.0), sqrt(nearest.squared), has_depth);
     if (too_long) {
         return point_resolved | point_doubtful | edge;
     }

@@ -2,7 +2,6 @@
 
 #include <engine/base/catch_to_status.hpp>
 #include <engine/context/device_pair_state.hpp>
-#include <engine/context/pair_row.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/localize/hierarchy.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -10,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -53,12 +53,20 @@ Status DevicePairTable<Query>::records(std::uint32_t index, std::vector<Record>&
     return catch_to_status([&] { state().records(index, records); });
 }
 
+template <class Query>
+Status DevicePairTable<Query>::manifold(
+    std::uint32_t index,
+    std::vector<ContactCluster>& manifold) requires std::is_same_v<Query, ContactQuery> {
+    return catch_to_status([&] { state().manifold(index, manifold); });
+}
+
 template class DevicePairTable<PenetrationQuery>;
+template class DevicePairTable<ContactQuery>;
 template class DevicePairTable<IntersectionTestQuery>;
 
 DevicePairTableBase::State::State(const AnyQuery& query)
     : query_(query), question_(plan::pair_question(query)) {
-    plan_.queries.resize(1);
+    plan_.queries.resize(2);
 }
 
 DevicePairTableBase::State::~State() {
@@ -141,22 +149,23 @@ void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     planned.technique = Technique::compute;
     auto& points = planned.work.emplace<plan::PlannedPoints>();
     points.source = plan::PointSource::device;
+    points.outside = question_.reach > 0.0;
     points.margin = plan::margin_of_pair(a.data, b.data);
 }
 
-void DevicePairTableBase::State::add_point(const plan::FoundPointData& found) {
-    plan::PlannedQuery& planned = plan_.queries.front();
+void DevicePairTableBase::State::add_point(const plan::FoundPointData& found,
+                                           plan::PlannedQuery& planned) {
     plan_.points.push_back({plan::found_point(planned, found), plan::PlannedPoint::no_tile});
     words_.push_back(found.word);
     ++planned.points().count;
 }
 
-template <class Query>
-void DevicePairTableBase::State::fill(PairRow<Query>& row, const plan::PairRowData& data,
-                                      const typename Query::Result& result) const {
-    row = row_of<Query>(instances_[data.a].handle, instances_[data.b].handle, result);
-    if constexpr (requires { result.count; }) {
-        row.record_count = question_.records ? result.count : 0;
+void DevicePairTableBase::State::add_points(std::uint32_t first, std::uint32_t count,
+                                            plan::PlannedQuery& planned) {
+    planned.points().first = static_cast<std::uint32_t>(plan_.points.size());
+    planned.points().count = 0;
+    for (const plan::FoundPointData& found : buffers_->records().subspan(first, count)) {
+        add_point(found, planned);
     }
 }
 
@@ -167,12 +176,12 @@ void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQue
         fill(row, data, std::get<PenetrationResult>(*decided));
         return;
     }
-    if ((data.count & plan::row_has_rival) != 0) {
+    if ((data.count & plan::row_to_resolve) != 0) {
         fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
         return;
     }
     begin(data);
-    add_point({0, data.edge, data.number, data.word});
+    add_point({0, data.edge, data.number, data.word}, plan_.queries.front());
     PenetrationResult result;
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
@@ -212,10 +221,7 @@ void DevicePairTableBase::State::records(std::uint32_t index,
     }
     records.clear();
     begin(data);
-    for (const plan::FoundPointData& found :
-         buffers_->records().subspan(data.first_record, data.record_count)) {
-        add_point(found);
-    }
+    add_points(data.first_record, data.record_count, plan_.queries.front());
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
         question_.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });

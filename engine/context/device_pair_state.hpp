@@ -2,9 +2,13 @@
 
 #include <engine/batch/shape_store.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/context/pair_row.hpp>
+#include <engine/cpu/intersection_test.hpp>
+#include <engine/decode/contacts.hpp>
 #include <engine/plan/pair_question.hpp>
 #include <engine/plan/pair_search.hpp>
 #include <engine/plan/plan.hpp>
+#include <engine/records/found_contacts.hpp>
 #include <engine/records/point_resolver.hpp>
 #include <engine/render/pair_search_buffers.hpp>
 #include <engine/world/hilbert_curve.hpp>
@@ -29,9 +33,12 @@ struct DevicePairTableBase::State {
     void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
                 const world::Instances& instances);
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
+    void row(std::uint32_t index, PairRow<ContactQuery>& row);
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
     void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
+    void records(std::uint32_t index, std::vector<ContactRecord>& records);
     void records(std::uint32_t index, std::vector<NoRecord>& records) const;
+    void manifold(std::uint32_t index, std::vector<ContactCluster>& manifold);
     void start_anew();
 
     std::uint32_t rows = 0;
@@ -77,11 +84,22 @@ private:
     [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
     void require_records() const;
     void begin(const plan::PairRowData& data);
-    void add_point(const plan::FoundPointData& found);
+    void add_point(const plan::FoundPointData& found, plan::PlannedQuery& planned);
+    void add_points(std::uint32_t first, std::uint32_t count, plan::PlannedQuery& planned);
+    void find_contacts(const plan::PairRowData& data);
+    /// The manifold of a pair of contacts and, if the query asks for them, their records; until the
+    /// next call of any kind.
+    [[nodiscard]] ContactResult& contacts_of(const plan::PairRowData& data, std::uint32_t row);
+    [[nodiscard]] bool do_intersect(const plan::PairRowData& data);
     /// A row that says of its pair what a result does.
     template <class Query>
     void fill(PairRow<Query>& row, const plan::PairRowData& data,
-              const typename Query::Result& result) const;
+              const typename Query::Result& result) const {
+        row = row_of<Query>(instances_[data.a].handle, instances_[data.b].handle, result);
+        if constexpr (requires { result.count; }) {
+            row.record_count = question_.records ? result.count : 0;
+        }
+    }
 
     const AnyQuery query_;
     const plan::PairQuestion question_;  // that it asks of the device
@@ -105,6 +123,11 @@ private:
     std::vector<std::uint32_t> words_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;
+    decode::ContactDecoder contact_decoder_;
+    records::FoundContacts found_contacts_;
+    ContactResult contacts_;
+    cpu::IntersectionTest intersection_test_;
+    simd::TransformedInstances edges_;
     std::uint32_t renderer_ = 0;          // number of that of the last update
     std::uint32_t updates_in_order_ = 0;  // since the instances were ordered
 };

@@ -67,6 +67,11 @@ void DevicePairTableBase::State::check() const {
                        "the device finds these pairs by Technique::compute; the table's query "
                        "asks for another technique, or for resident results");
             }
+            if constexpr (requires { asked.normals; }) {
+                if (asked.normals == ContactNormals::gradient) {
+                    refuse("update", "the contacts of these pairs have analytic normals");
+                }
+            }
             asked.technique = Technique::compute;
             if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
                 // Its only number is the technique, which answers no such query of a batch.
@@ -203,6 +208,7 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
     all.touching =
         static_cast<float>(question_.tolerance * static_cast<double>(plan::touching_depth));
+    all.reach = plan::rounded_up(question_.reach);
     all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
     buffers_->set_query(all);
     updates_in_order_ = max_updates_in_order;
@@ -330,6 +336,10 @@ void World::Implementation::update(DevicePairTableBase& table) {
 }
 
 Status World::update(DevicePairTable<PenetrationQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(DevicePairTable<ContactQuery>& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
 }
 

@@ -8,12 +8,23 @@ PairQuestion pair_question(const AnyQuery& query) {
     if (std::holds_alternative<IntersectionTestQuery>(query)) {
         return {.goal = PairGoal::tests};
     }
+    if (const auto* const contacts = std::get_if<ContactQuery>(&query)) {
+        return {PairGoal::contacts,
+                contacts->tolerance,
+                contact_budget(contacts->tolerance, {}).cell,
+                true,
+                contacts->records,
+                contacts->contact_distance};
+    }
     const auto& penetration = std::get<PenetrationQuery>(query);
     return {PairGoal::penetrations, penetration.tolerance, penetration_budget(penetration).cell,
             penetration.points == PenetrationPoints::boundary, penetration.records};
 }
 
 ErrorBudget pair_budget(const AnyQuery& query, const Deviations& deviations) {
+    if (const auto* const contacts = std::get_if<ContactQuery>(&query)) {
+        return contact_budget(contacts->tolerance, deviations);
+    }
     return penetration_budget(std::get<PenetrationQuery>(query), deviations);
 }
 

@@ -10,11 +10,11 @@ namespace nearfield::plan {
 
 /// What the device finds out about the pairs of a world's instances.
 enum class PairGoal : std::uint8_t {
-    penetrations,  ///< the points of either shape inside the other, for ordered pairs
+    penetrations,  ///< the points of A inside B, for ordered pairs
+    contacts,      ///< the points of either shape near the other, for ordered pairs
     tests,         ///< whether the shapes intersect, once for each pair
 };
-
-inline constexpr std::size_t pair_goals = 2;
+inline constexpr std::size_t pair_goals = 3;
 
 /// What a query asks of the device about every pair of a world's instances. World units.
 struct PairQuestion {
@@ -22,7 +22,11 @@ struct PairQuestion {
     double tolerance = 0.0;  ///< of tests: 0, there is none
     double cell = 0.0;       ///< the side of a grid cell
     bool samples = false;    ///< along the edges, not only vertices
-    bool records = false;    ///< the host reads the points that are found
+    bool records = false;    ///< the result lists points
+    double reach = 0.0;      ///< the largest distance of a contact
+
+    /// Whether the host reads the points that are found: the rows of contacts are made of them.
+    [[nodiscard]] bool reads_points() const { return records || goal == PairGoal::contacts; }
 };
 
 /// Precondition: the query is one that the device answers for all pairs of a world.

@@ -45,7 +45,7 @@ void FoundContacts::set_normals(std::span<const Vector2> gradients) {
 
 void FoundContacts::write(const geometry::Polygon& a, const geometry::Polygon& b,
                           const ContactQuery& query, ContactResult& result) {
-    result.count = static_cast<std::uint32_t>(of_a_.size() + of_b_.size());
+    result.count = count();
     manifold_.build(a, b, of_a_, of_b_, result.cell, result.manifold);
     if (query.records) {
         SparseCheckpoint<1024> checkpoint;

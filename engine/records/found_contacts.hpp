@@ -9,6 +9,7 @@
 #include <nearfield/result.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,10 @@ public:
         }
     }
 
+    /// The number of contacts that were added.
+    [[nodiscard]] std::uint32_t count() const {
+        return static_cast<std::uint32_t>(of_a_.size() + of_b_.size());
+    }
     /// Appends the points of the contacts found: A's, then B's.
     void append_points(std::vector<Vector2>& points) const;
     /// Sets normals to the field's gradients at the points of append_points(). Where the gradient

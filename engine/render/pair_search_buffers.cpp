@@ -51,7 +51,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield pair arguments"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               question.records ? gpu::Direction::readback : gpu::Direction::none,
+               question.reads_points() ? gpu::Direction::readback : gpu::Direction::none,
                "nearfield pair points"),
       rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
             "nearfield pair rows"),
@@ -148,6 +148,15 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
                                         std::to_string(scratch_bytes_ + record_bytes + row_bytes) +
                                         " bytes on the device; Settings::memory_limit is " +
                                         std::to_string(memory_limit)});
+    }
+    const std::uint64_t most = device_->limits().maxStorageBufferRange;
+    if (std::max({scratch_bytes_, record_bytes, row_bytes}) > most) {
+        throw StatusException(
+            {StatusCode::too_large,
+             "the pairs of the world need a buffer of " +
+                 std::to_string(std::max({scratch_bytes_, record_bytes, row_bytes})) +
+                 " bytes, of which shaders of the device reach " + std::to_string(most) +
+                 " at once"});
     }
     reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
                         "nearfield pair scratch texels");

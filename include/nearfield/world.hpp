@@ -331,6 +331,8 @@ public:
     /// table is empty then. Errors of single pairs are the status of their rows.
     Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
     /// Likewise.
+    Status update(DevicePairTable<ContactQuery>& table, const Limits& limits = {});
+    /// Likewise.
     Status update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of

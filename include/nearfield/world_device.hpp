@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 /// \file
@@ -49,11 +50,11 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// One query of all pairs of instances in a world, answered by the device: PenetrationQuery or
-/// IntersectionTestQuery. Boxes, pairs and what is asked about them are computed there
-/// (Technique::compute). The CPU's time in World::update() grows with the number of instances that
-/// have moved and with that of pairs left to it, not with the number of pairs. A row is made exact,
-/// in double precision, when it is read.
+/// One query of all pairs of instances in a world, answered by the device: PenetrationQuery,
+/// ContactQuery or IntersectionTestQuery. Boxes, pairs and what is asked about them are computed
+/// there (Technique::compute). The CPU's time in World::update() grows with the number of instances
+/// that have moved and with that of pairs left to it, not with the number of pairs. A row is made
+/// exact, in double precision, when it is read.
 ///
 /// Only pairs that are hit have a row, in ascending order of the pairs, in the order in which their
 /// instances were added: by `a`, then by `b`. Filters apply (WorldInstance). Where single precision
@@ -63,6 +64,10 @@ private:
 /// whose boundaries cross without such a point, where they overlap by less than the samples tell,
 /// has no row. Rows agree with those of a PairTable as the answers of two techniques do
 /// (Technique).
+///
+/// Contacts: two rows per pair that has contacts, each instance being `a` once; normals are
+/// analytic. A pair that intersects without a point within the contact distance, deep inside or
+/// between the samples, has no row.
 ///
 /// Intersection tests: one row per pair that intersects, with the instance added first as `a`: the
 /// same pairs as in a PairTable with `hits_only`.
@@ -89,15 +94,19 @@ public:
     /// The answer for one pair, made exact now; fails (invalid_query) if there are fewer rows.
     /// `row.record_count` is 0 if the query does without records.
     [[nodiscard]] Expected<Row> row(std::uint32_t index);
-    /// Replaces `records` by those of a row, in order along the rings of `a`; also fails
+    /// Replaces `records` by those of a row, in the order of the query's result; also fails
     /// (invalid_query) if the query does without records.
     Status records(std::uint32_t index, std::vector<Record>& records);
+    /// Of contacts: replaces `manifold` by that of a row (ContactResult::manifold).
+    Status manifold(std::uint32_t index, std::vector<ContactCluster>& manifold) requires
+        std::is_same_v<Query, ContactQuery>;
 
 private:
     Query query_;
 };
 
 extern template class DevicePairTable<PenetrationQuery>;
+extern template class DevicePairTable<ContactQuery>;
 extern template class DevicePairTable<IntersectionTestQuery>;
 
 }  // namespace nearfield

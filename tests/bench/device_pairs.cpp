@@ -22,6 +22,7 @@ namespace {
 using nearfield::bench::require;
 using nearfield::bench::take;
 
+using nearfield::ContactQuery;
 using nearfield::Context;
 using nearfield::DevicePairTable;
 using nearfield::InstanceHandle;
@@ -100,6 +101,10 @@ struct Times {
 /// A number of a row, so that none is left out.
 double number_of(const PairRow<PenetrationQuery>& row) {
     return row.count > 0 ? row.deepest.depth : 0.0;
+}
+
+double number_of(const PairRow<ContactQuery>& row) {
+    return row.count;
 }
 
 double number_of(const PairRow<IntersectionTestQuery>& row) {
@@ -188,6 +193,10 @@ const char* kind_of(const PenetrationQuery& query) {
                                                        : "penetration, samples";
 }
 
+const char* kind_of(const ContactQuery& /*query*/) {
+    return "contacts";
+}
+
 const char* kind_of(const IntersectionTestQuery& /*query*/) {
     return "intersection test";
 }
@@ -242,6 +251,10 @@ int main(int count, char** arguments) {
             "| CPU: read all rows | cpu: update | update / cpu |\n"
             "|---|---|---|---|---|---|---|---|---|---|---|---|");
         compare_all(context, IntersectionTestQuery{}, shows_passes);
+        ContactQuery contacts{.tolerance = 0.03, .contact_distance = 0.05, .records = true};
+        compare(context, 1'000, 50.0, contacts, 20, shows_passes);
+        contacts.records = false;
+        compare_all(context, contacts, shows_passes);
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
             PenetrationQuery query{.tolerance = 0.03, .points = points, .records = true};

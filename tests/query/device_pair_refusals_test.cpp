@@ -6,6 +6,7 @@ namespace nearfield::test {
 namespace {
 
 constexpr PenetrationQuery penetrations{.tolerance = 0.1};
+constexpr ContactQuery contacts{.tolerance = 0.1, .contact_distance = 0.1};
 
 class DevicePairRefusals : public QueryTest {
 protected:
@@ -42,6 +43,7 @@ TEST_F(DevicePairRefusals, OfContextsThatDoNotCompute) {
     Expected<Context> drawing_only = Context::create(host_device(), settings);
     ASSERT_TRUE(drawing_only.has_value()) << drawing_only.error().text();
     expect_refused(*drawing_only, penetrations, StatusCode::unsupported_technique);
+    expect_refused(*drawing_only, contacts, StatusCode::unsupported_technique);
     expect_refused(*drawing_only, IntersectionTestQuery{}, StatusCode::unsupported_technique);
     Expected<Context> without_device = Context::create_cpu();
     ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
@@ -59,6 +61,7 @@ TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
     expect_refused(context(), PenetrationQuery{.tolerance = 0.1, .resident = true},
                    StatusCode::invalid_query);
     expect_refused(context(), PenetrationQuery{.tolerance = -1.0}, StatusCode::invalid_query);
+    expect_refused(context(), ContactQuery{.tolerance = 0.1}, StatusCode::invalid_query);
 }
 
 /// Rows of an earlier update do not stay.

@@ -250,6 +250,9 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
     }
     DevicePairTable<PenetrationQuery> table({.tolerance = 0.08});
     DevicePairTable intersections(IntersectionTestQuery{});
+    DevicePairTable contacts(ContactQuery{.tolerance = 0.08, .contact_distance = 0.1});
+    std::vector<ContactRecord> contact_records;
+    std::vector<ContactCluster> manifold;
     std::vector<PenetrationRecord> records;
     std::uint32_t rows = 0;
     expect_nothing_made(200, [&](int number) {
@@ -267,6 +270,11 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         ok = world->update(intersections).ok() && ok;
         for (std::uint32_t row = 0; row < intersections.size(); ++row) {
             ok = intersections.row(row).has_value() && ok;
+        }
+        ok = world->update(contacts).ok() && ok;
+        for (std::uint32_t row = 0; row < contacts.size(); ++row) {
+            ok = contacts.row(row).has_value() && contacts.records(row, contact_records).ok() &&
+                 contacts.manifold(row, manifold).ok() && ok;
         }
         return ok;
     });

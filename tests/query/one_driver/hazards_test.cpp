@@ -154,6 +154,7 @@ TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
     for (const int count : {3, 100}) {
         update_device_pairs(count, PenetrationQuery{.tolerance = 0.05});
+        update_device_pairs(count, ContactQuery{.tolerance = 0.05, .contact_distance = 0.05});
         update_device_pairs(count, IntersectionTestQuery{});
     }
     check();

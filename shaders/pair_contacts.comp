@@ -1,0 +1,81 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// What is found of each pair, one thread per pair: how many points of either shape are certainly
+// contacts, and whether single precision can tell of all.
+
+#include "search.glsl"
+#include "block_sum.glsl"
+#include "found_records.glsl"
+
+layout(local_size_x = group_size) in;
+
+// The direction from B to A. If there was no room for that, any other.
+uint reverse_of(uint direction) {
+    uvec2 own = direction_unit(direction, 3u).zw;
+    uvec4 list = scratch_units[push.lists + own.y];
+    uint directions = scratch[pair_total];
+    uint first = min(list.x + scratch[push.pair_blocks + own.y / search_block], directions - 1u);
+    uint count = min(list.z, directions - first);
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        bool is_before = direction_unit(first + half_count, 3u).w <= own.x;
+        first += is_before ? half_count : 0u;
+        count = is_before ? count - half_count : half_count;
+    }
+    return first;
+}
+
+// The consecutive records of a direction: the first one, and how many.
+uvec2 records_of(uint direction) {
+    uint first = first_record(direction);
+    return uvec2(first, first_record(direction + 1u) - first);
+}
+
+// The contacts among the records of a direction: their number, and flags.
+uint contacts_of(uint direction, uvec2 found) {
+    vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
+    // That of the point's place, and roundings of the distance.
+    float certain = lengths.x - 1.5 * lengths.y;
+    if (found.y > max_compared_depths) {
+        return row_to_resolve;
+    }
+    uint count = 0u;
+    uint flags = 0u;
+    for (uint i = found.x; i < found.x + found.y; ++i) {
+        float near = uintBitsToFloat(scratch[push.record_depths + i]);
+        uint word = records[i].w;
+        if (near >= 0.0 && near <= certain) {
+            ++count;
+        } else {
+            flags |= row_to_resolve;
+        }
+        flags |= (word & (point_inside | point_doubtful)) == point_inside ? row_intersects : 0u;
+    }
+    return count | flags;
+}
+
+void main() {
+    uint direction = dispatched_index();
+    bool exists = direction < scratch[pair_total];
+    uint count = 0u;
+    uint unit = push.summaries + 2u * direction;
+    uvec2 of_b = uvec2(0u);
+    if (exists) {
+        uint reverse = reverse_of(direction);
+        uvec2 of_a = records_of(direction);
+        of_b = records_of(reverse);
+        uint by_a = contacts_of(direction, of_a);
+        uint by_b = contacts_of(reverse, of_b);
+        uint number = (by_a & row_count_mask) + (by_b & row_count_mask);
+        uint flags = (by_a | by_b) & ~row_count_mask;
+        bool left_to_cpu = uintBitsToFloat(direction_unit(direction, 3u).y) < 0.0;
+        bool decided = !left_to_cpu && (number > 0u || (flags & row_to_resolve) == 0u);
+        count = !decided ? row_undecided : number > 0u ? number | flags : 0u;
+        scratch_units[unit] = uvec4(of_a, 0u, count);
+    }
+    uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);
+    if (exists) {
+        scratch_units[unit + 1u] = uvec4(before, of_b, 0u);
+    }
+}
