@@ -61,8 +61,9 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
                    2.0 * (a.rounding + b.rounding) / b.unit;
     float rival = query.rival / b.unit;
     float doubt = margin > search_precision * query.cell / b.unit ? rival + 4.0 * margin : -1.0;
-    // In a test, three margins apart in all is certainly apart.
-    float reach = query.is_test != 0u ? margin : (1.0 + margin_of_frames) * query.reach / b.unit;
+    // In a test, three margins more than the reach is certainly too far.
+    float reach = (1.0 + margin_of_frames) * query.reach / b.unit +
+                  (query.is_test != 0u ? margin : 0.0);
     return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
                                query.reach > 0.0 ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
 }

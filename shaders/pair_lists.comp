@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The pairs of each instance, one thread per instance: those with whose boxes its own overlaps and
-// whose filters match; in a test, only those with later instances. In the stage of pairs they are
+// whose filters match; where each pair is asked about once,
+// only those with later instances. In the stage of pairs they are
 // counted, and after that they are listed.
 
 #include "search.glsl"
@@ -57,7 +58,7 @@ void write_pair(uint a, uint b, uint target) {
 // Returns the number of pairs with instance `a` first.
 uint find_pairs(uint a, vec4 own, bool lists, uint target) {
     uvec2 filter_a = instance_unit(a, 2u).zw;
-    bool is_test = pair_query().is_test != 0u;
+    bool is_once = pair_query().is_once != 0u;
     uint count = 0u;
     Walk walk = Walk(top_level(), 0u, uvec2(0u));
     bool enters = true;
@@ -75,7 +76,7 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
             continue;
         }
         uint b = instance_in_order(box);
-        if ((is_test ? b > a : b != a) && is_pair(filter_a, b)) {
+        if ((is_once ? b > a : b != a) && is_pair(filter_a, b)) {
             if (lists) {
                 write_pair(a, b, target + count);
             }

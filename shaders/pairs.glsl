@@ -15,7 +15,7 @@ PairQueryData pair_query() {
     uvec4 second = instance_units[1];
     vec4 lengths = uintBitsToFloat(first);
     return PairQueryData(lengths.x, lengths.y, lengths.z, first.w, uintBitsToFloat(second.x),
-                         second.y, uint[2](0u, 0u));
+                         second.y, second.z, uint[1](0u));
 }
 
 // A unit of an instance.

@@ -13,8 +13,9 @@ struct PairQueryData {
     float touching NEARFIELD_DEFAULT(0.0F);  // points that are not deeper only touch
     uint order NEARFIELD_DEFAULT(0);  // first word of the instances in the order of the hierarchy
     float reach NEARFIELD_DEFAULT(0.0F);  // up to which shapes are near each other
-    uint is_test NEARFIELD_DEFAULT(0);    // 1: whether shapes meet; each pair is asked about once
-    uint unused[2] NEARFIELD_DEFAULT({});
+    uint is_test NEARFIELD_DEFAULT(0);    // 1: whether shapes meet, or are near each other
+    uint is_once NEARFIELD_DEFAULT(0);    // 1: each pair is asked about once, in the given order
+    uint unused[1] NEARFIELD_DEFAULT({});
 };
 const uint units_of_query = 2u;
 NEARFIELD_CHECK(sizeof(PairQueryData) == 16 * units_of_query)
@@ -64,9 +65,9 @@ const uint row_to_resolve = 1u << 30;
 const uint row_intersects = 1u << 29;  // a contact lies inside the other shape for certain
 const uint row_count_mask = row_intersects - 1u;
 
-// What is known of two shapes that may intersect; 0: their boundaries do not meet.
+// What is known of two shapes that may intersect or be near each other; 0: their boundaries are not.
 const uint pair_meets = 1u;
-const uint pair_in_doubt = 2u;       // single precision cannot tell whether the boundaries meet
+const uint pair_in_doubt = 2u;  // single precision cannot tell
 const uint pair_left_to_cpu = 4u;
 // Turns of the loop that finds rings of one shape in the other; see max_instance_steps.
 const uint max_ring_turns = 3000u;

@@ -39,7 +39,12 @@ const Timings& DevicePairTableBase::timings() const noexcept {
 
 template <class Query>
 DevicePairTable<Query>::DevicePairTable(const Query& query)
-    : DevicePairTableBase(std::make_unique<State>(query)), query_(query) {}
+    : DevicePairTableBase(std::make_unique<State>(query, 0.0)), query_(query) {}
+
+template <class Query>
+DevicePairTable<Query>::DevicePairTable(const Query& query,
+                                        double reach) requires HasDistance<Query>
+    : DevicePairTableBase(std::make_unique<State>(query, reach)), query_(query) {}
 
 template <class Query>
 Expected<PairRow<Query>> DevicePairTable<Query>::row(std::uint32_t index) {
@@ -63,9 +68,11 @@ Status DevicePairTable<Query>::manifold(
 template class DevicePairTable<PenetrationQuery>;
 template class DevicePairTable<ContactQuery>;
 template class DevicePairTable<IntersectionTestQuery>;
+template class DevicePairTable<ClosestPointQuery>;
+template class DevicePairTable<SeparationQuery>;
 
-DevicePairTableBase::State::State(const AnyQuery& query)
-    : query_(query), question_(plan::pair_question(query)) {
+DevicePairTableBase::State::State(const AnyQuery& query, double reach)
+    : query_(query), question_(plan::pair_question(query, reach)) {
     plan_.queries.resize(2);
 }
 

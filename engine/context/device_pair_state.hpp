@@ -24,7 +24,8 @@ namespace nearfield {
 
 /// What a table keeps from update to update, and what it answers rows from. Its members throw.
 struct DevicePairTableBase::State {
-    explicit State(const AnyQuery& query);
+    /// `reach`: of separations and closest points.
+    State(const AnyQuery& query, double reach);
     ~State();
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -35,6 +36,8 @@ struct DevicePairTableBase::State {
     void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
     void row(std::uint32_t index, PairRow<ContactQuery>& row);
     void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
+    void row(std::uint32_t index, PairRow<ClosestPointQuery>& row) { row_of_cpu(index, row); }
+    void row(std::uint32_t index, PairRow<SeparationQuery>& row) { row_of_cpu(index, row); }
     void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
     void records(std::uint32_t index, std::vector<ContactRecord>& records);
     void records(std::uint32_t index, std::vector<NoRecord>& records) const;
@@ -75,6 +78,7 @@ private:
     void order_instances();
     void search();
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
+    [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;
     void decide();
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
@@ -82,6 +86,14 @@ private:
     [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
     [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
     [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
+    template <class Query>
+    void row_of_cpu(std::uint32_t index, PairRow<Query>& row) {
+        const std::uint32_t number = device_row("row", index);
+        const plan::PairRowData& data = buffers_->rows()[number];
+        const AnyResult* const decided = find_decided(number);
+        const AnyResult& answer = decided != nullptr ? *decided : answer_on_cpu(data, false);
+        fill(row, data, std::get<typename Query::Result>(answer));
+    }
     void require_records() const;
     void begin(const plan::PairRowData& data);
     void add_point(const plan::FoundPointData& found, plan::PlannedQuery& planned);

@@ -35,22 +35,14 @@ constexpr std::size_t poses_at_once = 16;
 constexpr double smallest_unit = 0x1p-30;
 constexpr double largest_unit = 0x1p+30;
 
-/// Whether a pair with this answer has a row.
-bool is_hit(const AnyResult& answer) {
-    return std::visit(
-        [](const auto& result) {
-            bool has_answer = result.intersects;
-            if constexpr (requires { result.count; }) {
-                has_answer = result.count > 0;
-            }
-            return has_answer || !result.status.ok();
-        },
-        answer);
-}
-
 }  // namespace
 
 void DevicePairTableBase::State::check() const {
+    if (question_.goal == plan::PairGoal::tests &&
+        !(question_.reach >= 0.0 && question_.reach <= largest_coordinate)) {
+        refuse("update", "the reach is " + geometry::number(question_.reach) +
+                             "; it must be a finite number of at least 0");
+    }
     const DeviceTechniques& techniques = context_->techniques();
     const plan::AvailableTechniques available{.device = context_->device() != nullptr,
                                               .raster = techniques.raster,
@@ -210,6 +202,7 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
         static_cast<float>(question_.tolerance * static_cast<double>(plan::touching_depth));
     all.reach = plan::rounded_up(question_.reach);
     all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
+    all.is_once = question_.is_once ? 1 : 0;
     buffers_->set_query(all);
     updates_in_order_ = max_updates_in_order;
 }
@@ -242,7 +235,24 @@ bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const
         const PairInstance& entry = instances_[number];
         return TransformedPolygon(*entry.polygon, entry.instance.pose).box();
     };
-    return localize::boxes_meet(box_of(data.a), box_of(data.b), 0.0);
+    return localize::boxes_meet(box_of(data.a), box_of(data.b), question_.reach);
+}
+
+/// Whether a pair with this answer of the CPU has a row.
+bool DevicePairTableBase::State::is_hit(const AnyResult& answer,
+                                        const plan::PairRowData& data) const {
+    const bool has_answer = std::visit(
+        [this](const auto& result) {
+            bool is_answer = result.intersects;
+            if constexpr (requires { result.count; }) {
+                is_answer = result.count > 0;
+            } else if constexpr (requires { result.distance; }) {
+                is_answer = is_answer || result.distance <= question_.reach;
+            }
+            return is_answer || !result.status.ok();
+        },
+        answer);
+    return has_answer && (question_.goal != plan::PairGoal::tests || boxes_meet(data));
 }
 
 /// Answers what single precision could not decide, and drops the rows without points.
@@ -261,9 +271,8 @@ void DevicePairTableBase::State::decide() {
         decided_results_);
     checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
-        decided_.push_back({undecided[i], is_hit(decided_results_.results[i]) &&
-                                              (question_.goal != plan::PairGoal::tests ||
-                                               boxes_meet(buffers_->rows()[undecided[i]]))});
+        const plan::PairRowData& data = buffers_->rows()[undecided[i]];
+        decided_.push_back({undecided[i], is_hit(decided_results_.results[i], data)});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
                                           [](const Decided& one) { return one.has_row; });
@@ -340,6 +349,14 @@ Status World::update(DevicePairTable<PenetrationQuery>& table, const Limits& lim
 }
 
 Status World::update(DevicePairTable<ContactQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(DevicePairTable<ClosestPointQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(DevicePairTable<SeparationQuery>& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
 }
 

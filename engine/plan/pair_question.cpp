@@ -4,9 +4,15 @@
 
 namespace nearfield::plan {
 
-PairQuestion pair_question(const AnyQuery& query) {
+PairQuestion pair_question(const AnyQuery& query, double reach) {
     if (std::holds_alternative<IntersectionTestQuery>(query)) {
-        return {.goal = PairGoal::tests};
+        return {.goal = PairGoal::tests, .is_once = true};
+    }
+    if (std::holds_alternative<SeparationQuery>(query) ||
+        std::holds_alternative<ClosestPointQuery>(query)) {
+        return {.goal = PairGoal::tests,
+                .reach = reach,
+                .is_once = std::holds_alternative<SeparationQuery>(query)};
     }
     if (const auto* const contacts = std::get_if<ContactQuery>(&query)) {
         return {PairGoal::contacts,

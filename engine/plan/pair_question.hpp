@@ -12,7 +12,7 @@ namespace nearfield::plan {
 enum class PairGoal : std::uint8_t {
     penetrations,  ///< the points of A inside B, for ordered pairs
     contacts,      ///< the points of either shape near the other, for ordered pairs
-    tests,         ///< whether the shapes intersect, once for each pair
+    tests,         ///< whether the shapes intersect, or are near each other
 };
 inline constexpr std::size_t pair_goals = 3;
 
@@ -23,14 +23,16 @@ struct PairQuestion {
     double cell = 0.0;       ///< the side of a grid cell
     bool samples = false;    ///< along the edges, not only vertices
     bool records = false;    ///< the result lists points
-    double reach = 0.0;      ///< the largest distance of a contact
+    double reach = 0.0;      ///< the largest distance of a contact, or of shapes that are near
+    bool is_once = false;    ///< each pair is asked about once, the others in both orders
 
     /// Whether the host reads the points that are found: the rows of contacts are made of them.
     [[nodiscard]] bool reads_points() const { return records || goal == PairGoal::contacts; }
 };
 
 /// Precondition: the query is one that the device answers for all pairs of a world.
-[[nodiscard]] PairQuestion pair_question(const AnyQuery& query);
+/// `reach`: of separations and closest points.
+[[nodiscard]] PairQuestion pair_question(const AnyQuery& query, double reach);
 /// How such a query, which has a tolerance, spends it on shapes with these deviations.
 [[nodiscard]] ErrorBudget pair_budget(const AnyQuery& query, const Deviations& deviations);
 

@@ -58,6 +58,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
     item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
+    needed_ = item_.capacities;
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
     }
@@ -115,7 +116,8 @@ void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
     }
 }
 
-void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
+/// Where everything is in the scratch memory, and how large it and its two companions are.
+PairSearchBuffers::Bytes PairSearchBuffers::place_arrays() {
     plan::SearchPush& push = item_.push;
     const auto [edges, points, found, pairs, items, rows] = item_.capacities;
     ScratchLayout layout;
@@ -138,30 +140,37 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     layout.add_stages(pairs, items, edges, points, push);
     push.depths = layout.words(points);
     push.record_depths = layout.words(found);
-    scratch_bytes_ = layout.bytes();
-    const std::uint64_t record_bytes =
-        std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData);
-    const std::uint64_t row_bytes = bytes_of_rows(rows);
-    if (scratch_bytes_ + record_bytes + row_bytes > memory_limit) {
-        throw StatusException(
-            {StatusCode::too_large, "the pairs of the world need " +
-                                        std::to_string(scratch_bytes_ + record_bytes + row_bytes) +
-                                        " bytes on the device; Settings::memory_limit is " +
-                                        std::to_string(memory_limit)});
+    return {layout.bytes(), std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData),
+            bytes_of_rows(rows)};
+}
+
+void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
+    const std::uint64_t reached = device_->limits().maxStorageBufferRange;
+    const auto fit = [&](const Bytes& bytes) {
+        return std::max({bytes.scratch, bytes.records, bytes.rows}) <= reached &&
+               bytes.scratch + bytes.records + bytes.rows <= memory_limit;
+    };
+    Bytes bytes = place_arrays();
+    if (!fit(bytes)) {
+        item_.capacities = needed_;
+        bytes = place_arrays();
     }
-    const std::uint64_t most = device_->limits().maxStorageBufferRange;
-    if (std::max({scratch_bytes_, record_bytes, row_bytes}) > most) {
+    if (!fit(bytes)) {
         throw StatusException(
             {StatusCode::too_large,
-             "the pairs of the world need a buffer of " +
-                 std::to_string(std::max({scratch_bytes_, record_bytes, row_bytes})) +
-                 " bytes, of which shaders of the device reach " + std::to_string(most) +
-                 " at once"});
+             "the pairs of the world need " +
+                 std::to_string(bytes.scratch + bytes.records + bytes.rows) +
+                 " bytes on the device, " +
+                 std::to_string(std::max({bytes.scratch, bytes.records, bytes.rows})) +
+                 " of them in one buffer; Settings::memory_limit is " +
+                 std::to_string(memory_limit) + ", and shaders reach " + std::to_string(reached) +
+                 " of a buffer"});
     }
-    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
+    scratch_bytes_ = bytes.scratch;
+    reserve_with_texels(*device_, scratch_, scratch_texels_, bytes.scratch,
                         "nearfield pair scratch texels");
-    records_.reserve(record_bytes);
-    rows_.reserve(row_bytes);
+    records_.reserve(bytes.records);
+    rows_.reserve(bytes.rows);
     item_.shapes = shapes_.handle();
     item_.instances = instances_.handle();
     item_.scratch = scratch_.handle();
@@ -233,8 +242,8 @@ void PairSearchBuffers::read_undecided() {
     std::sort(undecided_.begin(), undecided_.end());
 }
 
-/// Makes room for what the device has counted, and a little more. Later stages have counted nothing
-/// of what earlier ones had no room for, so they grow when their turn comes.
+/// Makes room for what the device has counted, and a little more if that fits. Later stages have
+/// counted nothing of what earlier ones had no room for, so they grow when their turn comes.
 void PairSearchBuffers::grow() {
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         if (counts_[i] > max_counted) {
@@ -242,6 +251,7 @@ void PairSearchBuffers::grow() {
                                    "the pairs of the world need more than 2^29 steps of a search; "
                                    "ask about fewer or smaller instances"});
         }
+        needed_[i] = std::max(needed_[i], counts_[i]);
         if (counts_[i] > item_.capacities[i]) {
             item_.capacities[i] = counts_[i] + counts_[i] / 4;
         }

@@ -68,6 +68,12 @@ private:
         return reinterpret_cast<const plan::PairRowData*>(rows_.data());
     }
     void upload_shapes(const plan::SearchShapes& shapes);
+    struct Bytes {
+        std::uint64_t scratch = 0;
+        std::uint64_t records = 0;
+        std::uint64_t rows = 0;
+    };
+    [[nodiscard]] Bytes place_arrays();
     void lay_out(std::uint64_t memory_limit);
     void bind() const;
     void submit(const passes::PairSearch& passes, Timings& timings);
@@ -98,6 +104,7 @@ private:
     bool is_recorded_ = false;  // since then
     std::vector<std::uint32_t> undecided_;
     PairCounts counts_{};
+    PairCounts needed_{};  // capacities without anything to spare
 };
 
 }  // namespace nearfield::render

@@ -325,13 +325,18 @@ public:
                   std::span<const Pose> ends, const Limits& limits = {});
 
     /// Brings a table that the device fills (world_device.hpp) up to date and waits for the device.
-    /// Fails with invalid_query if the query is invalid, or if the context has no pipelines of
-    /// Technique::compute; with too_large if there are more than 2^18 instances, or more pairs or
-    /// points than the device has memory for; if `limits` end the call; and as Context::run(). The
-    /// table is empty then. Errors of single pairs are the status of their rows.
+    /// Fails with invalid_query if the query or reach is invalid, or if the context has no
+    /// pipelines of Technique::compute; with too_large if there are more than 2^18 instances, or
+    /// more pairs or points than the device has memory for; if `limits` end the call; and as
+    /// Context::run(). The table is empty then. Errors of single pairs are the status of their
+    /// rows.
     Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
     /// Likewise.
     Status update(DevicePairTable<ContactQuery>& table, const Limits& limits = {});
+    /// Likewise.
+    Status update(DevicePairTable<ClosestPointQuery>& table, const Limits& limits = {});
+    /// Likewise.
+    Status update(DevicePairTable<SeparationQuery>& table, const Limits& limits = {});
     /// Likewise.
     Status update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits = {});
 

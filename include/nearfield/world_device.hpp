@@ -50,11 +50,17 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// Queries whose answer is a distance.
+template <class Query>
+concept HasDistance = requires(const typename Query::Result& result) {
+    result.distance;
+};
+
 /// One query of all pairs of instances in a world, answered by the device: PenetrationQuery,
-/// ContactQuery or IntersectionTestQuery. Boxes, pairs and what is asked about them are computed
-/// there (Technique::compute). The CPU's time in World::update() grows with the number of instances
-/// that have moved and with that of pairs left to it, not with the number of pairs. A row is made
-/// exact, in double precision, when it is read.
+/// ContactQuery, IntersectionTestQuery, SeparationQuery or ClosestPointQuery. Boxes, pairs and what
+/// is asked about them are computed there (Technique::compute). The CPU's time in World::update()
+/// grows with the number of instances that have moved and with that of pairs left to it, not with
+/// the number of pairs. A row is made exact, in double precision, when it is read.
 ///
 /// Only pairs that are hit have a row, in ascending order of the pairs, in the order in which their
 /// instances were added: by `a`, then by `b`. Filters apply (WorldInstance). Where single precision
@@ -72,6 +78,11 @@ private:
 /// Intersection tests: one row per pair that intersects, with the instance added first as `a`: the
 /// same pairs as in a PairTable with `hits_only`.
 ///
+/// Separations and closest points: a row for each pair that intersects or is at most `reach` apart,
+/// the same as in a PairTable with that reach and `hits_only`: of separations one, with the
+/// instance added first as `a`, of closest points two. The device finds the pairs; a row that is
+/// read is answered by the CPU.
+///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
 /// the last update.
@@ -87,6 +98,9 @@ public:
     /// Technique::compute, or automatic, which means the same; the others are rejected by
     /// World::update(), as are resident results.
     explicit DevicePairTable(const Query& query);
+    /// The same for separations and closest points of shapes that are farther apart. `reach`: world
+    /// units, >= 0.
+    DevicePairTable(const Query& query, double reach) requires HasDistance<Query>;
 
     /// The query, as it was given.
     [[nodiscard]] const Query& query() const noexcept { return query_; }
@@ -108,5 +122,7 @@ private:
 extern template class DevicePairTable<PenetrationQuery>;
 extern template class DevicePairTable<ContactQuery>;
 extern template class DevicePairTable<IntersectionTestQuery>;
+extern template class DevicePairTable<ClosestPointQuery>;
+extern template class DevicePairTable<SeparationQuery>;
 
 }  // namespace nearfield

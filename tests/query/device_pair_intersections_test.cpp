@@ -46,7 +46,7 @@ protected:
 };
 
 TEST_F(DevicePairIntersections, AreThoseOfTheCpu) {
-    for_each_case(seed, 8, [&](Random& random) {
+    for_each_case(seed, 12, [&](Random& random) {
         std::vector<InstanceHandle> added;
         std::vector<Rings> shapes = some_shapes(random);
         for (int i = 0; i < 12; ++i) {
@@ -150,7 +150,7 @@ TEST_F(DevicePairIntersections, OfSquaresThatTouch) {
 }
 
 TEST_F(DevicePairIntersections, FarFromTheOrigin) {
-    for_each_case(seed + 2000, 4, [&](Random& random) {
+    for_each_case(seed + 2000, 80, [&](Random& random) {
         std::vector<InstanceHandle> added;
         const double size = random.scale(1e-6, 1.0);
         for (const Rings& rings : some_shapes(random)) {
