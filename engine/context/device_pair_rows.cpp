@@ -4,19 +4,17 @@
 #include <engine/context/device_pair_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/localize/hierarchy.hpp>
-#include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
 
 #include <algorithm>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
 namespace nearfield {
 
-DevicePairTableBase::DevicePairTableBase(std::unique_ptr<State> state) noexcept
-    : state_(std::move(state)) {}
+DevicePairTableBase::DevicePairTableBase(const AnyQuery& query, double reach)
+    : state_(std::make_unique<State>(query, reach)) {}
 DevicePairTableBase::~DevicePairTableBase() = default;
 DevicePairTableBase::DevicePairTableBase(DevicePairTableBase&&) noexcept = default;
 DevicePairTableBase& DevicePairTableBase::operator=(DevicePairTableBase&&) noexcept = default;
@@ -37,39 +35,41 @@ const Timings& DevicePairTableBase::timings() const noexcept {
     return state_->timings;
 }
 
-template <class Query>
-DevicePairTable<Query>::DevicePairTable(const Query& query)
-    : DevicePairTableBase(std::make_unique<State>(query, 0.0)), query_(query) {}
-
-template <class Query>
-DevicePairTable<Query>::DevicePairTable(const Query& query,
-                                        double reach) requires HasDistance<Query>
-    : DevicePairTableBase(std::make_unique<State>(query, reach)), query_(query) {}
-
-template <class Query>
-Expected<PairRow<Query>> DevicePairTable<Query>::row(std::uint32_t index) {
-    Row row;
-    Status status = catch_to_status([&] { state().row(index, row); });
-    return status.ok() ? Expected<Row>(row) : status;
+Status DevicePairTableBase::read(std::uint32_t index, PairRow<PenetrationQuery>& row) {
+    return catch_to_status([&] { state_->row(index, row); });
 }
 
-template <class Query>
-Status DevicePairTable<Query>::records(std::uint32_t index, std::vector<Record>& records) {
-    return catch_to_status([&] { state().records(index, records); });
+Status DevicePairTableBase::read(std::uint32_t index, PairRow<ContactQuery>& row) {
+    return catch_to_status([&] { state_->row(index, row); });
 }
 
-template <class Query>
-Status DevicePairTable<Query>::manifold(
-    std::uint32_t index,
-    std::vector<ContactCluster>& manifold) requires std::is_same_v<Query, ContactQuery> {
-    return catch_to_status([&] { state().manifold(index, manifold); });
+Status DevicePairTableBase::read(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
+    return catch_to_status([&] { state_->row(index, row); });
 }
 
-template class DevicePairTable<PenetrationQuery>;
-template class DevicePairTable<ContactQuery>;
-template class DevicePairTable<IntersectionTestQuery>;
-template class DevicePairTable<ClosestPointQuery>;
-template class DevicePairTable<SeparationQuery>;
+Status DevicePairTableBase::read(std::uint32_t index, PairRow<ClosestPointQuery>& row) {
+    return catch_to_status([&] { state_->row(index, row); });
+}
+
+Status DevicePairTableBase::read(std::uint32_t index, PairRow<SeparationQuery>& row) {
+    return catch_to_status([&] { state_->row(index, row); });
+}
+
+Status DevicePairTableBase::read(std::uint32_t index, std::vector<PenetrationRecord>& records) {
+    return catch_to_status([&] { state_->records(index, records); });
+}
+
+Status DevicePairTableBase::read(std::uint32_t index, std::vector<ContactRecord>& records) {
+    return catch_to_status([&] { state_->records(index, records); });
+}
+
+Status DevicePairTableBase::read(std::uint32_t index, std::vector<NoRecord>& records) {
+    return catch_to_status([&] { state_->records(index, records); });
+}
+
+Status DevicePairTableBase::read(std::uint32_t index, std::vector<ContactCluster>& manifold) {
+    return catch_to_status([&] { state_->manifold(index, manifold); });
+}
 
 DevicePairTableBase::State::State(const AnyQuery& query, double reach)
     : query_(query), question_(plan::pair_question(query, reach)) {

@@ -32,21 +32,36 @@ public:
     [[nodiscard]] const Timings& timings() const noexcept;
 
 protected:
-    struct NEARFIELD_HIDDEN State;
-
-    /// A table without rows.
-    explicit DevicePairTableBase(std::unique_ptr<State> state) noexcept;
+    /// A table without rows; see DevicePairTable. The query is one of those that it has.
+    DevicePairTableBase(const AnyQuery& query, double reach);
     ~DevicePairTableBase();
     /// Takes the contents of another table, which can then only be destroyed or assigned to.
     DevicePairTableBase(DevicePairTableBase&&) noexcept;
     /// Likewise.
     DevicePairTableBase& operator=(DevicePairTableBase&&) noexcept;
 
-    /// What the table holds.
-    [[nodiscard]] State& state() const noexcept { return *state_; }
+    /// Reads a row.
+    Status read(std::uint32_t index, PairRow<PenetrationQuery>& row);
+    /// Likewise.
+    Status read(std::uint32_t index, PairRow<ContactQuery>& row);
+    /// Likewise.
+    Status read(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
+    /// Likewise.
+    Status read(std::uint32_t index, PairRow<ClosestPointQuery>& row);
+    /// Likewise.
+    Status read(std::uint32_t index, PairRow<SeparationQuery>& row);
+    /// Reads the records of a row.
+    Status read(std::uint32_t index, std::vector<PenetrationRecord>& records);
+    /// Likewise.
+    Status read(std::uint32_t index, std::vector<ContactRecord>& records);
+    /// Fails: there are none.
+    Status read(std::uint32_t index, std::vector<NoRecord>& records);
+    /// Reads the manifold of a row.
+    Status read(std::uint32_t index, std::vector<ContactCluster>& manifold);
 
 private:
     friend class World;
+    struct NEARFIELD_HIDDEN State;
     std::unique_ptr<State> state_;
 };
 
@@ -89,7 +104,7 @@ concept HasDistance = requires(const typename Query::Result& result) {
 ///
 /// Threads: as for the world. Lifetime: the world's context must outlive the table.
 template <class Query>
-class NEARFIELD_EXPORT DevicePairTable : public DevicePairTableBase {
+class DevicePairTable : public DevicePairTableBase {
 public:
     using Row = PairRow<Query>;                     ///< `first_record` is 0
     using Record = typename Query::Result::Record;  ///< what a row has several of; see the result
@@ -97,32 +112,35 @@ public:
     /// A table without rows. `a` and `b` of the query are ignored. Its technique is
     /// Technique::compute, or automatic, which means the same; the others are rejected by
     /// World::update(), as are resident results.
-    explicit DevicePairTable(const Query& query);
+    explicit DevicePairTable(const Query& query) : DevicePairTableBase(query, 0.0), query_(query) {}
     /// The same for separations and closest points of shapes that are farther apart. `reach`: world
     /// units, >= 0.
-    DevicePairTable(const Query& query, double reach) requires HasDistance<Query>;
+    DevicePairTable(const Query& query, double reach) requires HasDistance<Query>
+        : DevicePairTableBase(query, reach), query_(query) {}
 
     /// The query, as it was given.
     [[nodiscard]] const Query& query() const noexcept { return query_; }
 
     /// The answer for one pair, made exact now; fails (invalid_query) if there are fewer rows.
     /// `row.record_count` is 0 if the query does without records.
-    [[nodiscard]] Expected<Row> row(std::uint32_t index);
+    [[nodiscard]] Expected<Row> row(std::uint32_t index) {
+        Row row;
+        Status status = read(index, row);
+        return status.ok() ? Expected<Row>(row) : status;
+    }
     /// Replaces `records` by those of a row, in the order of the query's result; also fails
     /// (invalid_query) if the query does without records.
-    Status records(std::uint32_t index, std::vector<Record>& records);
+    Status records(std::uint32_t index, std::vector<Record>& records) {
+        return read(index, records);
+    }
     /// Of contacts: replaces `manifold` by that of a row (ContactResult::manifold).
     Status manifold(std::uint32_t index, std::vector<ContactCluster>& manifold) requires
-        std::is_same_v<Query, ContactQuery>;
+        std::is_same_v<Query, ContactQuery> {
+        return read(index, manifold);
+    }
 
 private:
     Query query_;
 };
-
-extern template class DevicePairTable<PenetrationQuery>;
-extern template class DevicePairTable<ContactQuery>;
-extern template class DevicePairTable<IntersectionTestQuery>;
-extern template class DevicePairTable<ClosestPointQuery>;
-extern template class DevicePairTable<SeparationQuery>;
 
 }  // namespace nearfield
