@@ -16,7 +16,7 @@ PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders, pl
         declare_tests();
     } else {
         records_ = graph_.import_buffer({"pair points", false, true});
-        declare_points(goal == plan::PairGoal::contacts ? shaders.contacts : shaders.summaries);
+        declare_points(goal);
     }
     graph_.compile(device);
 }
@@ -74,10 +74,15 @@ void PairSearch::declare_pairs() {
     add("pair directions", shaders_->directions, of_instances, plan::pair_total);
 }
 
-void PairSearch::declare_points(const ComputeShader& summaries) {
+void PairSearch::declare_points(plan::PairGoal goal) {
+    const bool finds_contacts = goal == plan::PairGoal::contacts;
+    const ComputeShader& summaries = finds_contacts ? shaders_->contacts : shaders_->summaries;
     add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
     add("spread edges", shaders_->search.spread, of_points, plan::item_total);
+    if (finds_contacts) {
+        add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
+    }
     add("pair edges", shaders_->search.edges, of_points, plan::edge_total);
     add_scan("count points of edges", plan::edge_point_total);
     add("pair ranges", shaders_->search.ranges, of_points, plan::pair_total);

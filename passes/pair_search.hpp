@@ -43,7 +43,7 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t max_passes = 19;
+    static constexpr std::uint32_t max_passes = 20;
 
     [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
         return graph_.print(format, title);
@@ -54,7 +54,7 @@ private:
     static constexpr std::uint32_t no_stage = UINT32_MAX;
 
     void declare_pairs();
-    void declare_points(const ComputeShader& summaries);
+    void declare_points(plan::PairGoal goal);
     void declare_tests();
     void declare_rows();
     void add(const char* name, const ComputeShader& shader, Set set, std::uint32_t threads_of,

@@ -2,11 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 
 // What is found of each pair, one thread per pair: how many points of either shape are certainly
-// contacts, and whether single precision can tell of all.
+// contacts, and whether single precision can tell of all. Without contacts: whether the shapes
+// intersect.
 
 #include "search.glsl"
 #include "block_sum.glsl"
 #include "found_records.glsl"
+#include "rings_inside.glsl"
 
 layout(local_size_x = group_size) in;
 
@@ -55,6 +57,30 @@ uint contacts_of(uint direction, uvec2 found) {
     return count | flags;
 }
 
+// The count and flags of the row of a pair without a point that may be a contact.
+uint intersection_of(uint direction, uint reverse) {
+    uint verdict = scratch[push.verdicts + direction] | scratch[push.verdicts + reverse];
+    if (verdict == 0u) {
+        verdict = find_ring_inside(direction_at(direction));
+    }
+    return (verdict & pair_meets) != 0u ? row_intersects : verdict != 0u ? row_undecided : 0u;
+}
+
+// Those of the row of a pair.
+uint count_of(uint direction, uint reverse, uvec2 of_a, uvec2 of_b) {
+    if ((scratch[push.verdicts + direction] & pair_left_to_cpu) != 0u) {
+        return row_undecided;
+    }
+    uint by_a = contacts_of(direction, of_a);
+    uint by_b = contacts_of(reverse, of_b);
+    uint number = (by_a & row_count_mask) + (by_b & row_count_mask);
+    uint flags = (by_a | by_b) & ~row_count_mask;
+    if (number == 0u && (flags & row_to_resolve) == 0u) {
+        return intersection_of(direction, reverse);
+    }
+    return number > 0u ? number | flags : row_undecided;
+}
+
 void main() {
     uint direction = dispatched_index();
     bool exists = direction < scratch[pair_total];
@@ -65,13 +91,7 @@ void main() {
         uint reverse = reverse_of(direction);
         uvec2 of_a = records_of(direction);
         of_b = records_of(reverse);
-        uint by_a = contacts_of(direction, of_a);
-        uint by_b = contacts_of(reverse, of_b);
-        uint number = (by_a & row_count_mask) + (by_b & row_count_mask);
-        uint flags = (by_a | by_b) & ~row_count_mask;
-        bool left_to_cpu = uintBitsToFloat(direction_unit(direction, 3u).y) < 0.0;
-        bool decided = !left_to_cpu && (number > 0u || (flags & row_to_resolve) == 0u);
-        count = !decided ? row_undecided : number > 0u ? number | flags : 0u;
+        count = count_of(direction, reverse, of_a, of_b);
         scratch_units[unit] = uvec4(of_a, 0u, count);
     }
     uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);

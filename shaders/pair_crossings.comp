@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// Whether two shapes' boundaries meet or are within reach, one thread per edge of A that comes near
-// B. Ends where another edge of the same pair is known to be.
+// Whether two shapes' boundaries meet or, in a test, are within reach, one thread per edge of A that
+// comes near B. Ends where another edge of the same pair is known to be.
 
 #include "search.glsl"
 #include "pairs.h"
@@ -49,8 +49,10 @@ struct Limits {
 };
 
 Limits limits_of(SearchDirectionData direction) {
-    return Limits(direction.reach - 4.0 * direction.margin,
-                  direction.reach + 2.0 * direction.margin, 3.0 * direction.margin);
+    // The reach of contacts is not that of the boundaries.
+    float reach = direction.outside != 0.0 ? direction.margin : direction.reach;
+    return Limits(reach - 4.0 * direction.margin, reach + 2.0 * direction.margin,
+                  3.0 * direction.margin);
 }
 
 // Of the segments from `a` to `b` and along `edge`.

@@ -64,8 +64,9 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
     // In a test, three margins more than the reach is certainly too far.
     float reach = (1.0 + margin_of_frames) * query.reach / b.unit +
                   (query.is_test != 0u ? margin : 0.0);
+    bool asks_outside = query.is_test == 0u && query.reach > 0.0;
     return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
-                               query.reach > 0.0 ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
+                               asks_outside ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
 }
 
 // Of each block of items that starts among those of a direction, its first direction.
@@ -95,7 +96,5 @@ void main() {
     float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
     write_direction(list.first + rank, data, touching, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
-    if (pair_query().is_test != 0u) {
-        scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;
-    }
+    scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;
 }

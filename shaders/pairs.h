@@ -62,10 +62,10 @@ NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
 const uint row_undecided = 1u << 31;  // the CPU has to answer the pair
 // Another point may be as deep; or not every contact is certain, and the count has those that are
 const uint row_to_resolve = 1u << 30;
-const uint row_intersects = 1u << 29;  // a contact lies inside the other shape for certain
+const uint row_intersects = 1u << 29;  // the shapes of a pair of contacts intersect for certain
 const uint row_count_mask = row_intersects - 1u;
 
-// What is known of two shapes that may intersect or be near each other; 0: their boundaries are not.
+// What is known of the boundaries of two shapes: whether they meet, or are within reach; 0: no.
 const uint pair_meets = 1u;
 const uint pair_in_doubt = 2u;  // single precision cannot tell
 const uint pair_left_to_cpu = 4u;

@@ -142,7 +142,7 @@ struct SearchPush {
     uint record_depths;     // first word: by found point
     uint row_blocks;        // first word of sums over blocks of pairs
     uint summaries;         // first unit: two per pair
-    uint verdicts;          // first word, in a test: by pair, what is known of it
+    uint verdicts;          // first word: by pair, what is known of their boundaries
 };
 
 struct ExportFieldPush {

@@ -245,7 +245,8 @@ bool DevicePairTableBase::State::is_hit(const AnyResult& answer,
         [this](const auto& result) {
             bool is_answer = result.intersects;
             if constexpr (requires { result.count; }) {
-                is_answer = result.count > 0;
+                const bool counts_alone = question_.goal == plan::PairGoal::penetrations;
+                is_answer = (is_answer && !counts_alone) || result.count > 0;
             } else if constexpr (requires { result.distance; }) {
                 is_answer = is_answer || result.distance <= question_.reach;
             }

@@ -86,9 +86,9 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// has no row. Rows agree with those of a PairTable as the answers of two techniques do
 /// (Technique).
 ///
-/// Contacts: two rows per pair that has contacts, each instance being `a` once; normals are
-/// analytic. A pair that intersects without a point within the contact distance, deep inside or
-/// between the samples, has no row.
+/// Contacts: two rows per pair that has contacts or intersects, each instance being `a` once, as in
+/// a PairTable with `hits_only`, with which rows agree as the answers of two techniques do. Normals
+/// are analytic.
 ///
 /// Intersection tests: one row per pair that intersects, with the instance added first as `a`: the
 /// same pairs as in a PairTable with `hits_only`.
