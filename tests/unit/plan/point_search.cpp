@@ -86,6 +86,7 @@ protected:
             }
         }
         EXPECT_EQ(edge, polygon.size());
+        check_rings(first, polygon);
         std::uint32_t boxes = chunks;
         for (std::uint32_t level = 1; level < levels; ++level) {
             for (std::uint32_t i = 0; i < boxes; ++i) {
@@ -97,7 +98,22 @@ protected:
         EXPECT_LE(boxes, chunk_size);
         EXPECT_EQ(levels == 1, chunks <= chunk_size);
         for (std::uint32_t i = 0; i < boxes; ++i) {
-            expect_holds(unit(first + 1), unit(first_box(first, levels - 1) + i));
+            expect_holds(unit(first + unit_of_box), unit(first_box(first, levels - 1) + i));
+        }
+    }
+
+    /// A chunk begins each ring.
+    void check_rings(std::uint32_t first, const geometry::Polygon& polygon) const {
+        const std::uint32_t infos = unit(first)[3];
+        const SearchUnit& rings = unit(first + unit_of_rings);
+        ASSERT_EQ(rings[0], polygon.ring_count());
+        std::vector<std::uint32_t> starts;
+        for (std::uint32_t i = 0; i < rings[0]; ++i) {
+            starts.push_back(word(infos + word(rings[1] + i)) >> 4U);
+        }
+        std::sort(starts.begin(), starts.end());
+        for (std::uint32_t ring = 0; ring < rings[0]; ++ring) {
+            EXPECT_EQ(starts[ring], polygon.ring_begin(ring));
         }
     }
 
@@ -114,7 +130,7 @@ protected:
 
 private:
     [[nodiscard]] std::uint32_t first_box(std::uint32_t first, std::uint32_t level) const {
-        return unit(first + 2 + level / 4)[level % 4];
+        return unit(first + unit_of_first_boxes + level / 4)[level % 4];
     }
     static void expect_holds(const SearchUnit& box, const SearchUnit& corners) {
         for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
