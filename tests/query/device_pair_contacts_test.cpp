@@ -130,6 +130,21 @@ TEST_F(DevicePairContacts, OfShapesThatAreApart) {
     EXPECT_EQ(tables.device.candidates(), 14U);
 }
 
+/// Gaps and overlaps that single precision does not resolve: which of them intersect, the CPU
+/// tells.
+TEST_F(DevicePairContacts, OfShapesThatAlmostTouch) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    for (int i = 0; i < 60; ++i) {
+        const double x = i / 3.0 + 4.0 * i;
+        const double gap = std::ldexp(i % 2 == 0 ? 1.0 : -1.0, -20 - i % 20);
+        add(square, {.translation = {x, 0.0}});
+        add(square, {.translation = {x + 1.0 + gap, 0.3}});
+    }
+    Tables tables({.tolerance = 0.05, .contact_distance = 0.1});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 120U);
+}
+
 /// Far from all boundaries, and where boundaries cross between the samples.
 TEST_F(DevicePairContacts, OfShapesThatIntersectWithoutOne) {
     const ShapeHandle large = add_shape({rectangle({-10.0, -10.0}, {10.0, 10.0}).front(),
