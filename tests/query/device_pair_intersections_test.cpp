@@ -126,6 +126,31 @@ TEST_F(DevicePairIntersections, OfVeryManyRings) {
     EXPECT_GT(tables.device.left_to_cpu(), 0U);
 }
 
+/// An edge beside so many others that the device gives up before it finds the one that it crosses.
+TEST_F(DevicePairIntersections, OfEdgesBesideVeryMany) {
+    Rings dots;
+    for (int x = 0; x < 24; ++x) {
+        for (int y = 0; y < 24; ++y) {
+            const Vector2 low{1.0 * x, 1.0 * y};
+            dots.push_back(rectangle(low, {low.x + 0.3, low.y + 0.3}).front());
+        }
+    }
+    const ShapeHandle beside = add_shape(dots);
+    dots.push_back(rectangle({45.0, 45.0}, {46.0, 47.0}).front());
+    const ShapeHandle across = add_shape(dots);
+    add(add_shape({{{-1.0, -0.505}, {60.0, 60.495}, {60.0, 60.505}, {-1.0, -0.495}}}), {});
+    const InstanceHandle instance = add(beside, {});
+    Tables tables;
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 0U);
+    EXPECT_EQ(tables.device.candidates(), 1U);
+    ASSERT_TRUE(world().remove(instance).ok());
+    add(across, {});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 1U);
+    EXPECT_EQ(tables.device.left_to_cpu(), 1U);
+}
+
 /// Whatever the rounding of their places says: sides that touch, corners on sides, corners on
 /// corners, and the same shape twice.
 TEST_F(DevicePairIntersections, OfSquaresThatTouch) {
