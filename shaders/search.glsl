@@ -1,14 +1,9 @@
-// The search for boundary points (search.h): access to its input, and walks over a shape's boxes.
-// All positions and lengths are in B's frame, relative to its centre, in its units.
+// The search for boundary points (search.h): access to its input. All positions and lengths are in
+// B's frame, relative to its centre, in its units.
 
 #include "push.h"
-#include "search.h"
+#include "shapes.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Input {
-    uvec4 units[];
-};
-layout(set = 0, binding = 8) uniform usamplerBuffer texels;  // the same memory
-layout(constant_id = 0) const bool reads_texels = false;
 // Directions, and how many items there are, are in the scratch memory (pairs.h).
 layout(constant_id = 1) const bool finds_pairs = false;
 
@@ -23,20 +18,6 @@ layout(push_constant) uniform Push { SearchPush push; };
 
 // Beside the direction of a thread's first point, from this bit on: the points found before it.
 const uint local_shift = 24u;
-const float infinity = 1.0 / 0.0;
-
-// The parts of the input. Some devices read texels several times as fast, and others allow too few.
-uvec4 unit_at(uint unit) {
-    return reads_texels ? texelFetch(texels, int(unit)) : units[unit];
-}
-
-vec4 floats_at(uint unit) {
-    return uintBitsToFloat(unit_at(unit));
-}
-
-uint word_at(uint word) {
-    return unit_at(word >> 2)[word & 3u];
-}
 
 uint dispatched_index() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * search_block +
@@ -100,38 +81,6 @@ uint direction_of(uint item) {
     return low;
 }
 
-struct Shape {
-    uint chunks;
-    uint levels;
-    uint edges;  // first unit
-    uint infos;  // first word
-    uint first_boxes;  // first word: of each level, its first unit
-};
-
-Shape shape_at(uint unit) {
-    uvec4 head = unit_at(unit);
-    return Shape(head.x, head.y, head.z, head.w, 4u * (unit + unit_of_first_boxes));
-}
-
-vec4 box_of_shape(uint unit) {
-    return floats_at(unit + unit_of_box);
-}
-
-// The chunk at a place along the rings of the shape.
-uint chunk_along_rings(Shape shape, uint place) {
-    return word_at(shape.infos + 4u * ((shape.chunks + 3u) / 4u) + place);
-}
-
-// The end of the slots of a chunk's edges.
-uint edges_end(Shape shape, uint chunk) {
-    return chunk_size * chunk + (word_at(shape.infos + chunk) & 15u);
-}
-
-// The number of the edge in a slot.
-uint number_of(Shape shape, uint slot) {
-    return (word_at(shape.infos + slot / chunk_size) >> 4) + slot % chunk_size;
-}
-
 uint parts_of(SearchDirectionData direction, uint edge) {
     return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
@@ -157,12 +106,6 @@ uint block_of(uint index, uint first_block, uint elements) {
     return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u, 0u);
 }
 
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
-    vec2 d = b - a;
-    float squared = dot(d, d);
-    return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
-}
-
 bool crosses(vec2 p, vec2 a, vec2 b) {
     // Half-open in y, so a vertex on the ray counts once.
     return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
@@ -172,60 +115,9 @@ bool ray_meets(vec2 p, vec4 box) {
     return p.y >= box.y && p.y <= box.w && p.x <= box.z;
 }
 
-// A walk over the boxes of a shape from the top level to chunks, depth first.
-struct Walk {
-    uint level;
-    uint group;     // the boxes of this level that were entered last are 8 * group, ...
-    uvec2 pending;  // boxes still to be visited: eight bits per level
-};
-
 // The steps of one walk, each of which takes up to nine turns of loops. Some drivers end the loops of
 // an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
 // of three walks each, and the threads that run in step with it may take the longest of each. What a
 // longer walk would find is left to the CPU, which takes less time than long walks where boxes do
 // not tell the edges apart.
 const uint max_steps = 256u;
-
-// The boxes of a walk's group.
-struct Group {
-    uint first;  // unit
-    uint count;
-};
-
-Group group_of(Shape shape, uint level, uint group) {
-    uint boxes = (shape.chunks + (1u << (3u * level)) - 1u) >> (3u * level);
-    return Group(word_at(shape.first_boxes + level) + chunk_size * group,
-                 min(boxes - chunk_size * group, chunk_size));
-}
-
-Walk start_walk(Shape shape) {
-    return Walk(shape.levels - 1u, 0u, uvec2(0u));
-}
-
-// Marks boxes of the walk's group, one bit each, as ones to be visited.
-void add_boxes(inout Walk walk, uint boxes) {
-    uint bits = boxes << (chunk_size * (walk.level & 3u));
-    walk.pending |= walk.level < 4u ? uvec2(bits, 0u) : uvec2(0u, bits);
-}
-
-// Goes to the next box to visit, on the lowest level that has one, and says which it is; false at
-// the end of the walk.
-bool next_box(inout Walk walk, out uint box) {
-    bool upper = walk.pending.x == 0u;
-    uint word = upper ? walk.pending.y : walk.pending.x;
-    if (word == 0u) {
-        return false;
-    }
-    uint bit = findLSB(word);
-    walk.pending &= upper ? uvec2(0u, word - 1u) : uvec2(word - 1u, ~0u);
-    uint level = bit / chunk_size + (upper ? 4u : 0u);
-    walk.group >>= 3u * (level - walk.level);
-    walk.level = level;
-    box = chunk_size * walk.group + bit % chunk_size;
-    return true;
-}
-
-void descend(inout Walk walk, uint box) {
-    walk.group = box;
-    --walk.level;
-}
