@@ -44,8 +44,7 @@ public:
     [[nodiscard]] Output declare_crowded(TileGraph& graph, const Buffers& buffers,
                                          Output output) const;
     /// Adds the pass for points of fields; it writes the same words as ResolveFieldPoints.
-    [[nodiscard]] Output declare_points(TileGraph& graph, graph::Handle input,
-                                        Output output) const;
+    [[nodiscard]] Output declare_points(TileGraph& graph, graph::Handle input, Output output) const;
 
 private:
     void dispatch(VkCommandBuffer commands, const RecordContext& context,

@@ -22,7 +22,7 @@ struct TileBatchSets {
     std::array<VkDescriptorSet, intersection_strategies> samples{};  ///< by strategy
     VkDescriptorSet masks = VK_NULL_HANDLE;                          ///< of the compute technique
     VkDescriptorSet fields = VK_NULL_HANDLE;                         ///< of the compute technique
-    VkDescriptorSet places = VK_NULL_HANDLE;  ///< fields place by place
+    VkDescriptorSet places = VK_NULL_HANDLE;                         ///< fields place by place
 
     [[nodiscard]] VkDescriptorSet field_by(SignEncoding encoding) const {
         return field[static_cast<std::size_t>(encoding)];

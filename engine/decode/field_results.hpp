@@ -56,7 +56,7 @@ private:
     [[nodiscard]] float in_world(std::uint32_t word, const plan::Tile& tile);
 
     const char* gradient_format_;
-    std::vector<float> largest_;  // by query: largest magnitude of a value, world units
+    std::vector<float> largest_;          // by query: largest magnitude of a value, world units
     std::vector<std::uint32_t> refused_;  // queries
 };
 

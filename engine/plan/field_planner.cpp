@@ -104,8 +104,7 @@ bool check_numbers(const PlannedQuery& planned, const Box& box, ResultSummary& r
 }
 
 /// Side of a field's tiles in cells, without the halo.
-std::uint32_t side_of_tiles(const PlannedQuery& planned, bool at_points,
-                            const PlanLimits& limits) {
+std::uint32_t side_of_tiles(const PlannedQuery& planned, bool at_points, const PlanLimits& limits) {
     if (planned.technique == Technique::cpu) {
         return UINT32_MAX;  // the whole grid
     }
@@ -114,9 +113,8 @@ std::uint32_t side_of_tiles(const PlannedQuery& planned, bool at_points,
     const bool small_tiles = planned.technique == Technique::compute
                                  ? at_points && !parts.values && !parts.features
                                  : parts.small_tiles;
-    const std::uint32_t drawn = small_tiles
-                                    ? std::min(limits.features_tile, limits.largest_tile)
-                                    : limits.largest_tile;
+    const std::uint32_t drawn =
+        small_tiles ? std::min(limits.features_tile, limits.largest_tile) : limits.largest_tile;
     return drawn - 2 * parts.halo;
 }
 
@@ -228,14 +226,13 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
         regions_.require_sides(current.index, query.tolerance);
     }
     const std::uint32_t side = side_of_tiles(planned, !query.points.empty(), limits);
-    current.memory.require(bytes_of_cells(query, field.parts, grid, side) +
-                               bytes_of_points(query, field.parts) +
-                               (planned.technique == Technique::compute &&
-                                        (field.parts.values || field.parts.features)
-                                    ? regions_.bytes_of_masks(1, limits.largest_tile) +
-                                          bytes_of_field_lists(grid.cells())
-                                    : 0.0),
-                           2.0);
+    current.memory.require(
+        bytes_of_cells(query, field.parts, grid, side) + bytes_of_points(query, field.parts) +
+            (planned.technique == Technique::compute && (field.parts.values || field.parts.features)
+                 ? regions_.bytes_of_masks(1, limits.largest_tile) +
+                       bytes_of_field_lists(grid.cells())
+                 : 0.0),
+        2.0);
     const auto first_tile = static_cast<std::uint32_t>(current.plan.tiles.size());
     result.status = add_points(query, grid, side, on_cpu, field, current.plan);
     if (!result.status.ok()) {

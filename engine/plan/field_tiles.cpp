@@ -76,8 +76,7 @@ void FieldTiles::add(const PlannedQuery& query, const Tile& tile, std::uint32_t 
     split(offset, data.offset, data.offset_low);
     // Features are those of the shape's own edges, and so are those of points.
     const bool own_edges = first_feature != not_asked || query.field().point_count > 0;
-    data.shape =
-        shapes_.place_for_field(b, own_edges ? 0.0 : query.budget.simplification);
+    data.shape = shapes_.place_for_field(b, own_edges ? 0.0 : query.budget.simplification);
     data.size = tile.width | tile.height << 16U;
     data.mask = mask;
     // Where single precision selects edges it errs by at most 2^-20 of the coordinates.

@@ -241,8 +241,7 @@ void SearchShapes::add_low_parts(const Polygon& polygon) {
     const double unit = unit_length_of(polygon);
     const auto [chunks, levels, edges, infos] = made_[0];
     const auto lost = [](double coordinate) {
-        return static_cast<float>(coordinate -
-                                  static_cast<double>(static_cast<float>(coordinate)));
+        return static_cast<float>(coordinate - static_cast<double>(static_cast<float>(coordinate)));
     };
     const std::size_t first = made_.size();
     made_.resize(first + std::size_t{chunk_size} * chunks);

@@ -125,8 +125,7 @@ void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& t
                 !compute_.add_points_tile(query, tile, shapes_, batch.tiles.back(), batch);
             break;
         case TileKind::field:
-            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch),
-                                    batch.compute);
+            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), batch.compute);
             break;
         case TileKind::overlap:
             compute_.add_overlap_tile(

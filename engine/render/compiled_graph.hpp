@@ -121,9 +121,9 @@ public:
     /// The buffers behind the graph's handles; null for handles that the graph does not have.
     struct Buffers {
         VkBuffer mesh = VK_NULL_HANDLE;
-        VkBuffer input = VK_NULL_HANDLE;      ///< of compute passes
-        VkBuffer scratch = VK_NULL_HANDLE;    ///< of the compute technique
-        VkBuffer fields = VK_NULL_HANDLE;     ///< of the compute technique: shapes and tiles
+        VkBuffer input = VK_NULL_HANDLE;    ///< of compute passes
+        VkBuffer scratch = VK_NULL_HANDLE;  ///< of the compute technique
+        VkBuffer fields = VK_NULL_HANDLE;   ///< of the compute technique: shapes and tiles
         VkBuffer crowd = VK_NULL_HANDLE;
         VkBuffer long_searches = VK_NULL_HANDLE;
         VkBuffer words = VK_NULL_HANDLE;      ///< of points and fields

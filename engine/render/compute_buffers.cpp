@@ -11,8 +11,7 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
              "nearfield compute input"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                gpu::Direction::none, "nearfield compute scratch"),
-      fields_(device,
-              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+      fields_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield fields"),
       crowd_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
              gpu::Direction::upload, "nearfield crowded blocks"),
@@ -44,8 +43,7 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
     const std::uint64_t between =
         parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
     input_.reserve(between + bytes_of(batch.tiles) + bytes_of(batch.points) +
-                   bytes_of(batch.lists.geometry()) +
-                   work.ranges().words * sizeof(std::uint32_t));
+                   bytes_of(batch.lists.geometry()) + work.ranges().words * sizeof(std::uint32_t));
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
     require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
@@ -133,11 +131,9 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Til
             layout.write_texels(set, texels_.get());
         };
         write_fields(sets.fields);
-        write(sets.fields, Layout::crowd,
-              {crowd_.handle(), 0, smallest_part});
+        write(sets.fields, Layout::crowd, {crowd_.handle(), 0, smallest_part});
         write_fields(sets.places);
-        write(sets.places, Layout::long_searches,
-              {long_searches_.handle(), 0, smallest_part});
+        write(sets.places, Layout::long_searches, {long_searches_.handle(), 0, smallest_part});
     }
 }
 

@@ -1,6 +1,6 @@
-// Measures distance fields, of 1024 x 1024 cells but for many small ones, by the techniques compute and cpu, and prints a table
-// in Markdown, medians: what the calling thread does until the submission, in wall-clock time and in
-// time of its processor; the device; and all together.
+// Measures distance fields, of 1024 x 1024 cells but for many small ones, by the techniques compute
+// and cpu, and prints a table in Markdown, medians: what the calling thread does until the
+// submission, in wall-clock time and in time of its processor; the device; and all together.
 
 #include <nearfield/nearfield.hpp>
 

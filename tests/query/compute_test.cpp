@@ -24,8 +24,8 @@ std::vector<Vector2> points_in(Random& random, const Rectangle& box, int count) 
     return points;
 }
 
-/// Distance fields by the compute technique, compared with the oracle and, except near the boundary,
-/// with the raster's signs.
+/// Distance fields by the compute technique, compared with the oracle and, except near the
+/// boundary, with the raster's signs.
 class ComputeFields : public FieldLaws {
 protected:
     static void check(Context& context, const oracle::ShapeOracle& b, DistanceFieldQuery query) {
