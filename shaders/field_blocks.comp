@@ -29,6 +29,9 @@ uvec4 segment_of(SeenEdge edge, vec2 half_size) {
     return floatBitsToUint(vec4(middle, 0.5 * (to - from) * edge.way));
 }
 
+// Up to this many edges are tested at every cell instead of being culled further.
+const uint few_edges = 2u;
+
 // Which of 32 of the quarter's edges, from one on, can be nearest: one bit each.
 uint near_edges(Shape shape, Square square, Limits limits, uint first, uint count) {
     uint near = 0u;
@@ -40,23 +43,31 @@ uint near_edges(Shape shape, Square square, Limits limits, uint first, uint coun
     return near;
 }
 
-// Writes the segments if there is room, and where they are; returns whether there was. `edges`: the
-// first word of the quarter's edges.
-bool list_segments(FieldTileData tile, Shape shape, uvec2 place, uint edges, uint edge_count,
-                   uint block) {
-    Square square = square_at(tile, place, block_side);
+Limits find_limits(FieldTileData tile, Shape shape, Square square, uint edges, uint edge_count) {
     Rivals rivals = no_rivals;
     for (uint i = 0u; i < edge_count; ++i) {
         uint slot = scratch[edges + i];
         consider(square, floats_at(shape.edges + slot), slot, rivals);
     }
-    Limits limits = limits_of(tile, shape, square, rivals);
-    uint count = 0u;
-    uvec4 near = uvec4(0u);  // of the first 128 edges
-    for (uint i = 0u; i < edge_count; i += 32u) {
-        uint some = near_edges(shape, square, limits, edges + i, min(edge_count - i, 32u));
-        count += bitCount(some);
-        near = mix(near, uvec4(some), equal(uvec4(i / 32u), uvec4(0u, 1u, 2u, 3u)));
+    return limits_of(tile, shape, square, rivals);
+}
+
+// Writes the segments if there is room, and where they are; returns whether there was. `edges`: the
+// first word of the quarter's edges.
+bool list_segments(FieldTileData tile, Shape shape, uvec2 place, uint edges, uint edge_count,
+                   uint block) {
+    Square square = square_at(tile, place, block_side);
+    Limits limits;
+    uint count = edge_count;
+    uvec4 near = uvec4((1u << min(edge_count, few_edges)) - 1u, 0u, 0u, 0u);  // of the first 128 edges
+    if (edge_count > few_edges) {
+        limits = find_limits(tile, shape, square, edges, edge_count);
+        count = 0u;
+        for (uint i = 0u; i < edge_count; i += 32u) {
+            uint some = near_edges(shape, square, limits, edges + i, min(edge_count - i, 32u));
+            count += bitCount(some);
+            near = mix(near, uvec4(some), equal(uvec4(i / 32u), uvec4(0u, 1u, 2u, 3u)));
+        }
     }
     // The order in which blocks come to this line is of no consequence.
     uint next = atomicAdd(scratch[push.crowd - 1u], count);
