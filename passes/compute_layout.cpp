@@ -83,8 +83,8 @@ void ComputeLayout::write_image_in(VkImageLayout layout, VkDescriptorSet set, Bi
     updates_.push_back({set, binding, {}, {VK_NULL_HANDLE, view, layout}, VK_NULL_HANDLE});
 }
 
-void ComputeLayout::write_texels(VkDescriptorSet set, VkBufferView view) const {
-    updates_.push_back({set, texels, {}, {}, view});
+void ComputeLayout::write_texels(VkDescriptorSet set, Binding binding, VkBufferView view) const {
+    updates_.push_back({set, binding, {}, {}, view});
 }
 
 void ComputeLayout::begin_updates() const {

@@ -37,11 +37,12 @@ public:
         signed_distance_image = sign_image + 1,
         feature_id_image,
         texels,
+        scratch_texels,
     };
     static constexpr std::uint32_t storage_buffers = 4;
     static constexpr std::uint32_t sampled_images = 2;
     static constexpr std::uint32_t storage_images = 2;
-    static constexpr std::uint32_t texel_buffers = 1;
+    static constexpr std::uint32_t texel_buffers = 2;
     static constexpr std::uint32_t bindings =
         storage_buffers + sampled_images + storage_images + texel_buffers;
     /// Those of the largest push constants.
@@ -60,7 +61,7 @@ public:
                       VkDeviceSize bytes) const;
     void write_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
     void write_storage_image(VkDescriptorSet set, Binding binding, VkImageView view) const;
-    void write_texels(VkDescriptorSet set, VkBufferView view) const;
+    void write_texels(VkDescriptorSet set, Binding binding, VkBufferView view) const;
 
 private:
     void write_image_in(VkImageLayout layout, VkDescriptorSet set, Binding binding,

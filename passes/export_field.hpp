@@ -31,7 +31,9 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
 
 private:
     void dispatch(VkCommandBuffer commands, const Item& item) const;

@@ -30,7 +30,9 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
 
 private:
     void dispatch_runs(VkCommandBuffer commands, const Item& item, std::uint32_t step) const;

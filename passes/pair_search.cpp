@@ -1,42 +1,23 @@
 #include <passes/pair_search.hpp>
 
-#include <shaders/pair_boxes_comp.hpp>
-#include <shaders/pair_directions_comp.hpp>
-#include <shaders/pair_levels_comp.hpp>
-#include <shaders/pair_lists_comp.hpp>
-#include <shaders/pair_rows_comp.hpp>
-#include <shaders/pair_summaries_comp.hpp>
-
 namespace nearfield::passes {
-namespace {
 
 using graph::Access;
 
-ComputeShader make_pair_shader(const gpu::Device& device, const ComputeLayout& layout,
-                               gpu::Spirv code, const char* name) {
-    return {device, layout, code, name, search_constants(device, true)};
-}
-
-}  // namespace
-
-PairSearch::PairSearch(const gpu::Device& device, const ComputeLayout& layout)
-    : search_(device, layout, true, "nearfield pair"),
-      boxes_(make_pair_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
-      levels_(make_pair_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")),
-      lists_(make_pair_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
-      directions_(make_pair_shader(device, layout, shaders::pair_directions_comp,
-                                   "nearfield pair directions")),
-      summaries_(make_pair_shader(device, layout, shaders::pair_summaries_comp,
-                                  "nearfield pair summaries")),
-      rows_(make_pair_shader(device, layout, shaders::pair_rows_comp, "nearfield pair rows")),
+PairSearch::PairSearch(const gpu::Device& device, const PairShaders& shaders, plan::PairGoal goal)
+    : shaders_(&shaders),
       input_(graph_.import_buffer({"pair shapes", true, false})),
       instances_(graph_.import_buffer({"pair instances", true, false})),
       scratch_(graph_.import_buffer({"pair scratch"})),
       arguments_(graph_.import_buffer({"pair arguments", true, true})),
-      records_(graph_.import_buffer({"pair points", false, true})),
       row_buffer_(graph_.import_buffer({"pair rows", true, true})) {
     declare_pairs();
-    declare_points();
+    if (goal == plan::PairGoal::tests) {
+        declare_tests();
+    } else {
+        records_ = graph_.import_buffer({"pair points", false, true});
+        declare_points();
+    }
     graph_.compile(device);
 }
 
@@ -69,36 +50,39 @@ void PairSearch::add_scan(const char* name, std::uint32_t stage) {
             arguments_ = pass.write(arguments_, Access::storage_write_in_compute);
         },
         [this, stage](VkCommandBuffer commands, const Item& item) {
-            search_.scan.bind(commands, item.sets[of_points]);
-            push(commands, item, search_.scan, 0, stage);
-            search_.scan.dispatch(commands, 1);
+            shaders_->search.scan.bind(commands, item.sets[of_points]);
+            push(commands, item, shaders_->search.scan, 0, stage);
+            shaders_->search.scan.dispatch(commands, 1);
         });
 }
 
 void PairSearch::declare_pairs() {
-    add("pair boxes", boxes_, of_instances, no_stage);
+    add("pair boxes", shaders_->boxes, of_instances, no_stage);
     graph_.add_pass(
         "pair levels", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            levels_.bind(commands, item.sets[of_instances]);
-            push(commands, item, levels_, 0, 0);
-            levels_.dispatch(commands, 1);
+            shaders_->levels.bind(commands, item.sets[of_instances]);
+            push(commands, item, shaders_->levels, 0, 0);
+            shaders_->levels.dispatch(commands, 1);
         });
-    add("count pairs", lists_, of_instances, no_stage, plan::pair_total);
+    add("count pairs", shaders_->lists, of_instances, no_stage, plan::pair_total);
     add_scan("sum pairs", plan::pair_total);
-    add("list pairs", lists_, of_instances, no_stage);
-    add("pair directions", directions_, of_instances, plan::pair_total);
+    add("list pairs", shaders_->lists, of_instances, no_stage);
+    add("pair directions", shaders_->directions, of_instances, plan::pair_total);
 }
 
 void PairSearch::declare_points() {
-    add("pair items", search_.items, of_points, plan::item_total);
+    add("pair items", shaders_->search.items, of_points, plan::item_total);
     add_scan("count edges", plan::edge_total);
-    add("pair edges", search_.edges, of_points, plan::edge_total);
+    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
+    add("pair edges", shaders_->search.edges, of_points, plan::edge_total);
+    add_scan("count points of edges", plan::edge_point_total);
+    add("pair ranges", shaders_->search.ranges, of_points, plan::pair_total);
     add_scan("count points", plan::point_total);
-    add("pair points", search_.points, of_points, plan::point_total);
+    add("pair points", shaders_->search.points, of_points, plan::point_total);
     add_scan("count found points", plan::record_total);
     graph_.add_pass(
         "pack points", graph::PassKind::compute,
@@ -108,8 +92,8 @@ void PairSearch::declare_points() {
             records_ = pass.write(records_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            search_.pack.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, search_.pack, plan::point_total, no_stage);
+            shaders_->search.pack.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, shaders_->search.pack, plan::point_total, no_stage);
         });
     graph_.add_pass(
         "pair summaries", graph::PassKind::compute,
@@ -119,21 +103,36 @@ void PairSearch::declare_points() {
             scratch_ = pass.write(scratch_, Access::storage_write_in_compute);
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            summaries_.bind(commands, item.sets[of_points]);
-            dispatch(commands, item, summaries_, plan::pair_total, no_stage);
+            shaders_->summaries.bind(commands, item.sets[of_points]);
+            dispatch(commands, item, shaders_->summaries, plan::pair_total, no_stage);
         });
+    declare_rows();
+}
+
+void PairSearch::declare_tests() {
+    add("pair items", shaders_->search.items, of_points, plan::item_total);
+    add_scan("count edges", plan::edge_total);
+    add("spread edges", shaders_->search.spread, of_points, plan::item_total);
+    add("pair crossings", shaders_->crossings, of_points, plan::edge_total);
+    add("pair verdicts", shaders_->verdicts, of_points, plan::pair_total);
+    declare_rows();
+}
+
+void PairSearch::declare_rows() {
     add_scan("count rows", plan::row_total);
     graph_.add_pass(
         "pair rows", graph::PassKind::compute,
         [&](graph::PassBuilder& pass) {
             pass.read(arguments_, Access::indirect_arguments);
             pass.read(scratch_, Access::storage_read_in_compute);
-            pass.read(records_, Access::storage_read_in_compute);
+            if (records_ != graph::Handle{}) {
+                pass.read(records_, Access::storage_read_in_compute);
+            }
             static_cast<void>(pass.write(row_buffer_, Access::storage_write_in_compute));
         },
         [this](VkCommandBuffer commands, const Item& item) {
-            rows_.bind(commands, item.sets[of_rows]);
-            dispatch(commands, item, rows_, plan::pair_total, plan::row_total);
+            shaders_->rows.bind(commands, item.sets[of_rows]);
+            dispatch(commands, item, shaders_->rows, plan::pair_total, plan::row_total);
         });
 }
 
@@ -144,7 +143,9 @@ void PairSearch::record(VkCommandBuffer commands, gpu::Timestamps& timestamps,
     executor.set_buffer(instances_, item.instances);
     executor.set_buffer(scratch_, item.scratch);
     executor.set_buffer(arguments_, item.arguments);
-    executor.set_buffer(records_, item.records);
+    if (records_ != graph::Handle{}) {
+        executor.set_buffer(records_, item.records);
+    }
     executor.set_buffer(row_buffer_, item.rows);
     graph_.execute(commands, timestamps, item);
 }

@@ -3,7 +3,7 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <engine/graph/recorded_graph.hpp>
-#include <passes/search_shaders.hpp>
+#include <passes/pair_shaders.hpp>
 
 #include <shaders/pairs.h>
 
@@ -12,14 +12,16 @@
 
 namespace nearfield::passes {
 
-/// The passes that find all pairs of a world's instances and the points of one in the other, in a
+/// The passes that find all pairs of a world's instances and what is asked about them, in a
 /// separate graph: boxes and the levels above them, the pairs of each instance, counted and then
-/// listed, their directions; the search for points (PointSearch) in all of them; a summary per
-/// pair, and the rows of those that have points. The number of dispatches depends neither on the
-/// number of instances nor on that of pairs.
+/// listed, and their directions; then the search for points (PointSearch) in all of them and a
+/// summary per pair, or a test whether the two shapes meet; last, the rows of those pairs that have
+/// an answer. The number of dispatches depends neither on the number of instances nor on that of
+/// pairs.
 class PairSearch {
 public:
-    PairSearch(const gpu::Device& device, const ComputeLayout& layout);
+    /// The shaders must stay.
+    PairSearch(const gpu::Device& device, const PairShaders& shaders, plan::PairGoal goal);
 
     /// The descriptor sets of one search: for the passes about instances, those about points, and
     /// the last one.
@@ -41,7 +43,11 @@ public:
     };
     void record(VkCommandBuffer commands, gpu::Timestamps& timestamps, const Item& item) const;
 
-    static constexpr std::uint32_t pass_count = 16;
+    static constexpr std::uint32_t max_passes = 19;
+
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
 
 private:
     /// One thread per element that a stage has counted, or, without a stage, per instance.
@@ -49,6 +55,8 @@ private:
 
     void declare_pairs();
     void declare_points();
+    void declare_tests();
+    void declare_rows();
     void add(const char* name, const ComputeShader& shader, Set set, std::uint32_t threads_of,
              std::uint32_t stage = no_stage);
     void add_scan(const char* name, std::uint32_t stage);
@@ -57,19 +65,13 @@ private:
     static void push(VkCommandBuffer commands, const Item& item, const ComputeShader& shader,
                      std::uint32_t first, std::uint32_t stage);
 
-    SearchShaders search_;
-    ComputeShader boxes_;
-    ComputeShader levels_;
-    ComputeShader lists_;
-    ComputeShader directions_;
-    ComputeShader summaries_;
-    ComputeShader rows_;
+    const PairShaders* shaders_;
     graph::RecordedGraph<Item> graph_;
     graph::Handle input_;
     graph::Handle instances_;
     graph::Handle scratch_;
     graph::Handle arguments_;
-    graph::Handle records_;
+    graph::Handle records_;  // of a test: none
     graph::Handle row_buffer_;
 };
 

@@ -1,8 +1,6 @@
 #include <engine/plan/point_search.hpp>
 #include <passes/point_search.hpp>
 
-#include <functional>
-
 namespace nearfield::passes {
 namespace {
 
@@ -46,15 +44,25 @@ void PointSearch::declare() {
                 dispatch(commands, item, shader, of);
             });
     };
-    graph_.add_pass(
-        "search items", graph::PassKind::compute,
-        [&](graph::PassBuilder& pass) {
-            pass.read(input_, Access::storage_read_in_compute);
-            scratch = pass.write(scratch, Access::storage_write_in_compute);
-        },
-        std::bind_front(&PointSearch::dispatch_items, this));
+    // One thread per item or direction, whose number is known.
+    const auto search_known = [&](const char* name, const ComputeShader& shader,
+                                  std::uint32_t plan::SearchPush::*threads) {
+        graph_.add_pass(
+            name, graph::PassKind::compute,
+            [&](graph::PassBuilder& pass) {
+                pass.read(input_, Access::storage_read_in_compute);
+                scratch = pass.write(scratch, Access::storage_write_in_compute);
+            },
+            [&shader, threads](VkCommandBuffer commands, const Item& item) {
+                dispatch_known(commands, item, shader, item.push.*threads);
+            });
+    };
+    search_known("search items", shaders_.items, &plan::SearchPush::items);
     scan("count edges", plan::edge_total);
+    search_known("spread edges", shaders_.spread, &plan::SearchPush::items);
     search("search edges", shaders_.edges, plan::edge_total);
+    scan("count points of edges", plan::edge_point_total);
+    search_known("search ranges", shaders_.ranges, &plan::SearchPush::direction_count);
     scan("count points", plan::point_total);
     search("search points", shaders_.points, plan::point_total);
     scan("count found points", plan::record_total);
@@ -86,14 +94,15 @@ void PointSearch::push(VkCommandBuffer commands, const Item& item, const Compute
     plan::SearchPush push = item.push;
     push.first = first;
     push.stage = stage;
-    push.capacity = item.capacities[stage];
+    push.capacity = stage < item.capacities.size() ? item.capacities[stage] : 0;
     shader.push(commands, push);
 }
 
-void PointSearch::dispatch_items(VkCommandBuffer commands, const Item& item) const {
-    shaders_.items.bind(commands, item.set);
-    shaders_.items.dispatch_in_parts(commands, 0, item.push.items, [&](std::uint32_t first) {
-        push(commands, item, shaders_.items, first, plan::edge_total);
+void PointSearch::dispatch_known(VkCommandBuffer commands, const Item& item,
+                                 const ComputeShader& shader, std::uint32_t threads) {
+    shader.bind(commands, item.set);
+    shader.dispatch_in_parts(commands, 0, threads, [&](std::uint32_t first) {
+        push(commands, item, shader, first, plan::edge_total);
     });
 }
 

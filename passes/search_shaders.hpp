@@ -30,7 +30,9 @@ struct SearchShaders {
 
     ComputeShader items;
     ComputeShader scan;
+    ComputeShader spread;
     ComputeShader edges;
+    ComputeShader ranges;
     ComputeShader points;
     ComputeShader pack;
 };

@@ -74,17 +74,17 @@ void main() {
     uint slot = chunk_size * chunk;
     uint end = edges_end(shape, chunk);
     vec4 high = floats_at(shape.edges + slot);
-    vec4 low = low_parts(shape, slot);
+    vec4 low = low_parts(tile, slot);
     Exact a = placed(tile, high.xy, low.xy, half_size);
     if (centre.x - reach.x > half_size.x) {
         high = floats_at(shape.edges + end - 1u);
-        low = low_parts(shape, end - 1u);
+        low = low_parts(tile, end - 1u);
         mark_all(tile, a.y.x, placed(tile, high.zw, low.zw, half_size).y.x);
         return;
     }
     for (; slot < end; ++slot) {
         high = floats_at(shape.edges + slot);
-        low = low_parts(shape, slot);
+        low = low_parts(tile, slot);
         Exact b = placed(tile, high.zw, low.zw, half_size);
         mark_edge(tile, a, b);
         a = b;

@@ -151,7 +151,7 @@ bool ray_meets(FieldTileData tile, Place place, vec4 box) {
 
 bool ray_crosses(FieldTileData tile, Shape shape, Place place, uint slot) {
     vec4 high = floats_at(shape.edges + slot);
-    vec4 low = low_parts(shape, slot);
+    vec4 low = low_parts(tile, slot);
     Exact a = placed(tile, high.xy, low.xy, place.cells);
     Exact b = placed(tile, high.zw, low.zw, place.cells);
     // Half-open in y, so a vertex on the ray counts once.

@@ -124,9 +124,10 @@ Exact placed(FieldTileData tile, vec2 high, vec2 low, vec2 place) {
                  add(add(times(axis_y, x), times(axis_x, y)), offset_y));
 }
 
-// What the coordinates of a slot's edge lack, as the coordinates themselves: behind the infos.
-vec4 low_parts(Shape shape, uint slot) {
-    return floats_at(shape.infos / 4u + 2u * ((shape.chunks + 3u) / 4u) + slot);
+// What the coordinates of a slot's edge lack, as the coordinates themselves, behind all else.
+vec4 low_parts(FieldTileData tile, uint slot) {
+    uvec4 rings = unit_at(tile.shape + unit_of_rings);
+    return floats_at(rings.y / 4u + (rings.x + 3u) / 4u + slot);
 }
 
 // An edge as seen from a place: its nearest point, relative to the place, its direction, and how far
@@ -154,6 +155,6 @@ SeenEdge seen_edge(Exact a, Exact b) {
 
 SeenEdge edge_seen_from(FieldTileData tile, Shape shape, uint slot, vec2 place) {
     vec4 high = floats_at(shape.edges + slot);
-    vec4 low = low_parts(shape, slot);
+    vec4 low = low_parts(tile, slot);
     return seen_edge(placed(tile, high.xy, low.xy, place), placed(tile, high.zw, low.zw, place));
 }

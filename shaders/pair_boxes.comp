@@ -52,7 +52,9 @@ vec4 box_of(SearchInstanceData instance) {
                  mat2(instance.axis.x, instance.axis.y, -instance.axis.y, instance.axis.x);
     vec4 box = chunk_size * shape.chunks <= few_boxes ? box_of_vertices(shape, frame)
                                               : box_of_boxes(shape, frame);
-    float grow = rounding * (instance.radius + abs(instance.high.x) + abs(instance.high.y));
+    // Half the reach on either side; the sum rounds once more.
+    float grow = rounding * (instance.radius + abs(instance.high.x) + abs(instance.high.y)) +
+                 2.0 * instance.rounding + (0.5 + rounding) * pair_query().reach;
     return box + instance.high.xyxy + vec4(-grow, -grow, grow, grow);
 }
 

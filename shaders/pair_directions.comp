@@ -24,9 +24,9 @@ struct List {
 };
 
 List list_of(uint a) {
-    uvec4 list = scratch_units[push.lists + a];
-    uint first = list.x + scratch[push.pair_blocks + a / search_block];
-    return List(first, list.y + scratch[push.list_item_blocks + a / search_block],
+    uvec4 list = scratch_unit(push.lists + a);
+    uint first = list.x + scratch_word(push.pair_blocks + a / search_block);
+    return List(first, list.y + scratch_word(push.list_item_blocks + a / search_block),
                 min(first + list.z, scratch[pair_total]));
 }
 
@@ -34,7 +34,7 @@ List list_of(uint a) {
 uint rank_of(uint b, List list) {
     uint rank = 0u;
     for (uint i = list.first; i < list.end; ++i) {
-        rank += scratch[push.pairs + 2u * i + 1u] < b ? 1u : 0u;
+        rank += scratch_word(push.pairs + 2u * i + 1u) < b ? 1u : 0u;
     }
     return rank;
 }
@@ -57,11 +57,14 @@ SearchDirectionData direction_between(SearchInstanceData a, SearchInstanceData b
     vec2 offset = (to_b * apart) / b.unit;
     float extent = (a.radius + b.radius) / b.unit + length(offset);
     float places = (abs(a.high.x) + abs(a.high.y) + abs(b.high.x) + abs(b.high.y)) / b.unit;
-    float margin = margin_of_frames * extent + margin_of_places * places;
+    float margin = margin_of_frames * extent + margin_of_places * places +
+                   2.0 * (a.rounding + b.rounding) / b.unit;
     float rival = query.rival / b.unit;
     float doubt = margin > search_precision * query.cell / b.unit ? rival + 4.0 * margin : -1.0;
-    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, 0.0, margin, rival, 0.0,
-                               doubt, float[3](0.0, 0.0, 0.0));
+    // In a test, three margins apart in all is certainly apart.
+    float reach = query.is_test != 0u ? margin : (1.0 + margin_of_frames) * query.reach / b.unit;
+    return SearchDirectionData(axis, offset, a.shape, b.shape, a.parts, 0u, reach, margin, rival,
+                               query.reach > 0.0 ? 1.0 : 0.0, doubt, float[3](0.0, 0.0, 0.0));
 }
 
 // Of each block of items that starts among those of a direction, its first direction.
@@ -78,8 +81,8 @@ void main() {
     if (found >= scratch[pair_total]) {
         return;
     }
-    uint a = scratch[push.pairs + 2u * found];
-    uint b = scratch[push.pairs + 2u * found + 1u];
+    uint a = scratch_word(push.pairs + 2u * found);
+    uint b = scratch_word(push.pairs + 2u * found + 1u);
     List list = list_of(a);
     uint rank = rank_of(b, list);
     SearchInstanceData first = instance_at(a);
@@ -91,4 +94,7 @@ void main() {
     float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
     write_direction(list.first + rank, data, touching, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
+    if (pair_query().is_test != 0u) {
+        scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;
+    }
 }

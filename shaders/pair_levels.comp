@@ -16,7 +16,7 @@ void main() {
     for (uint i = gl_LocalInvocationID.x; i < level_size(3u); i += gl_WorkGroupSize.x) {
         vec4 box = empty_box;
         for (uint j = 8u * i; j < min(8u * i + 8u, below); ++j) {
-            box = merged(box, uintBitsToFloat(scratch_units[level_unit(2u) + j]));
+            box = merged(box, uintBitsToFloat(scratch_unit(level_unit(2u) + j)));
         }
         boxes[i] = box;
         scratch_units[level_unit(3u) + i] = floatBitsToUint(box);

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 // The pairs of each instance, one thread per instance: those with whose boxes its own overlaps and
-// whose filters match. In the stage of pairs they are counted, and after that they are listed.
+// whose filters match; in a test, only those with later instances. In the stage of pairs they are
+// counted, and after that they are listed.
 
 #include "search.glsl"
 #include "block_sum.glsl"
@@ -17,7 +18,7 @@ uint overlaps(uint unit, bool exists, vec4 own, uint bit) {
     if (!exists) {
         return 0u;
     }
-    vec4 box = uintBitsToFloat(scratch_units[unit + bit]);
+    vec4 box = uintBitsToFloat(scratch_unit(unit + bit));
     bool do_overlap = all(lessThanEqual(box.xy, own.zw)) && all(lessThanEqual(own.xy, box.zw));
     return do_overlap ? 1u << bit : 0u;
 }
@@ -42,7 +43,7 @@ uint top_level() {
 }
 
 bool is_pair(uvec2 filter_a, uint b) {
-    uvec2 filter_b = instance_units[1u + units_of_instance * b + 2u].zw;
+    uvec2 filter_b = instance_unit(b, 2u).zw;
     return (filter_a.x & filter_b.y) != 0u && (filter_b.x & filter_a.y) != 0u;
 }
 
@@ -55,7 +56,8 @@ void write_pair(uint a, uint b, uint target) {
 
 // Returns the number of pairs with instance `a` first.
 uint find_pairs(uint a, vec4 own, bool lists, uint target) {
-    uvec2 filter_a = instance_units[1u + units_of_instance * a + 2u].zw;
+    uvec2 filter_a = instance_unit(a, 2u).zw;
+    bool is_test = pair_query().is_test != 0u;
     uint count = 0u;
     Walk walk = Walk(top_level(), 0u, uvec2(0u));
     bool enters = true;
@@ -73,7 +75,7 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
             continue;
         }
         uint b = instance_in_order(box);
-        if (b != a && is_pair(filter_a, b)) {
+        if ((is_test ? b > a : b != a) && is_pair(filter_a, b)) {
             if (lists) {
                 write_pair(a, b, target + count);
             }
@@ -84,7 +86,7 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
 }
 
 uint items_of(uint a, uint count) {
-    uint chunks = unit_at(instance_units[1u + units_of_instance * a + 2u].x).x;
+    uint chunks = unit_at(instance_unit(a, 2u).x).x;
     return float(count) * float(chunks) < float(too_many) ? count * chunks : too_many;
 }
 
@@ -97,11 +99,12 @@ void main() {
     if (exists) {
         uint target = 0u;
         if (lists) {
-            target = scratch_units[push.lists + a].x + scratch[push.pair_blocks + a / search_block];
+            target = scratch_unit(push.lists + a).x +
+                     scratch_word(push.pair_blocks + a / search_block);
         }
         // The box of instance `a` is at its place in the order.
         uint place_of_box = instance_words[instance_units[0].w + push.instances + a];
-        vec4 own = uintBitsToFloat(scratch_units[level_unit(0u) + place_of_box]);
+        vec4 own = uintBitsToFloat(scratch_unit(level_unit(0u) + place_of_box));
         count = find_pairs(a, own, lists, target);
     }
     if (lists) {
@@ -109,7 +112,6 @@ void main() {
     }
     uint items = exists ? items_of(a, count) : 0u;
     uint pairs_before = sum_before(count, push.pair_blocks + place / search_block);
-    barrier();
     uint items_before = sum_before(items, push.list_item_blocks + place / search_block);
     if (exists) {
         scratch_units[push.lists + a] = uvec4(pairs_before, items_before, count, 0u);

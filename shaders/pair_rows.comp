@@ -24,9 +24,9 @@ void main() {
     if (direction >= scratch[pair_total]) {
         return;
     }
-    uvec4 summary = scratch_units[push.summaries + 2u * direction];
-    uint target = scratch_units[push.summaries + 2u * direction + 1u].x +
-                  scratch[push.row_blocks + direction / search_block];
+    uvec4 summary = scratch_unit(push.summaries + 2u * direction);
+    uint target = scratch_unit(push.summaries + 2u * direction + 1u).x +
+                  scratch_word(push.row_blocks + direction / search_block);
     if (summary.w == 0u || target >= scratch[row_total]) {
         return;
     }

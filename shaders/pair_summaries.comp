@@ -41,7 +41,7 @@ struct Depths {
 Depths compare(uint first, uint end, float touching, float margin) {
     Depths depths = Depths(0u, first, 0.0, 0.0, true);
     for (uint i = first; i < end; ++i) {
-        float depth = uintBitsToFloat(scratch[push.record_depths + i]);
+        float depth = uintBitsToFloat(scratch_word(push.record_depths + i));
         depths.decided = depths.decided && depth >= 0.0 && abs(depth - touching) > margin;
         if (depth > touching) {
             ++depths.count;

@@ -11,20 +11,26 @@ layout(std430, set = 0, binding = 2) readonly buffer InstanceWords {
 };
 
 PairQueryData pair_query() {
-    uvec4 unit = instance_units[0];
-    vec4 lengths = uintBitsToFloat(unit);
-    return PairQueryData(lengths.x, lengths.y, lengths.z, unit.w);
+    uvec4 first = instance_units[0];
+    uvec4 second = instance_units[1];
+    vec4 lengths = uintBitsToFloat(first);
+    return PairQueryData(lengths.x, lengths.y, lengths.z, first.w, uintBitsToFloat(second.x),
+                         second.y, uint[2](0u, 0u));
+}
+
+// A unit of an instance.
+uvec4 instance_unit(uint number, uint i) {
+    return instance_units[units_of_query + units_of_instance * number + i];
 }
 
 SearchInstanceData instance_at(uint number) {
-    uint unit = 1u + units_of_instance * number;
-    vec4 turned = uintBitsToFloat(instance_units[unit]);
-    uvec4 second = instance_units[unit + 1u];
-    uvec4 third = instance_units[unit + 2u];
-    vec4 lengths = uintBitsToFloat(second);
+    vec4 turned = uintBitsToFloat(instance_unit(number, 0u));
+    vec4 lengths = uintBitsToFloat(instance_unit(number, 1u));
+    uvec4 third = instance_unit(number, 2u);
+    uvec4 last = instance_unit(number, 3u);
     return SearchInstanceData(turned.xy, turned.zw, lengths.xy, lengths.z, lengths.w, third.x,
-                              third.y, third.z, third.w, instance_units[unit + 3u].x,
-                              uint[3](0u, 0u, 0u));
+                              third.y, third.z, third.w, last.x, uintBitsToFloat(last.y),
+                              uint[2](0u, 0u));
 }
 
 // The number of the instance at a place in the hierarchy.

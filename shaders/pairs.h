@@ -12,8 +12,12 @@ struct PairQueryData {
     float rival NEARFIELD_DEFAULT(0.0F);     // see SearchDirectionData
     float touching NEARFIELD_DEFAULT(0.0F);  // points that are not deeper only touch
     uint order NEARFIELD_DEFAULT(0);  // first word of the instances in the order of the hierarchy
+    float reach NEARFIELD_DEFAULT(0.0F);  // up to which shapes are near each other
+    uint is_test NEARFIELD_DEFAULT(0);    // 1: whether shapes meet; each pair is asked about once
+    uint unused[2] NEARFIELD_DEFAULT({});
 };
-NEARFIELD_CHECK(sizeof(PairQueryData) == 16)
+const uint units_of_query = 2u;
+NEARFIELD_CHECK(sizeof(PairQueryData) == 16 * units_of_query)
 
 // An instance. Positions are relative to an origin near the instances, in world units.
 struct SearchInstanceData {
@@ -26,17 +30,18 @@ struct SearchInstanceData {
     uint parts NEARFIELD_DEFAULT(no_parts);
     uint category NEARFIELD_DEFAULT(0);  // see WorldInstance
     uint mask NEARFIELD_DEFAULT(0);
-    uint left_to_cpu NEARFIELD_DEFAULT(0);  // 1: the CPU answers its pairs
-    uint unused[3] NEARFIELD_DEFAULT({});
+    uint left_to_cpu NEARFIELD_DEFAULT(0);   // 1: the CPU answers its pairs
+    float rounding NEARFIELD_DEFAULT(0.0F);  // of its vertices in double precision; 0: no matter
+    uint unused[2] NEARFIELD_DEFAULT({});
 };
 const uint units_of_instance = 4u;
 NEARFIELD_CHECK(sizeof(SearchInstanceData) == 16 * units_of_instance)
 
-// A pair that has penetrating points, or whose answer the CPU has to decide.
+// A pair that has penetrating points or intersects, or whose answer the CPU has to decide.
 struct PairRowData {
     uint a NEARFIELD_DEFAULT(0);  // numbers of the instances
     uint b NEARFIELD_DEFAULT(0);
-    uint count NEARFIELD_DEFAULT(0);  // of penetrating points, and flags
+    uint count NEARFIELD_DEFAULT(0);  // of penetrating points, or 1; and flags
     // Those that were found, among which they are: consecutive ones
     uint first_record NEARFIELD_DEFAULT(0);
     uint record_count NEARFIELD_DEFAULT(0);
@@ -51,6 +56,13 @@ NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
 const uint row_undecided = 1u << 31;  // the CPU has to answer the pair
 const uint row_has_rival = 1u << 30;  // another point may be as deep
 const uint row_count_mask = row_has_rival - 1u;
+
+// What is known of two shapes that may intersect; 0: their boundaries do not meet.
+const uint pair_meets = 1u;
+const uint pair_in_doubt = 2u;       // single precision cannot tell whether the boundaries meet
+const uint pair_left_to_cpu = 4u;
+// Turns of the loop that finds rings of one shape in the other; see max_instance_steps.
+const uint max_ring_turns = 3000u;
 
 // A level of the hierarchy of instances has a box per eight boxes of the level below it, until at
 // most eight are left.

@@ -120,9 +120,11 @@ struct SearchPush {
     uint direction_count;
     uint item_blocks;  // first words, and first units, of arrays in the scratch memory
     uint edge_blocks;
+    uint range_blocks;
     uint point_blocks;
     uint item_words;
     uint edge_units;
+    uint range_units;  // one per direction
     uint point_units;
     uint stage;     // of search_scan.comp
     uint capacity;  // of the elements that the stage counts
@@ -140,6 +142,7 @@ struct SearchPush {
     uint record_depths;     // first word: by found point
     uint row_blocks;        // first word of sums over blocks of pairs
     uint summaries;         // first unit: two per pair
+    uint verdicts;          // first word, in a test: by pair, what is known of it
 };
 
 struct ExportFieldPush {

@@ -13,11 +13,21 @@ layout(std430, set = 0, binding = 1) buffer Scratch {
 layout(std430, set = 0, binding = 1) buffer ScratchUnits {
     uvec4 scratch_units[];  // the same memory
 };
+layout(set = 0, binding = 9) uniform usamplerBuffer scratch_texels;  // and again
 
 layout(push_constant) uniform Push { SearchPush push; };
 
 // Beside the direction of a thread's first point, from this bit on: the points found before it.
 const uint local_shift = 24u;
+
+// The parts of the scratch memory that earlier dispatches have written.
+uvec4 scratch_unit(uint unit) {
+    return reads_texels ? texelFetch(scratch_texels, int(unit)) : scratch_units[unit];
+}
+
+uint scratch_word(uint word) {
+    return reads_texels ? texelFetch(scratch_texels, int(word >> 2))[word & 3u] : scratch[word];
+}
 
 uint dispatched_index() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * search_block +
@@ -28,10 +38,14 @@ uint item_count() {
     return finds_pairs ? scratch[item_total] : push.items;
 }
 
+uint direction_count() {
+    return finds_pairs ? scratch[pair_total] : push.direction_count;
+}
+
 // A unit of a direction.
 uvec4 direction_unit(uint index, uint i) {
     uint unit = push.directions + units_of_direction * index + i;
-    return finds_pairs ? scratch_units[unit] : unit_at(unit);
+    return finds_pairs ? scratch_unit(unit) : unit_at(unit);
 }
 
 SearchDirectionData direction_at(uint index) {
@@ -57,7 +71,7 @@ vec2 placed(SearchDirectionData direction, vec2 point) {
 // The direction of the first item of a block.
 uint first_direction(uint block) {
     // These follow the directions in the input.
-    return finds_pairs ? scratch[push.first_directions + block]
+    return finds_pairs ? scratch_word(push.first_directions + block)
                        : word_at(4u * (push.directions + units_of_direction * push.direction_count) +
                                  block);
 }
@@ -66,9 +80,8 @@ uint first_direction(uint block) {
 uint direction_of(uint item) {
     uint block = item / search_block;
     uint low = first_direction(block);
-    uint directions = finds_pairs ? scratch[pair_total] : push.direction_count;
     uint count = (search_block * (block + 1u) < item_count() ? first_direction(block + 1u) + 1u
-                                                             : directions) - low;
+                                                             : direction_count()) - low;
     while (count > 1u) {
         uint half_count = count / 2u;
         if (direction_unit(low + half_count, 1u).w <= item) {
@@ -85,13 +98,13 @@ uint parts_of(SearchDirectionData direction, uint edge) {
     return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
 
-// The last of `count` words of the scratch memory, `stride` apart, whose value without its low bits
-// is at most `key`; the values ascend.
-uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) {
+// The last of `count` words of the scratch memory, `stride` apart, whose value is at most `key`; the
+// values ascend.
+uint last_at_most(uint key, uint first, uint count, uint stride) {
     uint last = 0u;
     while (count > 1u) {
         uint half_count = count / 2u;
-        if (scratch[first + stride * (last + half_count)] >> low_bits <= key) {
+        if (scratch_word(first + stride * (last + half_count)) <= key) {
             last += half_count;
             count -= half_count;
         } else {
@@ -103,19 +116,17 @@ uint last_at_most(uint key, uint first, uint count, uint stride, uint low_bits) 
 
 // The block of elements that counts an element of the next stage. `elements`: of all blocks.
 uint block_of(uint index, uint first_block, uint elements) {
-    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u, 0u);
+    return last_at_most(index, first_block, (elements + search_block - 1u) / search_block, 1u);
 }
 
-bool crosses(vec2 p, vec2 a, vec2 b) {
-    // Half-open in y, so a vertex on the ray counts once.
-    return (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+// The points of the edges before one.
+uint points_before(uint edge) {
+    return scratch_word(push.edge_blocks + edge / search_block) +
+           scratch_unit(push.edge_units + units_of_edge * edge).w;
 }
 
-bool ray_meets(vec2 p, vec4 box) {
-    return p.y >= box.y && p.y <= box.w && p.x <= box.z;
-}
-
-// The steps of one walk, each of which takes up to nine turns of loops. Some drivers end the loops of
+// The steps of one walk, which are its groups and chunks, each of which takes up to nine turns of
+// loops. Some drivers end the loops of
 // an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
 // of three walks each, and the threads that run in step with it may take the longest of each. What a
 // longer walk would find is left to the CPU, which takes less time than long walks where boxes do

@@ -19,7 +19,8 @@ const uint max_levels = 8u;
 // edge, eight per chunk), and its first word of infos: of each chunk, its first edge << 4 | its
 // number of edges; then, of each place along the rings, its chunk.
 const uint unit_of_box = 1u;
-const uint unit_of_first_boxes = 2u;  // a word per level: its first unit
+const uint unit_of_rings = 2u;        // their number, and the first word of their first chunks
+const uint unit_of_first_boxes = 3u;  // a word per level: its first unit
 const uint units_of_header = unit_of_first_boxes + max_levels / 4u;
 
 const uint search_block = group_size;  // elements that the device sums at once
@@ -40,7 +41,12 @@ const uint pair_total = 3u;
 const uint item_total = 4u;
 const uint row_total = 5u;
 const uint stages_of_pairs = 6u;
+// The points of all edges, before those of each direction are padded to whole threads; counted
+// without room for them, and without a dispatch.
+const uint edge_point_total = 6u;
 const uint words_of_totals = 8u;  // whole units
+const uint words_of_item = 2u;    // in the scratch memory: its mask of edges, and its direction
+const uint units_of_edge = 2u;
 const uint words_of_arguments = 4u;
 
 // The points of A's boundary in the field of B. Positions and lengths in B's frame, relative to its

@@ -22,8 +22,8 @@ vec4 transformed(SearchDirectionData direction, vec4 box) {
     return vec4(centre - reach, centre + reach);
 }
 
-uint edges_of(uint item) {
-    SearchDirectionData direction = direction_at(direction_of(item));
+uint edges_of(uint item, uint direction_index) {
+    SearchDirectionData direction = direction_at(direction_index);
     Shape a = shape_at(direction.shape_a);
     uint chunk = chunk_along_rings(a, item - direction.first_item);
     float grow = direction.reach + 2.0 * direction.margin;
@@ -47,9 +47,12 @@ uint edges_of(uint item) {
 
 void main() {
     uint item = push.first + dispatched_index();
-    uint mask = item < item_count() ? edges_of(item) : 0u;
+    bool exists = item < item_count();
+    uint direction = exists ? direction_of(item) : 0u;
+    uint mask = exists ? edges_of(item, direction) : 0u;
     uint before = sum_before(bitCount(mask), push.item_blocks + item / search_block);
-    if (item < item_count()) {
-        scratch[push.item_words + item] = mask | before << 8;
+    if (exists) {
+        scratch[push.item_words + words_of_item * item] = mask | before << 8;
+        scratch[push.item_words + words_of_item * item + 1u] = direction;
     }
 }

@@ -16,16 +16,16 @@ void main() {
     uint thread = dispatched_index();
     uint begin = points_per_thread * thread;
     uint end = min(begin + points_per_thread, scratch[point_total]);
-    uint target = scratch[push.point_blocks + thread / search_block];
+    uint target = scratch_word(push.point_blocks + thread / search_block);
     for (uint i = begin; i < end; ++i) {
-        uvec4 record = scratch_units[push.point_units + i];
+        uvec4 record = scratch_unit(push.point_units + i);
         if (i == begin) {
             target += record.x >> local_shift;
             record.x &= (1u << local_shift) - 1u;
         }
         if (record.w != 0u && target < scratch[record_total]) {
             if (finds_pairs) {
-                scratch[push.record_depths + target] = scratch[push.depths + i];
+                scratch[push.record_depths + target] = scratch_word(push.depths + i);
             }
             records[target++] = record;
         }

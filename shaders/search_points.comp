@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
-// The search's third step, one thread per four points of A's boundary, which share the edges that
-// it loads: the side of B's boundary on which a point lies where that is not known, the nearest edge
+// The search's fifth step, one thread per four points of A's boundary, which share the edges that it
+// loads: the side of B's boundary on which a point lies where that is not known, the nearest edge
 // of B, and what single precision leaves in doubt.
 
 #include "search.glsl"
@@ -20,7 +20,7 @@ struct Points {
 
 struct Nearest {
     vec4 squared;  // distances
-    vec4 x;        // the nearest points
+    vec4 x;        // from the points to the nearest ones
     vec4 y;
     uvec4 slot;
 };
@@ -39,62 +39,69 @@ Points points_at(vec4 x, vec4 y) {
     return Points(x, y, 0.5 * (low + high), 0.5 * distance(low, high));
 }
 
-float distance_to_box(vec2 p, vec4 box) {
-    return length(max(max(box.xy - p, p - box.zw), vec2(0.0)));
+float squared_distance_to_box(vec2 p, vec4 box) {
+    vec2 apart = max(max(box.xy - p, p - box.zw), vec2(0.0));
+    return dot(apart, apart);
 }
 
-// Of four points, the nearest ones on an edge.
+// The squared lengths of edges that are points as far as single precision can tell.
+const float shortest_squared = 1e-24;
+
+// From four points to the nearest ones on an edge.
 void find_on_edge(Points p, vec4 edge, out vec4 x, out vec4 y, out vec4 squared) {
     vec2 d = edge.zw - edge.xy;
     float length_squared = dot(d, d);
-    vec4 along = length_squared > 0.0 ? clamp(((p.x - edge.x) * d.x + (p.y - edge.y) * d.y) /
-                                                  length_squared, 0.0, 1.0)
-                                      : vec4(0.0);
-    x = edge.x + along * d.x;
-    y = edge.y + along * d.y;
-    squared = (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y);
+    vec2 scaled = length_squared > shortest_squared ? d / length_squared : vec2(0.0);
+    x = edge.x - p.x;
+    y = edge.y - p.y;
+    vec4 along = clamp(-(x * scaled.x + y * scaled.y), 0.0, 1.0);
+    x += along * d.x;
+    y += along * d.y;
+    squared = x * x + y * y;
 }
 
 bvec4 cross_edge(Points p, vec4 edge) {
     // Half-open in y, so a vertex on the ray counts once.
-    vec4 x = edge.x + (p.y - edge.y) / (edge.w - edge.y) * (edge.z - edge.x);
+    float slope = (edge.z - edge.x) / (edge.w - edge.y);
+    vec4 x = edge.x + (p.y - edge.y) * slope;
     uvec4 spans = uvec4(greaterThan(vec4(edge.y), p.y)) ^ uvec4(greaterThan(vec4(edge.w), p.y));
     return bvec4(spans & uvec4(lessThan(p.x, x)));
 }
 
 // The points that lie inside, of those that are asked for; the others do.
 bvec4 find_inside(Points p, bvec4 asked, Shape b, inout bool too_long) {
+    if (!any(asked)) {
+        return bvec4(true);
+    }
     // The rays of those that are asked for go to growing x.
     float lowest = least(mix(vec4(infinity), p.y, asked));
     float highest = largest(mix(vec4(-infinity), p.y, asked));
     float leftmost = least(mix(vec4(infinity), p.x, asked));
     uvec4 odd = uvec4(0u);
     Walk walk = start_walk(b);
-    bool enters = any(asked);
-    for (uint step = 0u; step < max_steps; ++step) {
-        if (enters) {
-            Group group = group_of(b, walk.level, walk.group);
-            uint boxes = 0u;
-            for (uint i = 0u; i < group.count; ++i) {
-                vec4 box = floats_at(group.first + i);
-                bool visit = highest >= box.y && lowest <= box.w && leftmost <= box.z;
-                boxes |= visit ? 1u << i : 0u;
+    for (uint steps = 0u; steps < max_steps; ++steps) {
+        Group group = group_of(b, walk.level, walk.group);
+        uint boxes = 0u;
+        for (uint i = 0u; i < group.count; ++i) {
+            vec4 box = floats_at(group.first + i);
+            bool visit = highest >= box.y && lowest <= box.w && leftmost <= box.z;
+            boxes |= visit ? 1u << i : 0u;
+        }
+        add_boxes(walk, boxes);
+        uint chunks = take_chunks(walk);
+        steps += bitCount(chunks);
+        while (chunks != 0u) {
+            uint chunk = chunk_size * walk.group + take_bit(chunks);
+            uint end = edges_end(b, chunk);
+            for (uint slot = chunk_size * chunk; slot < end; ++slot) {
+                odd ^= uvec4(cross_edge(p, floats_at(b.edges + slot)));
             }
-            add_boxes(walk, boxes);
         }
         uint box;
         if (!next_box(walk, box)) {
             return bvec4(odd | uvec4(not(asked)));
         }
-        enters = walk.level > 0u;
-        if (enters) {
-            descend(walk, box);
-            continue;
-        }
-        uint end = edges_end(b, box);
-        for (uint slot = chunk_size * box; slot < end; ++slot) {
-            odd ^= uvec4(cross_edge(p, floats_at(b.edges + slot)));
-        }
+        descend(walk, box);
     }
     too_long = true;
     return bvec4(false);
@@ -119,11 +126,11 @@ uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
     for (uint level = b.levels; level > 0u; --level) {
         Group group = group_of(b, level - 1u, box);
         uint best = 0u;
-        float least_distance = infinity;
+        float least_squared = infinity;
         for (uint i = 0u; i < group.count; ++i) {
-            float d = distance_to_box(p.centre, floats_at(group.first + i));
-            best = d < least_distance ? i : best;
-            least_distance = min(d, least_distance);
+            float d = squared_distance_to_box(p.centre, floats_at(group.first + i));
+            best = d < least_squared ? i : best;
+            least_squared = min(d, least_squared);
         }
         box = chunk_size * box + best;
     }
@@ -134,10 +141,11 @@ uint descend_to_nearest(Points p, Shape b, inout Nearest nearest) {
 // The boxes of a walk's group that may hold an edge within `reach` of one of the points.
 void enter(inout Walk walk, Points p, Shape b, float reach) {
     Group group = group_of(b, walk.level, walk.group);
+    float limit = (p.radius + reach) * (p.radius + reach);
     uint boxes = 0u;
     for (uint i = 0u; i < group.count; ++i) {
         vec4 box = floats_at(group.first + i);
-        boxes |= distance_to_box(p.centre, box) <= p.radius + reach ? 1u << i : 0u;
+        boxes |= squared_distance_to_box(p.centre, box) <= limit ? 1u << i : 0u;
     }
     add_boxes(walk, boxes);
 }
@@ -147,21 +155,19 @@ Nearest find_nearest(Points p, Shape b, vec4 limit, inout bool too_long) {
     Nearest nearest = Nearest(limit * limit, vec4(0.0), vec4(0.0), uvec4(no_parts));
     uint considered = descend_to_nearest(p, b, nearest);
     Walk walk = start_walk(b);
-    bool enters = true;
-    for (uint i = 0u; i < max_steps && !too_long; ++i) {
-        if (enters) {
-            enter(walk, p, b, sqrt(largest(nearest.squared)));
+    for (uint steps = 0u; steps < max_steps && !too_long; ++steps) {
+        enter(walk, p, b, sqrt(largest(nearest.squared)));
+        uint chunks = take_chunks(walk);
+        chunks &= walk.group == considered / chunk_size ? ~(1u << considered % chunk_size) : ~0u;
+        steps += bitCount(chunks);
+        while (chunks != 0u) {
+            consider_chunk(p, b, chunk_size * walk.group + take_bit(chunks), nearest);
         }
         uint box;
         if (!next_box(walk, box)) {
             return nearest;
         }
-        enters = walk.level > 0u;
-        if (enters) {
-            descend(walk, box);
-        } else if (box != considered) {
-            consider_chunk(p, b, box, nearest);
-        }
+        descend(walk, box);
     }
     too_long = true;
     return nearest;
@@ -206,21 +212,19 @@ Rivals find_rivals(Points p, Shape b, Nearest nearest, uvec4 edge, SearchDirecti
     vec4 near = sqrt(nearest.squared);
     float reach = largest(near) + max(direction.rival, direction.doubt);
     Walk walk = start_walk(b);
-    bool enters = true;
-    for (uint i = 0u; i < max_steps && !too_long; ++i) {
-        if (enters) {
-            enter(walk, p, b, reach);
+    for (uint steps = 0u; steps < max_steps && !too_long; ++steps) {
+        enter(walk, p, b, reach);
+        uint chunks = take_chunks(walk);
+        steps += bitCount(chunks);
+        while (chunks != 0u) {
+            uint chunk = chunk_size * walk.group + take_bit(chunks);
+            compare_chunk(p, b, chunk, nearest, near, edge, direction, rivals);
         }
         uint box;
         if (!next_box(walk, box)) {
             return rivals;
         }
-        enters = walk.level > 0u;
-        if (enters) {
-            descend(walk, box);
-        } else {
-            compare_chunk(p, b, box, nearest, near, edge, direction, rivals);
-        }
+        descend(walk, box);
     }
     too_long = true;
     return rivals;
@@ -255,123 +259,116 @@ uvec4 resolve(Points p, bvec4 asked, SearchDirectionData direction, out vec4 dep
                     uvec4(not(rivals.exist)) * point_unique | doubtful * point_doubtful | edge);
 }
 
-// A place among the points that the step before has found: an edge of A, and a point on it.
-struct Place {
-    uint element;  // of that step
-    uvec4 edge;    // what it wrote
-    uvec4 asked;
-    uint point;
-};
-
-void load(inout Place place) {
-    uint unit = push.edge_units + 2u * place.element;
-    place.edge = scratch_units[unit];
-    place.asked = scratch_units[unit + 1u];
-    place.point = place.edge.z;
-}
-
-Place place_of(uint index) {
-    uint edges = scratch[edge_total];
-    uint block = block_of(index, push.edge_blocks, edges);
-    uint rest = index - scratch[push.edge_blocks + block];
-    uint low = block * search_block;
-    // The last word of the first of two units.
-    uint first = 4u * (push.edge_units + 2u * low) + 3u;
-    Place place;
-    place.element = low + last_at_most(rest, first, min(search_block, edges - low), 8u, 0u);
-    load(place);
-    place.point += rest - place.edge.w;
-    return place;
-}
-
-// Moves on to the next point, which has this index. There has to be one.
-void advance(inout Place place, uint index) {
-    ++place.point;
-    if (place.point == place.edge.z + place.asked.z) {
-        ++place.element;
-        load(place);
-        if (place.asked.z == 0u) {
-            place = place_of(index);
-        }
-    }
-}
-
-// The points of one thread.
+// The points of one thread, which have the same direction.
 struct Batch {
-    uvec4 direction;
-    uvec4 slot;
+    uint direction;
+    uint count;
+    uvec4 slot;    // of edges of A
     uvec4 number;  // among the points of the edge
     bvec4 asked;
 };
 
-Batch batch_at(uint index, uint count) {
-    Batch batch;
-    Place place = place_of(index);
-    for (uint i = 0u; i < points_per_thread; ++i) {
-        batch.direction[i] = place.edge.x;
-        batch.slot[i] = place.edge.y;
-        batch.number[i] = place.point;
-        batch.asked[i] = place.point >= place.asked.x && place.point < place.asked.y;
-        if (i + 1u < count) {
-            advance(place, index + i + 1u);
+// The last of the edges from `first` to `end - 1` that has no point after this one before it.
+uint edge_with(uint point, uint first, uint end) {
+    uint count = end - first;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        if (points_before(first + half_count) <= point) {
+            first += half_count;
+            count -= half_count;
+        } else {
+            count = half_count;
         }
     }
+    return first;
+}
+
+// Edges that are looked at one after the other, since most have points, before the next one is
+// searched for.
+const uint edges_in_turn = 8u;
+
+// Fills a batch with the points from `point` on, which the edges from `first` to `end - 1` have.
+void fill(inout Batch batch, uint point, uint first, uint end) {
+    uint filled = 0u;
+    while (filled < batch.count) {
+        first = edge_with(point + filled, first, end);
+        uint skipped = point + filled - points_before(first);
+        for (uint i = 0u; i < edges_in_turn && filled < batch.count; ++i) {
+            uint unit = push.edge_units + units_of_edge * first;
+            uvec4 edge = scratch_unit(unit);
+            uvec4 asked = scratch_unit(unit + 1u);
+            uvec4 place = uvec4(0u, 1u, 2u, 3u) - filled;  // large before it
+            uvec4 number = edge.z + skipped + place;
+            bvec4 is_own = lessThan(place, uvec4(asked.z - skipped));
+            batch.slot = mix(batch.slot, uvec4(edge.y), is_own);
+            batch.number = mix(batch.number, number, is_own);
+            batch.asked = bvec4(mix(uvec4(batch.asked),
+                                    uvec4(greaterThanEqual(number, asked.xxxx)) &
+                                        uvec4(lessThan(number, asked.yyyy)),
+                                    is_own));
+            filled += asked.z - skipped;
+            skipped = 0u;
+            ++first;
+        }
+    }
+}
+
+// The points from `index` on, with those that pad each direction's to whole threads.
+Batch batch_at(uint index) {
+    uint directions = direction_count();
+    uint block = block_of(index, push.range_blocks, directions);
+    uint low = block * search_block;
+    uint rest = index - scratch_word(push.range_blocks + block);
+    low += last_at_most(rest, 4u * (push.range_units + low), min(search_block, directions - low),
+                        4u);
+    uvec4 range = scratch_unit(push.range_units + low);
+    uint skipped = rest - range.x;
+    Batch batch = Batch(low, min(range.w - skipped, points_per_thread), uvec4(0u), uvec4(0u),
+                        bvec4(false));
+    fill(batch, points_before(range.y) + skipped, range.y, range.z);
     return batch;
 }
 
-// Resolves the points from `first` on that have the same direction, and moves `first` behind them.
-void resolve_run(Batch batch, uint count, inout uint first, inout uvec4 edges, inout uvec4 words,
-                 inout vec4 depths) {
-    uint index = batch.direction[first];
-    SearchDirectionData direction = direction_at(index);
+// Returns the words of the points. Those beyond the count are repetitions of the first one.
+uvec4 resolve_batch(Batch batch, out uvec4 edges, out vec4 depths) {
+    SearchDirectionData direction = direction_at(batch.direction);
     Shape a = shape_at(direction.shape_a);
+    bvec4 exist = lessThan(uvec4(0u, 1u, 2u, 3u), uvec4(batch.count));
+    uvec4 slot = mix(batch.slot.xxxx, batch.slot, exist);
+    uvec4 number = mix(batch.number.xxxx, batch.number, exist);
     vec4 x, y;
-    bvec4 asked;
-    bvec4 own = bvec4(false);
-    // The places of others are filled with the first point, which changes nothing.
     for (uint i = 0u; i < points_per_thread; ++i) {
-        own[i] = i >= first && i < count && batch.direction[i] == index;
-        uint source = own[i] ? i : first;
-        vec4 edge = floats_at(a.edges + batch.slot[source]);
-        uint number = number_of(a, batch.slot[source]);
-        float along = float(batch.number[source]) / float(parts_of(direction, number));
+        vec4 edge = floats_at(a.edges + slot[i]);
+        edges[i] = number_of(a, slot[i]);
+        float along = float(number[i]) / float(parts_of(direction, edges[i]));
         vec2 from = placed(direction, edge.xy);
         vec2 end = placed(direction, edge.zw);
         vec2 p = from + along * (end - from);
         x[i] = p.x;
         y[i] = p.y;
-        asked[i] = batch.asked[source];
-        edges[i] = own[i] ? number : edges[i];
     }
-    vec4 depth;
-    words = mix(words, resolve(points_at(x, y), asked, direction, depth), own);
-    depths = mix(depths, depth, own);
-    while (first < count && batch.direction[first] == index) {
-        ++first;
-    }
+    uvec4 words = resolve(points_at(x, y), batch.asked, direction, depths);
+    return mix(uvec4(0u), words, exist);
 }
 
 void main() {
     uint thread = dispatched_index();
     uint index = points_per_thread * thread;
     uint total = scratch[point_total];
-    uint count = index < total ? min(points_per_thread, total - index) : 0u;
     uvec4 edges = uvec4(0u);
     uvec4 words = uvec4(0u);
     vec4 depths = vec4(0.0);
     Batch batch;
-    if (count > 0u) {
-        batch = batch_at(index, count);
-        for (uint first = 0u; first < count;) {
-            resolve_run(batch, count, first, edges, words, depths);
-        }
+    if (index < total) {
+        batch = batch_at(index);
+        words = resolve_batch(batch, edges, depths);
     }
     uvec4 found = uvec4(notEqual(words, uvec4(0u)));
     uint before = sum_before(found.x + found.y + found.z + found.w,
                              push.point_blocks + thread / search_block);
-    for (uint i = 0u; i < count; ++i) {
+    for (uint i = 0u; i < points_per_thread && index + i < total; ++i) {
         scratch_units[push.point_units + index + i] =
-            uvec4(batch.direction[i] | (i == 0u ? before << local_shift : 0u), edges[i],
+            uvec4(batch.direction | (i == 0u ? before << local_shift : 0u), edges[i],
                   batch.number[i], words[i]);
         if (finds_pairs) {
             scratch[push.depths + index + i] = floatBitsToUint(depths[i]);

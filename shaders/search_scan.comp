@@ -8,13 +8,15 @@
 
 #include "search.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = 64) in;
 
 layout(std430, set = 0, binding = 3) buffer Arguments {
     uvec4 arguments[];  // by stage: workgroups in three dimensions, number that was counted
 };
 
-shared uint sums[256];
+const uint sum_group = 8u;  // threads whose sums are added first
+shared uint sums[64];
+shared uint group_sums[64 / sum_group];
 shared uint total_of_all;
 
 const uint max_sum = 1u << 30;  // sums end here; there is never as much room
@@ -28,6 +30,26 @@ uint threads_for(uint points) {
     return (points + points_per_thread - 1u) / points_per_thread;
 }
 
+// Returns the sum over the threads before this one.
+uint sum_before_thread(uint own_sum) {
+    uint own = gl_LocalInvocationID.x;
+    uint group = own / sum_group;
+    sums[own] = own_sum;
+    barrier();
+    uint before = 0u;
+    for (uint i = sum_group * group; i < own; ++i) {
+        before = added(before, sums[i]);
+    }
+    if (own % sum_group + 1u == sum_group) {
+        group_sums[group] = added(before, own_sum);
+    }
+    barrier();
+    for (uint i = 0u; i < group; ++i) {
+        before = added(before, group_sums[i]);
+    }
+    return before;
+}
+
 // Returns the number that was counted. `first`: word of the first block's sum; `elements`: of all
 // blocks.
 uint scan(uint stage, uint first, uint elements, uint capacity) {
@@ -39,12 +61,7 @@ uint scan(uint stage, uint first, uint elements, uint capacity) {
     for (uint i = begin; i < end; ++i) {
         sum = added(sum, scratch[first + i]);
     }
-    sums[gl_LocalInvocationID.x] = sum;
-    barrier();
-    uint before = 0u;
-    for (uint i = 0u; i < gl_LocalInvocationID.x; ++i) {
-        before = added(before, sums[i]);
-    }
+    uint before = sum_before_thread(sum);
     if (gl_LocalInvocationID.x + 1u == gl_WorkGroupSize.x) {
         uint total = added(before, sum);
         uint room = min(total, capacity);
@@ -52,7 +69,9 @@ uint scan(uint stage, uint first, uint elements, uint capacity) {
         uint groups = (threads + search_block - 1u) / search_block;
         uint rows = (groups + max_workgroups - 1u) / max_workgroups;
         scratch[stage] = room;
-        arguments[stage] = uvec4(min(groups, max_workgroups), rows, 1u, total);
+        if (stage < stages_of_pairs) {
+            arguments[stage] = uvec4(min(groups, max_workgroups), rows, 1u, total);
+        }
         total_of_all = total;
     }
     for (uint i = begin; i < end; ++i) {
@@ -72,8 +91,10 @@ void main() {
              pairs <= push.capacity ? push.second_capacity : 0u);
     } else if (push.stage == edge_total) {
         scan(edge_total, push.item_blocks, item_count(), push.capacity);
+    } else if (push.stage == edge_point_total) {
+        scan(edge_point_total, push.edge_blocks, scratch[edge_total], max_sum);
     } else if (push.stage == point_total) {
-        scan(point_total, push.edge_blocks, scratch[edge_total], push.capacity);
+        scan(point_total, push.range_blocks, direction_count(), push.capacity);
     } else if (push.stage == record_total) {
         scan(record_total, push.point_blocks, threads_for(scratch[point_total]), push.capacity);
     } else {

@@ -62,7 +62,9 @@ vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
     return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
 }
 
-// A walk over the boxes of a shape from the top level to chunks, depth first.
+// A walk over the boxes of a shape from the top level to chunks, depth first: groups of boxes are
+// entered, and the chunks of a group are looked at together, since some devices execute the body of a
+// condition for none of the threads too.
 struct Walk {
     uint level;
     uint group;     // the boxes of this level that were entered last are 8 * group, ...
@@ -89,6 +91,21 @@ Walk start_walk(Shape shape) {
 void add_boxes(inout Walk walk, uint boxes) {
     uint bits = boxes << (chunk_size * (walk.level & 3u));
     walk.pending |= walk.level < 4u ? uvec2(bits, 0u) : uvec2(0u, bits);
+}
+
+// The marked chunks of the walk's group, one bit each, which then need no visit. The first one of the
+// group has the number chunk_size * walk.group.
+uint take_chunks(inout Walk walk) {
+    uint chunks = walk.level == 0u ? walk.pending.x & ((1u << chunk_size) - 1u) : 0u;
+    walk.pending.x ^= chunks;
+    return chunks;
+}
+
+// Takes the lowest bit, and returns its number.
+uint take_bit(inout uint bits) {
+    uint bit = findLSB(bits);
+    bits &= bits - 1u;
+    return bit;
 }
 
 // Goes to the next box to visit, on the lowest level that has one, and says which it is; false at

@@ -4,62 +4,74 @@
 #include <engine/context/device_pair_state.hpp>
 #include <engine/context/pair_row.hpp>
 #include <engine/context/world_checks.hpp>
+#include <engine/localize/hierarchy.hpp>
 #include <engine/plan/error_budget.hpp>
 #include <engine/plan/point_search.hpp>
 
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace nearfield {
 
-DevicePairTable::DevicePairTable(const PenetrationQuery& query)
-    : state_(std::make_unique<State>(query)) {}
-DevicePairTable::~DevicePairTable() = default;
-DevicePairTable::DevicePairTable(DevicePairTable&&) noexcept = default;
-DevicePairTable& DevicePairTable::operator=(DevicePairTable&&) noexcept = default;
+DevicePairTableBase::DevicePairTableBase(std::unique_ptr<State> state) noexcept
+    : state_(std::move(state)) {}
+DevicePairTableBase::~DevicePairTableBase() = default;
+DevicePairTableBase::DevicePairTableBase(DevicePairTableBase&&) noexcept = default;
+DevicePairTableBase& DevicePairTableBase::operator=(DevicePairTableBase&&) noexcept = default;
 
-const PenetrationQuery& DevicePairTable::query() const noexcept {
-    return state_->query;
-}
-
-std::uint32_t DevicePairTable::size() const noexcept {
+std::uint32_t DevicePairTableBase::size() const noexcept {
     return state_->rows;
 }
 
-std::uint32_t DevicePairTable::candidates() const noexcept {
+std::uint32_t DevicePairTableBase::candidates() const noexcept {
     return state_->candidates();
 }
 
-std::uint32_t DevicePairTable::left_to_cpu() const noexcept {
+std::uint32_t DevicePairTableBase::left_to_cpu() const noexcept {
     return state_->left_to_cpu();
 }
 
-const Timings& DevicePairTable::timings() const noexcept {
+const Timings& DevicePairTableBase::timings() const noexcept {
     return state_->timings;
 }
 
-Expected<DevicePairTable::Row> DevicePairTable::row(std::uint32_t index) {
+template <class Query>
+DevicePairTable<Query>::DevicePairTable(const Query& query)
+    : DevicePairTableBase(std::make_unique<State>(query)), query_(query) {}
+
+template <class Query>
+Expected<PairRow<Query>> DevicePairTable<Query>::row(std::uint32_t index) {
     Row row;
-    Status status = catch_to_status([&] { row = state_->row(index); });
+    Status status = catch_to_status([&] { state().row(index, row); });
     return status.ok() ? Expected<Row>(row) : status;
 }
 
-Status DevicePairTable::records(std::uint32_t index, std::vector<PenetrationRecord>& records) {
-    return catch_to_status([&] { state_->records(index, records); });
+template <class Query>
+Status DevicePairTable<Query>::records(std::uint32_t index, std::vector<Record>& records) {
+    return catch_to_status([&] { state().records(index, records); });
 }
 
-DevicePairTable::State::~State() {
+template class DevicePairTable<PenetrationQuery>;
+template class DevicePairTable<IntersectionTestQuery>;
+
+DevicePairTableBase::State::State(const AnyQuery& query)
+    : query_(query), question_(plan::pair_question(query)) {
+    plan_.queries.resize(1);
+}
+
+DevicePairTableBase::State::~State() {
     if (context_ != nullptr) {
         context_->shapes().release(held_);
     }
 }
 
-std::uint32_t DevicePairTable::State::candidates() const {
+std::uint32_t DevicePairTableBase::State::candidates() const {
     return buffers_ == nullptr || instances_.size() < 2 ? 0 : buffers_->counts()[plan::pair_total];
 }
 
-std::uint32_t DevicePairTable::State::device_row(const char* call, std::uint32_t index) const {
+std::uint32_t DevicePairTableBase::State::device_row(const char* call, std::uint32_t index) const {
     if (index >= rows) {
         refuse(call, "there is no row " + std::to_string(index) + "; the table has " +
                          std::to_string(rows));
@@ -67,26 +79,35 @@ std::uint32_t DevicePairTable::State::device_row(const char* call, std::uint32_t
     return device_rows_.empty() ? index : device_rows_[index];
 }
 
-const DevicePairTable::State::Decided* DevicePairTable::State::find_decided(
-    std::uint32_t row) const {
+const AnyResult* DevicePairTableBase::State::find_decided(std::uint32_t row) const {
     const auto found =
         std::lower_bound(decided_.begin(), decided_.end(), row,
                          [](const Decided& one, std::uint32_t other) { return one.row < other; });
-    return found != decided_.end() && found->row == row ? &*found : nullptr;
+    return found != decided_.end() && found->row == row
+               ? &decided_results_.results[static_cast<std::size_t>(found - decided_.begin())]
+               : nullptr;
 }
 
-PenetrationQuery DevicePairTable::State::query_on_cpu(const plan::PairRowData& data,
-                                                      bool with_records) const {
-    PenetrationQuery on_cpu = query;
-    on_cpu.a = instances_[data.a].instance;
-    on_cpu.b = instances_[data.b].instance;
-    on_cpu.technique = Technique::cpu;
-    on_cpu.records = with_records;
+AnyQuery DevicePairTableBase::State::query_on_cpu(const plan::PairRowData& data,
+                                                  bool with_records) const {
+    AnyQuery on_cpu = query_;
+    std::visit(
+        [&](auto& query) {
+            query.technique = Technique::cpu;
+            if constexpr (requires { query.a, query.b; }) {
+                query.a = instances_[data.a].instance;
+                query.b = instances_[data.b].instance;
+            }
+            if constexpr (requires { query.records; }) {
+                query.records = with_records;
+            }
+        },
+        on_cpu);
     return on_cpu;
 }
 
-PenetrationResult DevicePairTable::State::answer_on_cpu(const plan::PairRowData& data,
-                                                        bool with_records) {
+const AnyResult& DevicePairTableBase::State::answer_on_cpu(const plan::PairRowData& data,
+                                                           bool with_records) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
     cpu_queries_.assign(1, query_on_cpu(data, with_records));
@@ -94,74 +115,99 @@ PenetrationResult DevicePairTable::State::answer_on_cpu(const plan::PairRowData&
         cpu_queries_,
         [&](ShapeHandle shape) { return shape == a.instance.shape ? a.polygon : b.polygon; },
         cpu_results_);
-    return std::move(std::get<PenetrationResult>(cpu_results_.results.front()));
+    return cpu_results_.results.front();
+}
+
+void DevicePairTableBase::State::require_records() const {
+    if (!question_.records) {
+        refuse("records", "the table's query does without records");
+    }
 }
 
 /// Plans the pair as if its points had been found by a batch.
-void DevicePairTable::State::begin(const plan::PairRowData& data) {
+void DevicePairTableBase::State::begin(const plan::PairRowData& data) {
     const PairInstance& a = instances_[data.a];
     const PairInstance& b = instances_[data.b];
-    asked_ = query;
     plan_.points.clear();
     words_.clear();
     plan::PlannedQuery& planned = plan_.queries.front();
-    planned.query = &asked_;
+    planned.query = &query_;
     planned.a = a.polygon;
     planned.b = b.polygon;
     planned.pose_a = a.instance.pose;
     planned.pose_b = b.instance.pose;
     planned.deviations = {a.polygon->deviation(), b.polygon->deviation()};
-    planned.budget = plan::penetration_budget(query, planned.deviations);
+    planned.budget = plan::pair_budget(query_, planned.deviations);
     planned.technique = Technique::compute;
     auto& points = planned.work.emplace<plan::PlannedPoints>();
     points.source = plan::PointSource::device;
     points.margin = plan::margin_of_pair(a.data, b.data);
 }
 
-void DevicePairTable::State::add_point(const plan::FoundPointData& found) {
+void DevicePairTableBase::State::add_point(const plan::FoundPointData& found) {
     plan::PlannedQuery& planned = plan_.queries.front();
     plan_.points.push_back({plan::found_point(planned, found), plan::PlannedPoint::no_tile});
     words_.push_back(found.word);
     ++planned.points().count;
 }
 
-DevicePairTable::Row DevicePairTable::State::row_of(const plan::PairRowData& data,
-                                                    const PenetrationResult& result) const {
-    Row row = nearfield::row_of<PenetrationQuery>(instances_[data.a].handle,
-                                                  instances_[data.b].handle, result);
-    row.record_count = query.records ? result.count : 0;
-    return row;
+template <class Query>
+void DevicePairTableBase::State::fill(PairRow<Query>& row, const plan::PairRowData& data,
+                                      const typename Query::Result& result) const {
+    row = row_of<Query>(instances_[data.a].handle, instances_[data.b].handle, result);
+    if constexpr (requires { result.count; }) {
+        row.record_count = question_.records ? result.count : 0;
+    }
 }
 
-DevicePairTable::Row DevicePairTable::State::row(std::uint32_t index) {
+void DevicePairTableBase::State::row(std::uint32_t index, PairRow<PenetrationQuery>& row) {
     const std::uint32_t number = device_row("row", index);
     const plan::PairRowData& data = buffers_->rows()[number];
-    if (const Decided* const decided = find_decided(number)) {
-        return decided->answer;
+    if (const AnyResult* const decided = find_decided(number)) {
+        fill(row, data, std::get<PenetrationResult>(*decided));
+        return;
     }
     if ((data.count & plan::row_has_rival) != 0) {
-        return row_of(data, answer_on_cpu(data, false));
+        fill(row, data, std::get<PenetrationResult>(answer_on_cpu(data, false)));
+        return;
     }
     begin(data);
     add_point({0, data.edge, data.number, data.word});
     PenetrationResult result;
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
-        query.tolerance, [&](const PenetrationRecord& record) { result.deepest = record; });
+        question_.tolerance, [&](const PenetrationRecord& record) { result.deepest = record; });
     result.count = data.count & plan::row_count_mask;
     result.intersects = true;
     result.error_bound = plan_.queries.front().budget.bound;
-    return row_of(data, result);
+    fill(row, data, result);
 }
 
-void DevicePairTable::State::records(std::uint32_t index, std::vector<PenetrationRecord>& records) {
-    if (!query.records) {
-        refuse("records", "the table's query does without records");
+void DevicePairTableBase::State::row(std::uint32_t index, PairRow<IntersectionTestQuery>& row) {
+    const std::uint32_t number = device_row("row", index);
+    const plan::PairRowData& data = buffers_->rows()[number];
+    if (const AnyResult* const decided = find_decided(number)) {
+        fill(row, data, std::get<IntersectionTestResult>(*decided));
+        return;
     }
+    IntersectionTestResult result;
+    result.intersects = true;
+    for (const std::uint32_t instance : {data.a, data.b}) {
+        const PairInstance& entry = instances_[instance];
+        const geometry::TransformedPolygon placed(*entry.polygon, entry.instance.pose);
+        result.error_bound +=
+            localize::placement_rounding(placed, placed.box()) + entry.polygon->deviation();
+    }
+    fill(row, data, result);
+}
+
+void DevicePairTableBase::State::records(std::uint32_t index,
+                                         std::vector<PenetrationRecord>& records) {
+    require_records();
     const std::uint32_t number = device_row("records", index);
     const plan::PairRowData& data = buffers_->rows()[number];
     if (find_decided(number) != nullptr) {
-        records = answer_on_cpu(data, true).records;
+        records = std::get<PenetrationResult>(answer_on_cpu(data, true)).records;
         return;
     }
     records.clear();
@@ -172,7 +218,12 @@ void DevicePairTable::State::records(std::uint32_t index, std::vector<Penetratio
     }
     resolver_.begin(plan_, plan_.queries.front(), words_);
     resolver_.for_each_penetration(
-        query.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });
+        question_.tolerance, [&](const PenetrationRecord& record) { records.push_back(record); });
+}
+
+void DevicePairTableBase::State::records(std::uint32_t /*index*/,
+                                         std::vector<NoRecord>& /*records*/) const {
+    require_records();
 }
 
 }  // namespace nearfield

@@ -2,6 +2,7 @@
 
 #include <engine/batch/shape_store.hpp>
 #include <engine/context/implementation.hpp>
+#include <engine/plan/pair_question.hpp>
 #include <engine/plan/pair_search.hpp>
 #include <engine/plan/plan.hpp>
 #include <engine/records/point_resolver.hpp>
@@ -18,8 +19,8 @@
 namespace nearfield {
 
 /// What a table keeps from update to update, and what it answers rows from. Its members throw.
-struct DevicePairTable::State {
-    explicit State(const PenetrationQuery& asked) : query(asked) { plan_.queries.resize(1); }
+struct DevicePairTableBase::State {
+    explicit State(const AnyQuery& query);
     ~State();
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -27,11 +28,12 @@ struct DevicePairTable::State {
     /// Brings the rows up to date with a world. `identity`: of the world.
     void update(Context::Implementation& with, const std::shared_ptr<const void>& identity,
                 const world::Instances& instances);
-    [[nodiscard]] Row row(std::uint32_t index);
+    void row(std::uint32_t index, PairRow<PenetrationQuery>& row);
+    void row(std::uint32_t index, PairRow<IntersectionTestQuery>& row);
     void records(std::uint32_t index, std::vector<PenetrationRecord>& records);
+    void records(std::uint32_t index, std::vector<NoRecord>& records) const;
     void start_anew();
 
-    const PenetrationQuery query;
     std::uint32_t rows = 0;
     Timings timings;
 
@@ -51,11 +53,10 @@ private:
         std::uint64_t moves = not_placed;            // see world::Instances
         plan::SearchInstanceData data;
     };
-    /// A row that the CPU decided.
+    /// A row that the CPU decided. Its answer is the result with the same index.
     struct Decided {
         std::uint32_t row = 0;  // of the device
         bool has_row = false;   // in the table
-        Row answer;
     };
 
     void check() const;
@@ -66,18 +67,24 @@ private:
     void place_all(const world::Instances& instances);
     void order_instances();
     void search();
+    [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     void decide();
     /// The device's row of a row of the table. `call`: for the message.
     [[nodiscard]] std::uint32_t device_row(const char* call, std::uint32_t index) const;
-    /// Null if the device decided.
-    [[nodiscard]] const Decided* find_decided(std::uint32_t row) const;
-    [[nodiscard]] PenetrationQuery query_on_cpu(const plan::PairRowData& data,
-                                                bool with_records) const;
-    [[nodiscard]] PenetrationResult answer_on_cpu(const plan::PairRowData& data, bool with_records);
+    /// What the CPU answered; null if the device decided.
+    [[nodiscard]] const AnyResult* find_decided(std::uint32_t row) const;
+    [[nodiscard]] AnyQuery query_on_cpu(const plan::PairRowData& data, bool with_records) const;
+    [[nodiscard]] const AnyResult& answer_on_cpu(const plan::PairRowData& data, bool with_records);
+    void require_records() const;
     void begin(const plan::PairRowData& data);
     void add_point(const plan::FoundPointData& found);
-    [[nodiscard]] Row row_of(const plan::PairRowData& data, const PenetrationResult& result) const;
+    /// A row that says of its pair what a result does.
+    template <class Query>
+    void fill(PairRow<Query>& row, const plan::PairRowData& data,
+              const typename Query::Result& result) const;
 
+    const AnyQuery query_;
+    const plan::PairQuestion question_;  // that it asks of the device
     geometry::Vector origin_ = geometry::Vector::Zero();
     records::PointResolver resolver_;
     Context::Implementation* context_ = nullptr;
@@ -90,11 +97,11 @@ private:
     std::uint64_t membership_ = 0;         // of the world, at the last update
     std::uint64_t shapes_revision_ = 0;
     world::HilbertOrder hilbert_order_;
-    std::vector<Vector2> places_;             // of the instances
-    std::vector<Decided> decided_;            // in ascending order of the rows
+    std::vector<Vector2> places_;   // of the instances
+    std::vector<Decided> decided_;  // in ascending order of the rows
+    Results decided_results_;
     std::vector<std::uint32_t> device_rows_;  // by row; empty: they are the same
-    AnyQuery asked_;                          // for reading rows, as are those that follow
-    plan::Plan plan_;
+    plan::Plan plan_;                         // for reading rows, as are those that follow
     std::vector<std::uint32_t> words_;
     std::vector<AnyQuery> cpu_queries_;
     Results cpu_results_;

@@ -6,6 +6,8 @@
 #include <engine/context/device_pair_state.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
+#include <engine/localize/hierarchy.hpp>
+#include <engine/plan/check_query.hpp>
 #include <engine/plan/error_budget.hpp>
 
 #include <algorithm>
@@ -14,6 +16,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <variant>
 
 namespace nearfield {
 namespace {
@@ -31,27 +35,54 @@ constexpr std::size_t poses_at_once = 16;
 constexpr double smallest_unit = 0x1p-30;
 constexpr double largest_unit = 0x1p+30;
 
+/// Whether a pair with this answer has a row.
+bool is_hit(const AnyResult& answer) {
+    return std::visit(
+        [](const auto& result) {
+            bool has_answer = result.intersects;
+            if constexpr (requires { result.count; }) {
+                has_answer = result.count > 0;
+            }
+            return has_answer || !result.status.ok();
+        },
+        answer);
+}
+
 }  // namespace
 
-void DevicePairTable::State::check() const {
-    if (query.resident ||
-        (query.technique != Technique::compute && query.technique != Technique::automatic)) {
-        refuse("update",
-               "the device finds these pairs by Technique::compute; the table's query asks "
-               "for another technique, or for resident results");
-    }
-    PenetrationQuery by_compute = query;
-    by_compute.technique = Technique::compute;
+void DevicePairTableBase::State::check() const {
     const DeviceTechniques& techniques = context_->techniques();
-    if (Status status = plan::check_query(by_compute, {.device = context_->device() != nullptr,
-                                                       .raster = techniques.raster,
-                                                       .compute = techniques.compute});
-        !status.ok()) {
+    const plan::AvailableTechniques available{.device = context_->device() != nullptr,
+                                              .raster = techniques.raster,
+                                              .compute = techniques.compute};
+    const Status status = std::visit(
+        [&]<class Query>(Query asked) {
+            bool is_asked =
+                asked.technique == Technique::compute || asked.technique == Technique::automatic;
+            if constexpr (requires { asked.resident; }) {
+                is_asked = is_asked && !asked.resident;
+            }
+            if (!is_asked) {
+                refuse("update",
+                       "the device finds these pairs by Technique::compute; the table's query "
+                       "asks for another technique, or for resident results");
+            }
+            asked.technique = Technique::compute;
+            if constexpr (std::is_same_v<Query, IntersectionTestQuery>) {
+                // Its only number is the technique, which answers no such query of a batch.
+                return plan::check_query(
+                    PenetrationQuery{.tolerance = 1.0, .technique = asked.technique}, available);
+            } else {
+                return plan::check_query(asked, available);
+            }
+        },
+        query_);
+    if (!status.ok()) {
         throw StatusException({status.code(), "update: " + status.message()});
     }
 }
 
-void DevicePairTable::State::start_anew() {
+void DevicePairTableBase::State::start_anew() {
     rows = 0;
     decided_.clear();
     device_rows_.clear();
@@ -66,7 +97,7 @@ void DevicePairTable::State::start_anew() {
 }
 
 /// Lists the instances whose shapes exist in the order in which they were added.
-void DevicePairTable::State::list_instances(const world::Instances& instances) {
+void DevicePairTableBase::State::list_instances(const world::Instances& instances) {
     indices_.clear();
     for (std::uint32_t index = 0; index < instances.size(); ++index) {
         if (instances.is_present(index) &&
@@ -87,8 +118,9 @@ void DevicePairTable::State::list_instances(const world::Instances& instances) {
 }
 
 /// Writes instances whose poses may have changed.
-void DevicePairTable::State::place(const world::Instances& instances,
-                                   std::span<const std::uint32_t> numbers) {
+void DevicePairTableBase::State::place(const world::Instances& instances,
+                                       std::span<const std::uint32_t> numbers) {
+    const bool has_tolerance = question_.tolerance > 0.0;
     std::array<std::optional<TransformedPolygon>, poses_at_once> placed;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         PairInstance& entry = instances_[numbers[i]];
@@ -107,13 +139,15 @@ void DevicePairTable::State::place(const world::Instances& instances,
             std::max({placed[i]->translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
                       entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
                       std::abs(pose.translation.y)});
-        const bool is_resolved = plan::check_resolution(query.tolerance, magnitude).ok();
+        const bool is_resolved =
+            has_tolerance ? plan::check_resolution(question_.tolerance, magnitude).ok() : true;
+        entry.data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
         entry.data.left_to_cpu = entry.is_left_to_cpu || !is_resolved ? 1 : 0;
         buffers_->set_instance(numbers[i], entry.data);
     }
 }
 
-void DevicePairTable::State::place_moved(const world::Instances& instances) {
+void DevicePairTableBase::State::place_moved(const world::Instances& instances) {
     std::array<std::uint32_t, poses_at_once> numbers{};
     std::size_t count = 0;
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
@@ -130,18 +164,21 @@ void DevicePairTable::State::place_moved(const world::Instances& instances) {
 
 /// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
 /// tolerance, or it is so small or large that floats do not hold what is computed.
-bool DevicePairTable::State::is_for_cpu(const geometry::Polygon& polygon) const {
-    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
+bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) const {
     const double unit = plan::unit_length_of(polygon);
-    return unit < smallest_unit || unit > largest_unit ||
-           !plan::check_deviations(query.tolerance, both,
-                                   plan::penetration_budget(query, both).bound)
+    if (unit < smallest_unit || unit > largest_unit) {
+        return true;
+    }
+    if (question_.goal == plan::PairGoal::tests) {
+        return false;
+    }
+    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
+    return !plan::check_deviations(question_.tolerance, both, plan::pair_budget(query_, both).bound)
                 .ok();
 }
 
-void DevicePairTable::State::place_all(const world::Instances& instances) {
-    const double cell = plan::penetration_budget(query, {}).cell;
-    const bool samples = query.points == PenetrationPoints::boundary;
+void DevicePairTableBase::State::place_all(const world::Instances& instances) {
+    const double cell = question_.cell;
     context_->shapes().release(held_);
     shapes_.begin_batch();
     Vector sum = Vector::Zero();
@@ -153,7 +190,8 @@ void DevicePairTable::State::place_all(const world::Instances& instances) {
         entry.instance.shape = instance.shape;
         entry.polygon = context_->shapes().hold(instance.shape, held_);
         entry.data.shape = shapes_.place(*entry.polygon);
-        entry.data.parts = samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
+        entry.data.parts =
+            question_.samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
         plan::set_shape(*entry.polygon, entry.data);
         entry.is_left_to_cpu = is_for_cpu(*entry.polygon);
         sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
@@ -163,12 +201,14 @@ void DevicePairTable::State::place_all(const world::Instances& instances) {
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
     all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
-    all.touching = static_cast<float>(query.tolerance * static_cast<double>(plan::touching_depth));
+    all.touching =
+        static_cast<float>(question_.tolerance * static_cast<double>(plan::touching_depth));
+    all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
     buffers_->set_query(all);
     updates_in_order_ = max_updates_in_order;
 }
 
-void DevicePairTable::State::order_instances() {
+void DevicePairTableBase::State::order_instances() {
     if (updates_in_order_++ < max_updates_in_order) {
         return;
     }
@@ -182,14 +222,25 @@ void DevicePairTable::State::order_instances() {
         places_.size(), [this](std::size_t i) -> const Vector2& { return places_[i]; }));
 }
 
-void DevicePairTable::State::search() {
+void DevicePairTableBase::State::search() {
     render::Renderer& renderer = *context_->renderer();
-    buffers_->search(renderer.pair_search(), shapes_, context_->memory_limit(), timings);
+    buffers_->search(renderer.pair_search(question_.goal), shapes_, context_->memory_limit(),
+                     timings);
     rows = buffers_->counts()[plan::row_total];
 }
 
+/// Whether the pair is one that a PairTable asks about: those in whose boxes only rounding leaves a
+/// gap are not, but the device does not tell them apart.
+bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const {
+    const auto box_of = [this](std::uint32_t number) {
+        const PairInstance& entry = instances_[number];
+        return TransformedPolygon(*entry.polygon, entry.instance.pose).box();
+    };
+    return localize::boxes_meet(box_of(data.a), box_of(data.b), 0.0);
+}
+
 /// Answers what single precision could not decide, and drops the rows without points.
-void DevicePairTable::State::decide() {
+void DevicePairTableBase::State::decide() {
     if (buffers_->undecided().empty()) {
         return;
     }
@@ -201,12 +252,12 @@ void DevicePairTable::State::decide() {
     }
     context_->ring().answer(
         cpu_queries_, [this](ShapeHandle shape) { return context_->shapes().find(shape); },
-        cpu_results_);
+        decided_results_);
     checkpoint();  // what was cut must not look whole
     for (std::size_t i = 0; i < undecided.size(); ++i) {
-        const auto& result = std::get<PenetrationResult>(cpu_results_.results[i]);
-        const bool has_row = result.count > 0 || !result.status.ok();
-        decided_.push_back({undecided[i], has_row, row_of(buffers_->rows()[undecided[i]], result)});
+        decided_.push_back({undecided[i], is_hit(decided_results_.results[i]) &&
+                                              (question_.goal != plan::PairGoal::tests ||
+                                               boxes_meet(buffers_->rows()[undecided[i]]))});
     }
     const bool are_all_rows = std::all_of(decided_.begin(), decided_.end(),
                                           [](const Decided& one) { return one.has_row; });
@@ -223,9 +274,9 @@ void DevicePairTable::State::decide() {
     timings.decode = start.milliseconds();
 }
 
-void DevicePairTable::State::update(Context::Implementation& with,
-                                    const std::shared_ptr<const void>& identity,
-                                    const world::Instances& instances) {
+void DevicePairTableBase::State::update(Context::Implementation& with,
+                                        const std::shared_ptr<const void>& identity,
+                                        const world::Instances& instances) {
     const Stopwatch total;
     if (context_ != &with || world_.lock() != identity) {
         start_anew();
@@ -241,7 +292,7 @@ void DevicePairTable::State::update(Context::Implementation& with,
         pass.milliseconds = 0.0;
     }
     if (buffers_ == nullptr || renderer_ != context_->renderer()->number()) {
-        buffers_ = context_->renderer()->make_pair_buffers(query.records);
+        buffers_ = context_->renderer()->make_pair_buffers(question_);
         renderer_ = context_->renderer()->number();
         membership_ = 0;
     }
@@ -268,8 +319,8 @@ void DevicePairTable::State::update(Context::Implementation& with,
     timings.total = total.milliseconds();
 }
 
-void World::Implementation::update(DevicePairTable& table) {
-    DevicePairTable::State& state = *table.state_;
+void World::Implementation::update(DevicePairTableBase& table) {
+    DevicePairTableBase::State& state = *table.state_;
     const Status status =
         context_->unless_lost([&] { state.update(*context_, identity_, instances_); });
     if (!status.ok()) {
@@ -278,7 +329,11 @@ void World::Implementation::update(DevicePairTable& table) {
     }
 }
 
-Status World::update(DevicePairTable& table, const Limits& limits) {
+Status World::update(DevicePairTable<PenetrationQuery>& table, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->update(table); });
+}
+
+Status World::update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->update(table); });
 }
 

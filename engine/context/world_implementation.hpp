@@ -10,6 +10,7 @@
 #include <engine/world/pose_queries.hpp>
 #include <engine/world/ray_queries.hpp>
 #include <nearfield/world.hpp>
+#include <nearfield/world_device.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -56,7 +57,7 @@ public:
     void update(PairTable<TimeOfImpactQuery>& table, std::span<const InstanceHandle> moving,
                 std::span<const Pose> ends);
 
-    void update(DevicePairTable& table);
+    void update(DevicePairTableBase& table);
 
     [[nodiscard]] std::uint64_t bytes() const;
     void trim();

@@ -166,8 +166,8 @@ string print_text(const Graph& graph, const BakedGraph& baked) {
     return text;
 }
 
-string print_graphviz(const Graph& graph, const BakedGraph& baked) {
-    string text = "digraph nearfield {\n    rankdir=LR;\n";
+string print_graphviz(const Graph& graph, const BakedGraph& baked, const string& name) {
+    string text = "digraph " + dot_string(name) + " {\n    rankdir=LR;\n";
     const std::vector<std::uint32_t> newest = newest_versions(graph);
     for (std::uint32_t i = 0; i < newest.size(); ++i) {
         text += version_nodes(graph, i, newest[i]);
@@ -187,8 +187,9 @@ string print_graphviz(const Graph& graph, const BakedGraph& baked) {
     return text + "}\n";
 }
 
-string print(const Graph& graph, const BakedGraph& baked, GraphFormat format) {
-    return format == GraphFormat::text ? print_text(graph, baked) : print_graphviz(graph, baked);
+string print(const Graph& graph, const BakedGraph& baked, GraphFormat format, const string& title) {
+    return format == GraphFormat::text ? title + ": " + print_text(graph, baked)
+                                       : print_graphviz(graph, baked, title);
 }
 
 }  // namespace nearfield::graph

@@ -12,9 +12,13 @@ namespace nearfield::graph {
 /// memory.
 [[nodiscard]] std::string print_text(const Graph& graph, const BakedGraph& baked);
 
-/// The same as a Graphviz digraph: boxes for passes, ellipses for versions of resources.
-[[nodiscard]] std::string print_graphviz(const Graph& graph, const BakedGraph& baked);
+/// The same as a Graphviz digraph with a name: boxes for passes, ellipses for versions of
+/// resources.
+[[nodiscard]] std::string print_graphviz(const Graph& graph, const BakedGraph& baked,
+                                         const std::string& name);
 
-[[nodiscard]] std::string print(const Graph& graph, const BakedGraph& baked, GraphFormat format);
+/// In either format, with a title.
+[[nodiscard]] std::string print(const Graph& graph, const BakedGraph& baked, GraphFormat format,
+                                const std::string& title);
 
 }  // namespace nearfield::graph

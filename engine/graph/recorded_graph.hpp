@@ -62,8 +62,8 @@ public:
                            });
     }
 
-    [[nodiscard]] std::string print(GraphFormat format) const {
-        return graph::print(*this, executor_->baked(), format);
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph::print(*this, executor_->baked(), format, title);
     }
 
 private:

@@ -1,6 +1,7 @@
 #include <engine/plan/pair_search.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace nearfield::plan {
 namespace {
@@ -31,6 +32,11 @@ void set_place(const geometry::TransformedPolygon& placed, const Vector& origin,
     data.axis = {static_cast<float>(axis.x()), static_cast<float>(axis.y())};
     data.high = {static_cast<float>(place.x()), static_cast<float>(place.y())};
     data.low = {rest_of(place.x(), data.high.x), rest_of(place.y(), data.high.y)};
+}
+
+float rounding_at(double magnitude) {
+    // As localize::placement_rounding, whose magnitude is the sum of three.
+    return rounded_up(4.0 * std::numeric_limits<double>::epsilon() * 3.0 * magnitude);
 }
 
 double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b) {

@@ -13,6 +13,10 @@ void set_shape(const geometry::Polygon& polygon, SearchInstanceData& data);
 void set_place(const geometry::TransformedPolygon& placed, const geometry::Vector& origin,
                SearchInstanceData& data);
 
+/// Bound on the rounding of a vertex's place in double precision, where no number that occurs
+/// exceeds `magnitude`.
+[[nodiscard]] float rounding_at(double magnitude);
+
 /// Bound on the errors of the device's single precision for a pair, world units; as
 /// shaders/pair_directions.comp has it.
 [[nodiscard]] double margin_of_pair(const SearchInstanceData& a, const SearchInstanceData& b);

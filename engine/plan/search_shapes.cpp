@@ -123,6 +123,7 @@ std::uint32_t SearchShapes::find_or_make(const Key& key) {
             }
             made_[0][2] += entry.first;
             made_[0][3] += 4 * entry.first;
+            made_[unit_of_rings][1] += 4 * entry.first;
         }
         std::copy(made_.begin(), made_.end(), units_.begin() + entry.first);
         ++revision_;
@@ -172,9 +173,9 @@ void SearchShapes::order_rings(const Polygon& polygon) {
     }
 }
 
-/// A header, the boxes of all levels, the edges, the numbers of the edges of each chunk, and where
-/// the chunks are that follow each other along the rings. The places in the header are relative to
-/// its own.
+/// A header, the boxes of all levels, the edges, the numbers of the edges of each chunk, where the
+/// chunks are that follow each other along the rings, and those that begin a ring. The places in
+/// the header are relative to its own.
 void SearchShapes::make_shape(const Polygon& polygon) {
     order_rings(polygon);
     std::uint32_t chunks = 0;
@@ -194,8 +195,10 @@ void SearchShapes::make_shape(const Polygon& polygon) {
     }
     const std::uint32_t edges = end;
     const std::uint32_t infos = edges + chunk_size * chunks;
+    const std::uint32_t starts = infos + 2 * units_for(chunks);
     made_[0] = {chunks, levels, edges, 4 * infos};
-    made_.resize(infos + 2 * units_for(chunks));
+    made_[unit_of_rings] = {polygon.ring_count(), 4 * starts, 0, 0};
+    made_.resize(starts + units_for(rings_.size()));
     boxes_.assign(chunks, empty_box);
     add_chunks(polygon, edges, infos);
     for (std::uint32_t level = 0; level < levels; ++level) {
@@ -215,8 +218,11 @@ void SearchShapes::add_chunks(const Polygon& polygon, std::uint32_t edges, std::
         return {static_cast<float>(place.x()), static_cast<float>(place.y())};
     };
     const std::uint32_t places = infos + units_for(boxes_.size());
+    std::uint32_t start = made_[unit_of_rings][1];
     std::uint32_t chunk = 0;
     for (const OrderedRing& ring : rings_) {
+        made_[start / 4][start % 4] = chunk;
+        ++start;
         const std::uint32_t end = ring_begin_[ring.ring + 1];
         std::uint32_t along = ring.first_chunk;
         for (std::uint32_t edge = ring_begin_[ring.ring]; edge < end; ++chunk, ++along) {

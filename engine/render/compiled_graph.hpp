@@ -139,7 +139,9 @@ public:
         graph_.execute(commands, timestamps, context);
     }
 
-    [[nodiscard]] std::string print(GraphFormat format) const { return graph_.print(format); }
+    [[nodiscard]] std::string print(GraphFormat format, const char* title) const {
+        return graph_.print(format, title);
+    }
 
 private:
     void declare_drawn(const RasterPipelines& passes);

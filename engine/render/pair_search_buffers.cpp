@@ -17,8 +17,9 @@ constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_s
     "nearfield pair set of instances", "nearfield pair set of points",
     "nearfield pair set of rows"};
 
-/// Room for what the first search may find.
+/// Room for what the first search may find; a test looks at no points.
 constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
+constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
 
 /// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
@@ -37,27 +38,26 @@ std::uint64_t bytes_of_rows(std::uint32_t rows) {
 }  // namespace
 
 PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                                     bool reads_records, bool timestamps)
+                                     const plan::PairQuestion& question, bool timestamps)
     : device_(&device),
       layout_(&layout),
       submission_(device),
-      timestamps_(device, passes::PairSearch::pass_count, timestamps),
+      timestamps_(device, passes::PairSearch::max_passes, timestamps),
       shapes_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
               gpu::Direction::upload, "nearfield pair shapes"),
       instances_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
                  "nearfield pair instances"),
-      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
-               "nearfield pair scratch"),
+      scratch_(device, scratch_usage, gpu::Direction::none, "nearfield pair scratch"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
                  gpu::Direction::readback, "nearfield pair arguments"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               reads_records ? gpu::Direction::readback : gpu::Direction::none,
+               question.records ? gpu::Direction::readback : gpu::Direction::none,
                "nearfield pair points"),
       rows_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
             "nearfield pair rows"),
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
-    item_.capacities = first_capacities;
+    item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
     }
@@ -82,7 +82,7 @@ void PairSearchBuffers::reserve_instances(std::uint32_t count) {
 }
 
 void PairSearchBuffers::set_query(plan::PairQueryData query) {
-    query.order = 4 * (1 + plan::units_of_instance * instance_room_);
+    query.order = 4 * (plan::units_of_query + plan::units_of_instance * instance_room_);
     std::memcpy(instances_.data(), &query, sizeof(query));
 }
 
@@ -103,13 +103,9 @@ void PairSearchBuffers::set_order(std::span<const std::uint32_t> order) {
 
 void PairSearchBuffers::upload_shapes(const plan::SearchShapes& shapes) {
     const auto bytes = std::as_bytes(shapes.units());
-    const bool is_new = !texels_ || bytes.size() > shapes_.capacity();
-    if (is_new) {
-        texels_.reset();
-        is_laid_out_ = false;
-        shapes_.reserve(bytes.size());
-        texels_ = gpu::make_texel_view(*device_, shapes_, "nearfield pair texels");
-    }
+    const bool is_new =
+        reserve_with_texels(*device_, shapes_, texels_, bytes.size(), "nearfield pair texels");
+    is_laid_out_ = is_laid_out_ && !is_new;
     if (is_new || shapes.revision() != shapes_revision_) {
         std::copy(bytes.begin(), bytes.end(), shapes_.data());
         shapes_.flush();
@@ -137,8 +133,9 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
     push.directions = layout.units(plan::units_of_direction * std::uint64_t{pairs});
     push.summaries = layout.units(2 * std::uint64_t{pairs});
     push.row_blocks = layout.sums(pairs);
+    push.verdicts = layout.words(pairs);
     push.first_directions = layout.sums(items);
-    layout.add_stages(items, edges, points, push);
+    layout.add_stages(pairs, items, edges, points, push);
     push.depths = layout.words(points);
     push.record_depths = layout.words(found);
     scratch_bytes_ = layout.bytes();
@@ -152,7 +149,8 @@ void PairSearchBuffers::lay_out(std::uint64_t memory_limit) {
                                         " bytes on the device; Settings::memory_limit is " +
                                         std::to_string(memory_limit)});
     }
-    scratch_.reserve(scratch_bytes_);
+    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
+                        "nearfield pair scratch texels");
     records_.reserve(record_bytes);
     rows_.reserve(row_bytes);
     item_.shapes = shapes_.handle();
@@ -177,7 +175,8 @@ void PairSearchBuffers::bind() const {
         };
         write(Layout::geometry, item_.scratch, scratch_bytes_);
         write(Layout::output, item_.arguments, argument_bytes(plan::stages_of_pairs));
-        layout_->write_texels(item_.sets[i], texels_.get());
+        layout_->write_texels(item_.sets[i], Layout::texels, texels_.get());
+        layout_->write_texels(item_.sets[i], Layout::scratch_texels, scratch_texels_.get());
         if (i == passes::PairSearch::of_rows) {
             write(Layout::tiles, item_.records, record_bytes);
             write(Layout::points, item_.rows, row_bytes);

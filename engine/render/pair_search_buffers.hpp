@@ -5,6 +5,7 @@
 #include <engine/gpu/owned.hpp>
 #include <engine/gpu/submission.hpp>
 #include <engine/gpu/timestamps.hpp>
+#include <engine/plan/pair_question.hpp>
 #include <engine/plan/search_shapes.hpp>
 #include <nearfield/timings.hpp>
 #include <passes/compute_layout.hpp>
@@ -27,9 +28,8 @@ using PairCounts = std::array<std::uint32_t, plan::stages_of_pairs>;
 /// submission. It only grows.
 class PairSearchBuffers {
 public:
-    /// `reads_records`: the host reads the points that are found.
     PairSearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout,
-                      bool reads_records, bool timestamps);
+                      const plan::PairQuestion& question, bool timestamps);
     /// Waits for the device if it is still working.
     ~PairSearchBuffers();
     PairSearchBuffers(const PairSearchBuffers&) = delete;
@@ -86,7 +86,8 @@ private:
     gpu::MappedBuffer arguments_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer rows_;
-    gpu::Owned<VkBufferView> texels_;  // of the shapes
+    gpu::Owned<VkBufferView> texels_;          // of the shapes
+    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;
     passes::PairSearch::Item item_;
     std::uint32_t instance_room_ = 0;

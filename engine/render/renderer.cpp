@@ -68,7 +68,10 @@ Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques
     if (techniques.compute) {
         passes_.compute.emplace(device, layout_);
         point_search_.emplace(device, layout_);
-        pair_search_.emplace(device, layout_);
+        pair_shaders_.emplace(device, layout_);
+        for (std::size_t goal = 0; goal < plan::pair_goals; ++goal) {
+            pair_searches_[goal].emplace(device, *pair_shaders_, static_cast<plan::PairGoal>(goal));
+        }
     }
 }
 
@@ -80,8 +83,8 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
     return std::make_unique<BatchResources>(*device_, layout_, target_views_, timestamps_);
 }
 
-std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(bool reads_records) {
-    return std::make_unique<PairSearchBuffers>(*device_, layout_, reads_records, timestamps_);
+std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
+    return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
 }
 
 /// Batches in flight share ownership of the graph they use, so it may be replaced here.
@@ -136,6 +139,8 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     last_had_fields_ = !resident.fields.empty();
     last_had_records_ = !resident.records.empty();
     last_had_samples_ = !resident.samples.empty();
+    last_graph_.reset();
+    last_pairs_.reset();
     slot.run(static_cast<std::uint32_t>(tile_batches.size()));
     for (const std::uint32_t number : slot.running()) {
         TileBatchOnDevice& on_device = slot.tile_batch(number);
@@ -250,21 +255,30 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
 }
 
 std::string Renderer::print(GraphFormat format) const {
-    std::string text = last_graph_ == nullptr ? std::string() : last_graph_->print(format);
+    if (last_pairs_) {
+        return pair_searches_[static_cast<std::size_t>(*last_pairs_)]->print(format, "pairs");
+    }
+    std::string text;
+    const auto add = [&](const auto& graph, const char* title) {
+        text += graph.print(format, title);
+    };
+    if (last_graph_ != nullptr) {
+        add(*last_graph_, "tiles");
+    }
     if (last_had_searches_) {
-        text += point_search_->print(format);
+        add(*point_search_, "search for points");
     }
     if (last_had_fields_) {
-        text += export_field_.print(format);
+        add(export_field_, "resident fields");
     }
     if (last_had_records_) {
-        text += export_records_.print(format);
+        add(export_records_, "resident records");
     }
     if (last_had_samples_) {
-        text += export_samples_.print(format);
+        add(export_samples_, "resident samples");
     }
     if (last_had_fields_ || last_had_records_ || last_had_samples_) {
-        text += export_headers_.print(format);
+        add(export_headers_, "resident headers");
     }
     return text;
 }

@@ -15,6 +15,8 @@
 #include <passes/pair_search.hpp>
 #include <passes/point_search.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,9 +47,13 @@ public:
     /// Resources for a batch of this renderer, which must outlive them.
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
     /// Memory for searches for all pairs, likewise. `reads_records`: the host reads the points.
-    [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(bool reads_records);
+    [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
+        const plan::PairQuestion& question);
     /// The passes of such searches. The precondition: pipelines of the compute technique.
-    [[nodiscard]] const passes::PairSearch& pair_search() const { return *pair_search_; }
+    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) {
+        last_pairs_ = goal;
+        return *pair_searches_[static_cast<std::size_t>(goal)];
+    }
     /// Differs from that of every other renderer.
     [[nodiscard]] std::uint32_t number() const { return number_; }
 
@@ -81,8 +87,8 @@ public:
     /// Destroys the views of an image of the host, which no batch on the device may write.
     void release_target(VkImage image) { target_views_.release(image); }
 
-    /// Prints the graph of the last submitted tile batch and the export graphs; empty before the
-    /// first.
+    /// Prints the graphs of the last batch, one after the other, each with a title, or that of a
+    /// later search for pairs; empty before the first.
     [[nodiscard]] std::string print(GraphFormat format) const;
 
 private:
@@ -99,7 +105,8 @@ private:
     TargetViews target_views_;
     PipelineSet passes_;
     std::optional<passes::PointSearch> point_search_;  // with the compute technique
-    std::optional<passes::PairSearch> pair_search_;    // likewise
+    std::optional<passes::PairShaders> pair_shaders_;  // likewise
+    std::array<std::optional<passes::PairSearch>, plan::pair_goals> pair_searches_;  // likewise
     passes::CopyBack copy_back_;
     passes::ExportField export_field_;
     passes::ExportRecords export_records_;
@@ -111,6 +118,7 @@ private:
     bool last_had_records_ = false;
     bool last_had_samples_ = false;
     bool last_had_searches_ = false;
+    std::optional<plan::PairGoal> last_pairs_;  // since the last batch
     SearchCounts max_counts_{};      // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };

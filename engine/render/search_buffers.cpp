@@ -22,8 +22,7 @@ SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLay
       layout_(&layout),
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
              gpu::Direction::upload, "nearfield search input"),
-      scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::none,
-               "nearfield search scratch"),
+      scratch_(device, scratch_usage, gpu::Direction::none, "nearfield search scratch"),
       records_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
                "nearfield found points"),
       arguments_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
@@ -39,7 +38,8 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     const auto directions = std::as_bytes(std::span(search.directions));
     const auto blocks = std::as_bytes(std::span(search.first_directions));
     input_bytes_ = shape_bytes.size() + directions.size() + blocks.size();
-    const bool is_new = reserve_input();
+    const bool is_new =
+        reserve_with_texels(*device_, input_, texels_, input_bytes_, "nearfield search texels");
     std::byte* target = input_.data();
     if (is_new || shapes.revision() != revision_) {
         std::copy(shape_bytes.begin(), shape_bytes.end(), target);
@@ -52,21 +52,11 @@ void SearchBuffers::upload(const plan::SearchShapes& shapes, const plan::PointSe
     item_.push.items = search.items;
     item_.push.directions = static_cast<std::uint32_t>(shapes.units().size());
     item_.push.direction_count = static_cast<std::uint32_t>(search.directions.size());
+    // The threads of each direction may have room for a few points more.
     const std::uint32_t max_points = rounded_up(search.max_points);
-    max_counts_ = {rounded_up(search.max_edges), max_points, max_points};
+    const std::uint32_t max_padding = (plan::points_per_thread - 1) * item_.push.direction_count;
+    max_counts_ = {rounded_up(search.max_edges), max_points + max_padding, max_points};
     lay_out(expected);
-}
-
-/// Makes room for the input; returns whether it has to be written anew.
-bool SearchBuffers::reserve_input() {
-    // Where making either of the two failed before, there is no view.
-    if (texels_ && input_bytes_ <= input_.capacity()) {
-        return false;
-    }
-    texels_.reset();
-    input_.reserve(input_bytes_);
-    texels_ = gpu::make_texel_view(*device_, input_, "nearfield search texels");
-    return true;
 }
 
 void SearchBuffers::lay_out(const SearchCounts& expected) {
@@ -75,9 +65,10 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     }
     const auto [edges, points, found] = item_.capacities;
     ScratchLayout layout;
-    layout.add_stages(item_.push.items, edges, points, item_.push);
+    layout.add_stages(item_.push.direction_count, item_.push.items, edges, points, item_.push);
     scratch_bytes_ = layout.bytes();
-    scratch_.reserve(scratch_bytes_);
+    reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
+                        "nearfield search scratch texels");
     records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
     clear_counts(arguments_, plan::stages);
     item_.input = input_.handle();
@@ -98,7 +89,8 @@ void SearchBuffers::bind() const {
     write(Layout::points, item_.records,
           std::max(item_.capacities[2], 1U) * sizeof(plan::FoundPointData));
     write(Layout::output, item_.arguments, argument_bytes(plan::stages));
-    layout_->write_texels(item_.set, texels_.get());
+    layout_->write_texels(item_.set, Layout::texels, texels_.get());
+    layout_->write_texels(item_.set, Layout::scratch_texels, scratch_texels_.get());
     layout_->end_updates();
 }
 

@@ -43,7 +43,6 @@ public:
     [[nodiscard]] std::span<const plan::FoundPointData> found() const;
 
 private:
-    [[nodiscard]] bool reserve_input();
     void lay_out(const SearchCounts& expected);
     void bind() const;
 
@@ -53,7 +52,8 @@ private:
     gpu::MappedBuffer scratch_;
     gpu::MappedBuffer records_;
     gpu::MappedBuffer arguments_;
-    gpu::Owned<VkBufferView> texels_;  // of the input
+    gpu::Owned<VkBufferView> texels_;          // of the input
+    gpu::Owned<VkBufferView> scratch_texels_;  // of the scratch memory
     passes::DescriptorSets sets_;
     passes::PointSearch::Item item_;
     std::uint64_t input_bytes_ = 0;

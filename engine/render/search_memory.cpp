@@ -14,14 +14,28 @@ std::uint32_t ScratchLayout::sums(std::uint64_t elements) {
     return words((elements + plan::search_block - 1) / plan::search_block + 1);
 }
 
-void ScratchLayout::add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
-                               plan::SearchPush& push) {
+void ScratchLayout::add_stages(std::uint64_t directions, std::uint64_t items, std::uint64_t edges,
+                               std::uint64_t points, plan::SearchPush& push) {
     push.item_blocks = sums(items);
-    push.item_words = words(items);
+    push.item_words = words(plan::words_of_item * items);
     push.edge_blocks = sums(edges);
-    push.edge_units = units(2 * edges);
+    push.edge_units = units(plan::units_of_edge * edges);
+    push.range_blocks = sums(directions);
+    push.range_units = units(directions);
     push.point_blocks = sums(points / plan::points_per_thread + 1);
     push.point_units = units(points);
+}
+
+bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
+                         gpu::Owned<VkBufferView>& texels, std::uint64_t bytes, const char* name) {
+    // Where making either of the two failed before, there is no view.
+    if (texels && bytes <= buffer.capacity()) {
+        return false;
+    }
+    texels.reset();
+    buffer.reserve(bytes);
+    texels = gpu::make_texel_view(device, buffer, name);
+    return true;
 }
 
 void clear_counts(const gpu::MappedBuffer& arguments, std::uint64_t stages) {

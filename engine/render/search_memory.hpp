@@ -1,6 +1,8 @@
 #pragma once
 
 #include <engine/gpu/buffer.hpp>
+#include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
 
 #include <shaders/push.h>
 #include <shaders/search.h>
@@ -20,15 +22,24 @@ public:
     [[nodiscard]] std::uint32_t units(std::uint64_t count) { return words(4 * count) / 4; }
     /// The sums of the blocks of so many elements, in words.
     [[nodiscard]] std::uint32_t sums(std::uint64_t elements);
-    /// Adds the arrays of items, edges and points.
-    void add_stages(std::uint64_t items, std::uint64_t edges, std::uint64_t points,
-                    plan::SearchPush& push);
+    /// Adds the arrays of directions, their items, edges and points.
+    void add_stages(std::uint64_t directions, std::uint64_t items, std::uint64_t edges,
+                    std::uint64_t points, plan::SearchPush& push);
 
     [[nodiscard]] std::uint64_t bytes() const { return words_ * sizeof(std::uint32_t); }
 
 private:
     std::uint64_t words_ = plan::words_of_totals;
 };
+
+/// Of a scratch memory, which shaders also read as texels.
+inline constexpr VkBufferUsageFlags scratch_usage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+
+/// Makes room in a buffer that has a view of texels. Returns whether both are new: what the buffer
+/// held is lost then.
+bool reserve_with_texels(const gpu::Device& device, gpu::MappedBuffer& buffer,
+                         gpu::Owned<VkBufferView>& texels, std::uint64_t bytes, const char* name);
 
 /// Bytes of the arguments of the dispatches of so many stages.
 [[nodiscard]] constexpr std::uint64_t argument_bytes(std::uint64_t stages) {

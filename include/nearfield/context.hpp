@@ -351,9 +351,9 @@ public:
 
 private:
     class NEARFIELD_HIDDEN Implementation;
-    friend struct ContextAccess;   // of diagnostics.hpp
-    friend class World;            // of world.hpp
-    friend class DevicePairTable;  // of world_device.hpp
+    friend struct ContextAccess;       // of diagnostics.hpp
+    friend class World;                // of world.hpp
+    friend class DevicePairTableBase;  // of world_device.hpp
     explicit Context(std::unique_ptr<Implementation> implementation) noexcept;
     std::unique_ptr<Implementation> implementation_;
 };

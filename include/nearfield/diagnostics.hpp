@@ -57,10 +57,11 @@ enum class GraphFormat {
     graphviz,  ///< a graph in the DOT language
 };
 
-/// The render graph of the last batch submitted or recorded: passes, resources, lifetimes,
-/// barriers; those of a host's targets as by default, not as stated. Empty before the first batch
-/// and in a context without a device. Fails with invalid_settings if `format` is not a valid
-/// enumerator, or with out_of_memory.
+/// The render graphs of the last batch submitted or recorded, each with a title, or that of a
+/// DevicePairTable updated since: passes, resources, lifetimes, barriers; those of a host's targets
+/// as by default, not as stated. Empty before the first of them and in a context without a device.
+/// Batches that the CPU answers alone do not count. Fails with invalid_settings if `format` is not
+/// a valid enumerator, or with out_of_memory.
 [[nodiscard]] NEARFIELD_EXPORT Expected<std::string> describe_graph(const Context& context,
                                                                     GraphFormat format);
 

@@ -189,6 +189,7 @@ struct ShapeCastHit {
 
 template <class Query>
 class PairTable;
+template <class Query>
 class DevicePairTable;
 
 /// Instances of shapes of one context, kept from frame to frame.
@@ -328,7 +329,9 @@ public:
     /// Technique::compute; with too_large if there are more than 2^18 instances, or more pairs or
     /// points than the device has memory for; if `limits` end the call; and as Context::run(). The
     /// table is empty then. Errors of single pairs are the status of their rows.
-    Status update(DevicePairTable& table, const Limits& limits = {});
+    Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
+    /// Likewise.
+    Status update(DevicePairTable<IntersectionTestQuery>& table, const Limits& limits = {});
 
     /// Host memory of the instances and of all that is kept with them, in bytes. Scratch memory of
     /// the queries is not counted.

@@ -1,5 +1,5 @@
-// Measures the penetrations of all pairs of a world in which everything moves, found by the device
-// and by the CPU, and prints tables in Markdown.
+// Measures queries of all pairs of a world in which everything moves, answered by the device and by
+// the CPU, and prints tables in Markdown.
 
 #include <nearfield/nearfield.hpp>
 
@@ -15,7 +15,6 @@
 #include <ctime>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace {
@@ -26,6 +25,8 @@ using nearfield::bench::take;
 using nearfield::Context;
 using nearfield::DevicePairTable;
 using nearfield::InstanceHandle;
+using nearfield::IntersectionTestQuery;
+using nearfield::PairRow;
 using nearfield::PairTable;
 using nearfield::PenetrationPoints;
 using nearfield::PenetrationQuery;
@@ -96,28 +97,51 @@ struct Times {
     std::vector<nearfield::PassTime> passes;
 };
 
-double read_all(DevicePairTable& table) {
+/// A number of a row, so that none is left out.
+double number_of(const PairRow<PenetrationQuery>& row) {
+    return row.count > 0 ? row.deepest.depth : 0.0;
+}
+
+double number_of(const PairRow<IntersectionTestQuery>& row) {
+    return row.error_bound;
+}
+
+template <class Query>
+double read_all(DevicePairTable<Query>& table) {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < table.size(); ++i) {
-        sum += take(table.row(i)).deepest.depth;
+        sum += number_of(take(table.row(i)));
     }
     return sum;
 }
 
-double read_all(const PairTable<PenetrationQuery>& table) {
+template <class Query>
+double read_all(const PairTable<Query>& table) {
     double sum = 0.0;
     for (const auto& row : table.rows()) {
-        sum += row.count > 0 ? row.deepest.depth : 0.0;
+        sum += number_of(row);
     }
     return sum;
 }
 
-double work_of_cpu(const DevicePairTable& table) {
+template <class Query>
+double work_of_cpu(const DevicePairTable<Query>& table) {
     return table.timings().plan + table.timings().record + table.timings().decode;
 }
 
-double work_of_cpu(const PairTable<PenetrationQuery>& /*table*/) {
+template <class Query>
+double work_of_cpu(const PairTable<Query>& /*table*/) {
     return 0.0;
+}
+
+template <class Query>
+std::vector<nearfield::PassTime> passes_of(const DevicePairTable<Query>& table) {
+    return table.timings().passes;
+}
+
+template <class Query>
+std::vector<nearfield::PassTime> passes_of(const PairTable<Query>& /*table*/) {
+    return {};
 }
 
 template <class Table>
@@ -150,9 +174,7 @@ Times measure(Crowd& crowd, Table& table, int frames) {
     if (!std::isfinite(sum)) {
         throw std::runtime_error("depths are not finite");
     }
-    if constexpr (std::is_same_v<Table, DevicePairTable>) {
-        times.passes = table.timings().passes;
-    }
+    times.passes = passes_of(table);
     times.move = median(move);
     times.update = median(update);
     times.whole = median(whole);
@@ -161,24 +183,51 @@ Times measure(Crowd& crowd, Table& table, int frames) {
     return times;
 }
 
-void compare(Context& context, std::uint32_t count, double side, PenetrationQuery query, int frames,
+const char* kind_of(const PenetrationQuery& query) {
+    return query.points == PenetrationPoints::vertices ? "penetration, vertices"
+                                                       : "penetration, samples";
+}
+
+const char* kind_of(const IntersectionTestQuery& /*query*/) {
+    return "intersection test";
+}
+
+template <class Query>
+bool has_records(const Query& query) {
+    if constexpr (requires { query.records; }) {
+        return query.records;
+    } else {
+        return false;
+    }
+}
+
+template <class Query>
+void compare(Context& context, std::uint32_t count, double side, const Query& query, int frames,
              bool shows_passes) {
     Crowd crowd(context, count, side);
-    DevicePairTable on_device(query);
-    PairTable<PenetrationQuery> on_cpu(query, {.hits_only = true});
+    DevicePairTable<Query> on_device(query);
+    PairTable<Query> on_cpu(query, {.hits_only = true});
     const Times device = measure(crowd, on_device, frames);
     const Times cpu = measure(crowd, on_cpu, frames);
-    std::printf("| %u | %s | %s | %u | %u | %.3f | %.3f | %.3f | %.3f | %.2f | %.2f |\n", count,
-                query.points == PenetrationPoints::vertices ? "vertices" : "samples",
-                query.records ? "yes" : "no", on_device.candidates(), on_device.size(), device.move,
-                device.upload, device.whole, device.read, cpu.update + cpu.read,
-                device.whole / (cpu.update + cpu.read));
+    std::printf("| %u | %s | %s | %u | %u | %u | %.3f | %.3f | %.3f | %.3f | %.2f | %.2f |\n",
+                count, kind_of(query), has_records(query) ? "yes" : "no", on_device.candidates(),
+                on_device.size(), on_device.left_to_cpu(), device.move, device.upload, device.whole,
+                device.read, cpu.update + cpu.read, device.whole / (cpu.update + cpu.read));
     if (shows_passes) {
         for (const nearfield::PassTime& pass : device.passes) {
             std::fprintf(stderr, "  %s %.3f\n", pass.name.c_str(), pass.milliseconds);
         }
     }
     std::fflush(stdout);
+}
+
+/// Worlds of several sizes.
+template <class Query>
+void compare_all(Context& context, const Query& query, bool shows_passes) {
+    compare(context, 1'000, 50.0, query, 20, shows_passes);
+    compare(context, 1'000, 16.0, query, 10, false);
+    compare(context, 1'000, 7.5, query, 5, false);
+    compare(context, 40'000, 320.0, query, 5, shows_passes);
 }
 
 }  // namespace
@@ -189,19 +238,16 @@ int main(int count, char** arguments) {
         Context context = take(Context::create_headless());
         std::printf("Device: %s\n\n", context.device_name().c_str());
         std::puts(
-            "| objects | points | records | pairs | rows | CPU: move | CPU: update | update | "
-            "CPU: read all rows | cpu: update | update / cpu |\n"
-            "|---|---|---|---|---|---|---|---|---|---|---|");
+            "| objects | query | records | pairs | rows | left | CPU: move | CPU: update | update "
+            "| CPU: read all rows | cpu: update | update / cpu |\n"
+            "|---|---|---|---|---|---|---|---|---|---|---|---|");
+        compare_all(context, IntersectionTestQuery{}, shows_passes);
         for (const PenetrationPoints points :
              {PenetrationPoints::vertices, PenetrationPoints::boundary}) {
-            PenetrationQuery query{.tolerance = 0.03, .points = points, .records = false};
-            compare(context, 1'000, 50.0, query, 20, shows_passes);
-            query.records = true;
+            PenetrationQuery query{.tolerance = 0.03, .points = points, .records = true};
             compare(context, 1'000, 50.0, query, 20, shows_passes);
             query.records = false;
-            compare(context, 1'000, 16.0, query, 10, false);
-            compare(context, 1'000, 7.5, query, 5, false);
-            compare(context, 40'000, 320.0, query, 5, shows_passes);
+            compare_all(context, query, shows_passes);
         }
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());

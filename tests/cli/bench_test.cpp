@@ -183,8 +183,43 @@ TEST_F(Bench, ATechniqueThatRefusesARowIsNamedInTheTable) {
     EXPECT_NE(outcome.out.find("| wavy at 4d, intersection"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Bench, MeasuresWhenAGpuIsWorthItsWhile) {
+    const std::string file = folder_.path("gpu.json");
+    const Outcome outcome =
+        run_program({"bench", "--gpu", "--filter", "crowd of 420", "--json", file});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("\n| crowd of 420 | "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("* device pairs: "), std::string::npos) << outcome.out;
+    const Json json = Json::parse(folder_.read("gpu.json"));
+    EXPECT_FALSE(json.at("device").get<std::string>().empty());
+    ASSERT_EQ(json.at("rows").size(), 1U);
+    const Json& row = json.at("rows").at(0);
+    // About 2.4 pairs an object, either way.
+    EXPECT_GT(row.at("pairs"), 4 * 420);
+    EXPECT_LT(row.at("pairs"), 6 * 420);
+    EXPECT_GT(row.at("points"), row.at("pairs"));
+    for (const auto& name : {"cpu", "raster", "compute", "device pairs", "device pairs, read"}) {
+        const Json& time = row.at("times").at(name);
+        EXPECT_GE(time.at("frames"), 3) << name;
+        EXPECT_GT(time.at("median_ms"), 0.0) << name;
+        EXPECT_GT(time.at("cpu_ms"), 0.0) << name;
+        EXPECT_EQ(time.at("device_ms").is_null(), std::string(name) == "cpu") << name;
+    }
+}
+
+TEST_F(Bench, MeasuresFieldsOnAGpu) {
+    const Json json = answer({"bench", "--gpu", "--filter", "field 256"});
+    ASSERT_EQ(json.at("rows").size(), 1U);
+    EXPECT_EQ(json.at("rows").at(0).at("cells"), 256 * 256);
+    EXPECT_GT(json.at("rows").at(0).at("times").at("compute").at("median_ms"), 0.0);
+}
+
 TEST_F(Bench, RefusesAFilterThatLeavesNoRowAndOptionsOfTheOtherWay) {
     expect_refused({"bench", "--filter", "no such row"}, {"--filter", "no such row", small_row});
+    expect_refused({"bench", "--gpu", "--filter", "no such row"}, {"no such row", "crowd of 420"});
+    expect_refused({"bench", "--gpu", "--paper"}, {"--gpu", "--paper"});
+    expect_refused({"bench", "--scene", folder_.write("scene.json", good_scene), "--gpu"},
+                   {"--gpu", "--scene"});
     expect_refused({"bench", "--filter", small_row, "--frames", "3"}, {"--frames", "--scene"});
     expect_refused({"bench", "--filter", small_row, "--technique", "cpu"},
                    {"--technique", "--scene"});

@@ -126,7 +126,8 @@ TEST_F(Help, NamesCommandsAndTheirOptions) {
                  {"query", "scene", "bench", "simulate", "calibrate", "hash", "info", "--version"});
     expect_names({"scene"},
                  {"groups", "nearest", "--technique", "--memory-limit", "--threads", "--json"});
-    expect_names({"bench"}, {"--scene", "--technique", "--frames", "--warmup", "--keep", "--json"});
+    expect_names({"bench"},
+                 {"--scene", "--technique", "--frames", "--warmup", "--keep", "--gpu", "--json"});
     expect_names({"simulate"},
                  {"nest", "robots", "--response", "--frames", "--bodies", "--every", "--video"});
     expect_names({"calibrate"}, {"file"});

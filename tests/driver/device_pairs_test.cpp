@@ -1,4 +1,5 @@
 #include <nearfield/world.hpp>
+#include <nearfield/world_device.hpp>
 #include <passes/compute_layout.hpp>
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ public:
 
     [[nodiscard]] MockDriver& driver() { return life_.driver(); }
     [[nodiscard]] Status update() { return world_->update(table_); }
-    [[nodiscard]] const DevicePairTable& table() const { return table_; }
+    [[nodiscard]] const DevicePairTable<PenetrationQuery>& table() const { return table_; }
 
     /// What the host changes before the update of a step.
     void prepare(Step step) {
@@ -119,7 +120,7 @@ private:
 
     World life_;
     std::optional<nearfield::World> world_;
-    DevicePairTable table_;
+    DevicePairTable<PenetrationQuery> table_;
     std::vector<InstanceHandle> instances_;
 };
 

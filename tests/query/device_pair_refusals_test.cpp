@@ -5,15 +5,19 @@
 namespace nearfield::test {
 namespace {
 
+constexpr PenetrationQuery penetrations{.tolerance = 0.1};
+
 class DevicePairRefusals : public QueryTest {
 protected:
     /// Updates a table with a world of two instances that overlap. The refusal names the call, and
     /// leaves no row.
-    static void expect_refused(Context& context, const PenetrationQuery& query, StatusCode code) {
-        DevicePairTable table(query);
+    template <class Query>
+    static void expect_refused(Context& context, const Query& query, StatusCode code) {
+        DevicePairTable<Query> table(query);
         update(context, table, code);
     }
-    static void update(Context& context, DevicePairTable& table, StatusCode code) {
+    template <class Query>
+    static void update(Context& context, DevicePairTable<Query>& table, StatusCode code) {
         const Expected<ShapeHandle> shape = context.add_shape(rectangle({0, 0}, {4, 4}));
         ASSERT_TRUE(shape.has_value()) << shape.error().text();
         Expected<World> world = World::create(context);
@@ -37,29 +41,34 @@ TEST_F(DevicePairRefusals, OfContextsThatDoNotCompute) {
     settings.techniques.compute = false;
     Expected<Context> drawing_only = Context::create(host_device(), settings);
     ASSERT_TRUE(drawing_only.has_value()) << drawing_only.error().text();
-    expect_refused(*drawing_only, {.tolerance = 0.1}, StatusCode::unsupported_technique);
+    expect_refused(*drawing_only, penetrations, StatusCode::unsupported_technique);
+    expect_refused(*drawing_only, IntersectionTestQuery{}, StatusCode::unsupported_technique);
     Expected<Context> without_device = Context::create_cpu();
     ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
-    expect_refused(*without_device, {.tolerance = 0.1}, StatusCode::unsupported_technique);
+    expect_refused(*without_device, penetrations, StatusCode::unsupported_technique);
+    expect_refused(*without_device, IntersectionTestQuery{}, StatusCode::unsupported_technique);
 }
 
 TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
     for (const Technique technique : {Technique::cpu, Technique::raster}) {
-        expect_refused(context(), {.tolerance = 0.1, .technique = technique},
+        expect_refused(context(), PenetrationQuery{.tolerance = 0.1, .technique = technique},
+                       StatusCode::invalid_query);
+        expect_refused(context(), IntersectionTestQuery{.technique = technique},
                        StatusCode::invalid_query);
     }
-    expect_refused(context(), {.tolerance = 0.1, .resident = true}, StatusCode::invalid_query);
-    expect_refused(context(), {.tolerance = -1.0}, StatusCode::invalid_query);
+    expect_refused(context(), PenetrationQuery{.tolerance = 0.1, .resident = true},
+                   StatusCode::invalid_query);
+    expect_refused(context(), PenetrationQuery{.tolerance = -1.0}, StatusCode::invalid_query);
 }
 
 /// Rows of an earlier update do not stay.
 TEST_F(DevicePairRefusals, LeaveATableThatWasFilledEmpty) {
-    DevicePairTable table({.tolerance = 0.1});
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
     update(context(), table, StatusCode::ok);
     Expected<Context> without_device = Context::create_cpu();
     ASSERT_TRUE(without_device.has_value()) << without_device.error().text();
     update(*without_device, table, StatusCode::unsupported_technique);
-    table = DevicePairTable({.tolerance = 0.1});
+    table = DevicePairTable<PenetrationQuery>({.tolerance = 0.1});
 }
 
 }  // namespace

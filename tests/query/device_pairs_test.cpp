@@ -1,11 +1,9 @@
 #include <tests/limits/cut.hpp>
-#include <tests/query/query_test.hpp>
+#include <tests/query/device_pairs.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -14,45 +12,15 @@ namespace {
 constexpr std::uint64_t seed = 24000;
 
 /// Penetrations of all pairs of a world that the device finds, compared with those of the CPU.
-class DevicePairs : public QueryTest {
+class DevicePairs : public DevicePairsTest {
 protected:
     /// What a test asks of a world again and again.
     struct Tables {
         explicit Tables(const PenetrationQuery& query) : device(query), cpu(query) {}
 
-        DevicePairTable device;
+        DevicePairTable<PenetrationQuery> device;
         PairTable<PenetrationQuery> cpu;
     };
-
-    void SetUp() override {
-        Expected<World> made = World::create(context());
-        ASSERT_TRUE(made.has_value());
-        world_.emplace(std::move(*made));
-    }
-    void TearDown() override {
-        world_.reset();
-        for (const ShapeHandle shape : shapes_) {
-            EXPECT_TRUE(context().remove_shape(shape).ok());
-        }
-        QueryTest::TearDown();
-    }
-
-    ShapeHandle add_shape(const Rings& rings) {
-        const Expected<ShapeHandle> shape = context().add_shape(rings);
-        EXPECT_TRUE(shape.has_value()) << shape.error().message();
-        shapes_.push_back(*shape);
-        return *shape;
-    }
-    InstanceHandle add(ShapeHandle shape, const Pose& pose) {
-        const Expected<InstanceHandle> handle = world_->add({.shape = shape, .pose = pose});
-        EXPECT_TRUE(handle.has_value()) << handle.error().message();
-        instances_.push_back(*handle);
-        return *handle;
-    }
-    [[nodiscard]] static Pose any_pose(Random& random, double extent) {
-        return {.translation = {random.between(-extent, extent), random.between(-extent, extent)},
-                .angle = random.between(-4.0, 4.0)};
-    }
 
     static void expect_equal(const PenetrationRecord& found, const PenetrationRecord& truth,
                              double tolerance) {
@@ -102,30 +70,7 @@ protected:
         }
         EXPECT_EQ(next, tables.device.size());
     }
-
-    World& world() { return *world_; }
-
-    std::optional<World> world_;
-    std::vector<ShapeHandle> shapes_;
-    std::vector<InstanceHandle> instances_;
 };
-
-std::vector<Rings> some_shapes(Random& random) {
-    std::vector<Rings> shapes{star(random, 50, 0.5),
-                              star(random, 7, 0.3),
-                              comb(8),
-                              with_holes(random, 5),
-                              several_parts(random, 3),
-                              spiral(2.0, 0.2, 60),
-                              coast(random, 300, 0.3),
-                              pentagram(),
-                              needle(1e-6),
-                              rectangle({-1.0, -1.0}, {1.0, 1.0}),
-                              with_repeated_vertices(random, star(random, 20, 0.6), 0.3)};
-    shapes.push_back(scaled_and_moved(star(random, 30, 0.5), 0.05, {100.0, -50.0}));
-    shapes.push_back(scaled_and_moved(coast(random, 200, 0.3), 8.0, {0.0, 0.0}));
-    return shapes;
-}
 
 TEST_F(DevicePairs, AreThoseOfTheCpu) {
     for_each_case(seed, 6, [&](Random& random) {
@@ -140,9 +85,7 @@ TEST_F(DevicePairs, AreThoseOfTheCpu) {
             }
             Tables tables({.tolerance = random.scale(1e-3, 0.1), .points = points});
             compare(tables);
-            for (const InstanceHandle handle : added) {
-                ASSERT_TRUE(world().remove(handle).ok());
-            }
+            remove(added);
         }
     });
 }
@@ -184,9 +127,7 @@ TEST_F(DevicePairs, DoNotShowTheirHistory) {
             }
             ASSERT_NO_FATAL_FAILURE(compare(tables));
         }
-        for (const InstanceHandle handle : present) {
-            ASSERT_TRUE(world().remove(handle).ok());
-        }
+        remove(present);
     });
 }
 
@@ -220,9 +161,7 @@ TEST_F(DevicePairs, FarFromTheOrigin) {
         }
         Tables tables({.tolerance = 0.01});
         compare(tables);
-        for (const InstanceHandle handle : added) {
-            ASSERT_TRUE(world().remove(handle).ok());
-        }
+        remove(added);
     });
 }
 
@@ -282,9 +221,7 @@ TEST_F(DevicePairs, OfTheSmallestAndLargestShapes) {
         Tables tables({.tolerance = 0.01 * size, .points = PenetrationPoints::vertices});
         compare(tables);
         EXPECT_GT(tables.device.size(), 0U);
-        for (const InstanceHandle handle : added) {
-            ASSERT_TRUE(world().remove(handle).ok());
-        }
+        remove(added);
     }
 }
 

@@ -145,8 +145,24 @@ TEST_F(Lifetime, TheGraphDescribesItself) {
     EXPECT_TRUE(describe_graph(*fresh, GraphFormat::text)->empty());
     const PlacedPair pair(*fresh, family_pairs(seed)[3]);
     ASSERT_TRUE(run_alone(*fresh, pair.penetration()).status.ok());
-    EXPECT_FALSE(describe_graph(*fresh, GraphFormat::text)->empty());
-    EXPECT_NE(describe_graph(*fresh, GraphFormat::graphviz)->find("digraph"), std::string::npos);
+    const auto begins = [&](const char* text, GraphFormat format) {
+        const Expected<std::string> graph = describe_graph(*fresh, format);
+        EXPECT_EQ(graph->rfind(text, 0), 0U) << *graph;
+    };
+    begins("tiles: passes\n", GraphFormat::text);
+    begins("digraph \"tiles\" {", GraphFormat::graphviz);
+    PenetrationQuery by_compute = pair.penetration();
+    by_compute.technique = Technique::compute;
+    ASSERT_TRUE(run_alone(*fresh, by_compute).status.ok());
+    begins("search for points: passes\n", GraphFormat::text);  // and no longer the tiles before it
+    Expected<World> world = World::create(*fresh);
+    ASSERT_TRUE(world.has_value()) << world.error().text();
+    for (const Instance& instance : {pair.instance_a(), pair.instance_b()}) {
+        ASSERT_TRUE(world->add({.shape = instance.shape, .pose = instance.pose}).has_value());
+    }
+    DevicePairTable<PenetrationQuery> table({.tolerance = pair.penetration().tolerance});
+    ASSERT_TRUE(world->update(table).ok());
+    begins("pairs: passes\n", GraphFormat::text);
 }
 
 }  // namespace

@@ -248,7 +248,8 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
         ASSERT_TRUE(instance.has_value()) << instance.error().text();
         instances.push_back(*instance);
     }
-    DevicePairTable table({.tolerance = 0.08});
+    DevicePairTable<PenetrationQuery> table({.tolerance = 0.08});
+    DevicePairTable intersections(IntersectionTestQuery{});
     std::vector<PenetrationRecord> records;
     std::uint32_t rows = 0;
     expect_nothing_made(200, [&](int number) {
@@ -263,6 +264,10 @@ TEST_F(SteadyState, DevicePairsOfMovingInstancesAllocateAndCreateNothing) {
             ok = table.row(row).has_value() && table.records(row, records).ok() && ok;
         }
         rows = table.size();
+        ok = world->update(intersections).ok() && ok;
+        for (std::uint32_t row = 0; row < intersections.size(); ++row) {
+            ok = intersections.row(row).has_value() && ok;
+        }
         return ok;
     });
     EXPECT_GT(rows, 10U);

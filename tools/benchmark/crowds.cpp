@@ -24,13 +24,16 @@ void add_star(tools::Scene& scene, Random& random, Vector2 place) {
 
 }  // namespace
 
-tools::Scene crowd_scene() {
+tools::Scene crowd_scene(std::size_t objects) {
     constexpr double spacing = 1.716;
     constexpr double jitter = 0.25;
+    constexpr double columns_to_rows = 1.6;
+    const auto columns = static_cast<std::size_t>(
+        std::lround(std::sqrt(columns_to_rows * static_cast<double>(objects))));
     tools::Scene scene;
     Random random(1);
-    for (std::size_t index = 0; index < 1000; ++index) {
-        const Vector2 place = in_rows(index, 40, {spacing, spacing});
+    for (std::size_t index = 0; index < objects; ++index) {
+        const Vector2 place = in_rows(index, columns, {spacing, spacing});
         const Vector2 aside{random.between(-jitter, jitter), random.between(-jitter, jitter)};
         add_star(scene, random, {place.x + aside.x, place.y + aside.y});
     }

@@ -111,7 +111,8 @@ void add_fields_by_vertices(std::vector<Row>& rows) {
 }
 
 void add_crowds(std::vector<Row>& rows) {
-    add_questions(rows, "crowd of 1000", crowd_scene, scene_tolerance, Pairs::all);
+    add_questions(
+        rows, "crowd of 1000", [] { return crowd_scene(); }, scene_tolerance, Pairs::all);
     // The box of the intersection of two stars is about 32 x 32 cells of this size.
     constexpr double pair_tolerance = 0.03;
     add_questions(

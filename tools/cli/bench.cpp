@@ -3,6 +3,7 @@
 #include <tools/benchmark/median_timings.hpp>
 #include <tools/benchmark/spread.hpp>
 #include <tools/cli/bench.hpp>
+#include <tools/cli/gpu_table.hpp>
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/paper_tables.hpp>
 #include <tools/cli/scene.hpp>
@@ -115,8 +116,9 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
             ->type_name("FILE.json");
     CLI::Option* const filter =
         command
-            ->add_option("--filter", arguments.filter,
-                         "Only the rows of the standard table whose names hold this text")
+            ->add_option(
+                "--filter", arguments.filter,
+                "Only the rows of the standard table, or of --gpu, whose names hold this text")
             ->type_name("TEXT")
             ->excludes(scene);
     CLI::Option* const paper =
@@ -126,6 +128,13 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
                        "technique, the paper's figures beside them")
             ->excludes(scene)
             ->excludes(filter);
+    command
+        ->add_flag("--gpu", arguments.gpu,
+                   "The table that tells when a GPU is worth its while: 1,000 to 100,000 pairs and "
+                   "fields of 256 to 4096 cells a side, by each technique; takes minutes where the "
+                   "device is the CPU")
+        ->excludes(scene)
+        ->excludes(paper);
     command
         ->add_option("--curves", arguments.curves,
                      "Of --paper: draw how times grow with lines and tolerance; default none")
@@ -162,6 +171,10 @@ void run_bench(const BenchArguments& arguments) {
     catch_ctrl_c();
     if (arguments.paper) {
         run_paper_tables(parse_settings(arguments.settings), arguments.json, arguments.curves);
+        return;
+    }
+    if (arguments.gpu) {
+        run_gpu_table(arguments.filter, parse_settings(arguments.settings), arguments.json);
         return;
     }
     if (arguments.scene.empty()) {

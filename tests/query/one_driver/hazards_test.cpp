@@ -73,7 +73,8 @@ protected:
     }
 
     /// Pairs found by the device. Several workgroups have the boxes of more than 64 instances.
-    void update_device_pairs(int count, bool records) {
+    template <class Query>
+    void update_device_pairs(int count, const Query& query) {
         Expected<World> world = World::create(*context_);
         ASSERT_TRUE(world.has_value()) << world.error().text();
         for (int i = 0; i < count; ++i) {
@@ -81,7 +82,7 @@ protected:
                                          .pose = {{0.5 * i, 0.0}, 0.1 * i}};
             ASSERT_TRUE(world->add(instance).has_value());
         }
-        DevicePairTable table(PenetrationQuery{.tolerance = 0.05, .records = records});
+        DevicePairTable<Query> table(query);
         const Status status = world->update(table);
         EXPECT_TRUE(status.ok()) << status.text();
         EXPECT_GT(table.size(), 0U);
@@ -146,12 +147,15 @@ TEST_F(Hazards, AreInNoQueryThatIsAlone) {
 }
 
 TEST_F(Hazards, AreInNoUpdateOfDevicePairs) {
+    constexpr PenetrationQuery without_records{.tolerance = 0.05, .records = false};
     for (const int count : {3, 100}) {
-        update_device_pairs(count, false);
+        update_device_pairs(count, without_records);
     }
     EXPECT_EQ(find_hazards(BufferAccesses::recordings()), std::vector<std::string>{});
-    update_device_pairs(3, true);
-    update_device_pairs(100, true);
+    for (const int count : {3, 100}) {
+        update_device_pairs(count, PenetrationQuery{.tolerance = 0.05});
+        update_device_pairs(count, IntersectionTestQuery{});
+    }
     check();
 }
 

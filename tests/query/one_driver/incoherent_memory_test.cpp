@@ -25,7 +25,7 @@ protected:
         std::vector<double> numbers;
         Expected<World> world = World::create(*context);
         EXPECT_TRUE(world.has_value()) << world.error().text();
-        DevicePairTable table({.tolerance = 0.05});
+        DevicePairTable<PenetrationQuery> table({.tolerance = 0.05});
         for (int i = 0; i < 2; ++i) {
             add_pairs(*world, {a, b}, table, numbers);
             Results results;
@@ -40,7 +40,7 @@ protected:
 
     /// The rows and records of all pairs, after more instances were added.
     static void add_pairs(World& world, const std::vector<ShapeHandle>& shapes,
-                          DevicePairTable& table, std::vector<double>& numbers) {
+                          DevicePairTable<PenetrationQuery>& table, std::vector<double>& numbers) {
         for (const ShapeHandle shape : shapes) {
             const auto x = static_cast<double>(world.size());
             const Pose pose{{0.5 * x, 0.0}, x};

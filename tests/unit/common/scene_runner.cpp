@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tools/common/scene_runner.hpp>
 
+#include <cstddef>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,6 +58,29 @@ TEST(SceneRunner, ChangesEveryPoseWhereShapesStay) {
     }
     static_cast<void>(runner.run_frame(FrameInput::all));
     EXPECT_EQ(points_b(runner), given);
+}
+
+TEST(SceneRunner, FindsThePairsOfThePosesThatAFrameHas) {
+    // The left square moves by more units in the last place than the right one, towards it. Of
+    // some gap between them, which depends on the roundings of boxes, nothing is left then.
+    constexpr int gaps = 64;
+    int found = 0;
+    for (int gap = 0; gap < gaps; ++gap) {
+        Scene scene = two_squares();
+        scene.queries.front() = scene.queries.back();
+        scene.queries.pop_back();
+        scene.queries.front().reach = 0.0;
+        scene.instances[0].pose.translation.x = -2.0;
+        scene.instances[1].pose.translation.x = -1.0 + gap * 0x1p-53;
+        Context context = std::move(*Context::create_cpu());
+        SceneRunner runner(scene, "two squares", context);
+        static_cast<void>(runner.run_frame(FrameInput::all));
+        const std::size_t given = runner.pair_count();
+        static_cast<void>(runner.run_frame(FrameInput::poses));
+        found += runner.pair_count() > given ? 1 : 0;
+    }
+    EXPECT_GT(found, 0);
+    EXPECT_LT(found, gaps);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(GraphPrint, MentionsEveryPassAndResource) {
         const Expected<BakedGraph> baked = bake(graph);
         ASSERT_TRUE(baked.has_value()) << baked.error().text();
         const std::string text = print_text(graph, *baked);
-        const std::string dot = print_graphviz(graph, *baked);
+        const std::string dot = print_graphviz(graph, *baked, "all");
         for (std::size_t i = 0; i < baked->passes.size(); ++i) {
             const std::string name =
                 std::to_string(i) + ". " + graph.passes()[baked->passes[i].pass].name;
@@ -108,7 +108,7 @@ TEST(GraphPrint, SaysWhatWasBaked) {
               "sampled+color-attachment\n"
               "     buffer records: read by the host, passes 1 to 1\n"
               "     image spare: R8_UNORM, 16 x 16, unused\n");
-    const std::string dot = print_graphviz(graph, *baked);
+    const std::string dot = print_graphviz(graph, *baked, "all");
     EXPECT_TRUE(contains(dot, "resource_0_0 [shape=ellipse, style=dotted")) << dot;
     EXPECT_TRUE(contains(dot, "pass_0 -> resource_0_1 [label=\"color_attachment\"]")) << dot;
     EXPECT_TRUE(contains(dot, "resource_0_1 -> pass_1 [label=\"sampled_in_compute\"]")) << dot;
@@ -121,7 +121,7 @@ TEST(GraphPrint, EscapesNames) {
              {writes(image, Access::color_attachment)});
     const Expected<BakedGraph> baked = bake(graph);
     ASSERT_TRUE(baked.has_value()) << baked.error().text();
-    const std::string dot = print_graphviz(graph, *baked);
+    const std::string dot = print_graphviz(graph, *baked, "all");
     expect_well_formed(dot);
     EXPECT_TRUE(contains(dot, R"(the \"sign\" \\)")) << dot;
     EXPECT_TRUE(contains(dot, R"(fill\n\"all\" })")) << dot;

@@ -35,7 +35,7 @@ public:
           chunks_(units_[first][0]),
           edges_(units_[first][2]),
           infos_(units_[first][3]),
-          low_(infos_ / 4 + 2 * ((chunks_ + 3) / 4)) {}
+          low_(units_[first + unit_of_rings][1] / 4 + (units_[first + unit_of_rings][0] + 3) / 4) {}
 
     [[nodiscard]] std::uint32_t chunks() const { return chunks_; }
     [[nodiscard]] std::uint32_t info(std::uint32_t chunk) const {

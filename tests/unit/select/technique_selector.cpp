@@ -101,6 +101,14 @@ TEST_F(ChooserTest, PaysForASubmissionOnlyWhereItIsWorthIt) {
     EXPECT_EQ(technique_of(choose(costs(), {payer, penetration(0.5)})[1]), Technique::raster);
 }
 
+TEST_F(ChooserTest, WhatADeviceWouldLoseOnOneQueryKeepsNoOtherFromIt) {
+    CostModel costs = ChooserTest::costs();
+    costs.raster.field = costs.compute.field = {1e9, 0.0, 0.0};
+    const std::vector<AnyQuery> chosen = choose(costs, {penetration(0.0001), field(0.5)});
+    EXPECT_EQ(technique_of(chosen[0]), Technique::raster);
+    EXPECT_EQ(technique_of(chosen[1]), Technique::cpu);
+}
+
 TEST_F(ChooserTest, EquallyFastTechniquesAreTakenInTheirOrder) {
     CostModel costs = ChooserTest::costs();
     costs.raster.submission = costs.compute.submission = 0.0;

@@ -1,0 +1,37 @@
+#include <passes/pair_shaders.hpp>
+
+#include <shaders/pair_boxes_comp.hpp>
+#include <shaders/pair_crossings_comp.hpp>
+#include <shaders/pair_directions_comp.hpp>
+#include <shaders/pair_levels_comp.hpp>
+#include <shaders/pair_lists_comp.hpp>
+#include <shaders/pair_rows_comp.hpp>
+#include <shaders/pair_summaries_comp.hpp>
+#include <shaders/pair_verdicts_comp.hpp>
+
+namespace nearfield::passes {
+namespace {
+
+ComputeShader make_pair_shader(const gpu::Device& device, const ComputeLayout& layout,
+                               gpu::Spirv code, const char* name) {
+    return {device, layout, code, name, search_constants(device, true)};
+}
+
+}  // namespace
+
+PairShaders::PairShaders(const gpu::Device& device, const ComputeLayout& layout)
+    : search(device, layout, true, "nearfield pair"),
+      boxes(make_pair_shader(device, layout, shaders::pair_boxes_comp, "nearfield pair boxes")),
+      levels(make_pair_shader(device, layout, shaders::pair_levels_comp, "nearfield pair levels")),
+      lists(make_pair_shader(device, layout, shaders::pair_lists_comp, "nearfield pair lists")),
+      directions(make_pair_shader(device, layout, shaders::pair_directions_comp,
+                                  "nearfield pair directions")),
+      summaries(make_pair_shader(device, layout, shaders::pair_summaries_comp,
+                                 "nearfield pair summaries")),
+      crossings(make_pair_shader(device, layout, shaders::pair_crossings_comp,
+                                 "nearfield pair crossings")),
+      verdicts(
+          make_pair_shader(device, layout, shaders::pair_verdicts_comp, "nearfield pair verdicts")),
+      rows(make_pair_shader(device, layout, shaders::pair_rows_comp, "nearfield pair rows")) {}
+
+}  // namespace nearfield::passes

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/plan/pair_question.hpp>
+#include <passes/search_shaders.hpp>
+
+namespace nearfield::passes {
+
+/// The shaders of all searches between the pairs of a world's instances (PairSearch).
+struct PairShaders {
+    PairShaders(const gpu::Device& device, const ComputeLayout& layout);
+
+    SearchShaders search;
+    ComputeShader boxes;
+    ComputeShader levels;
+    ComputeShader lists;
+    ComputeShader directions;
+    ComputeShader summaries;
+    ComputeShader crossings;
+    ComputeShader verdicts;
+    ComputeShader rows;
+};
+
+}  // namespace nearfield::passes

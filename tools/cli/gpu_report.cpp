@@ -1,0 +1,154 @@
+#include <tools/cli/gpu_report.hpp>
+#include <tools/io/answer.hpp>
+#include <tools/io/json_writer.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace nearfield::tools {
+namespace {
+
+std::string digits(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, number < 1000.0 ? "%.3g" : "%.0f", number);
+    return text;
+}
+
+std::string cell(const GpuTime& time) {
+    if (time.frames == 0) {
+        return "-";
+    }
+    return digits(time.frame) + "; " + digits(time.cpu) + "; " +
+           (time.device ? digits(*time.device) : "-");
+}
+
+void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {
+    const auto of_kind = [of_pairs](const GpuRow& row) { return row.has_pairs == of_pairs; };
+    const auto first = std::find_if(rows.begin(), rows.end(), of_kind);
+    if (first == rows.end()) {
+        return;
+    }
+    stream << (of_pairs ? "\n| row | ordered pairs | points" : "\n| row | cells");
+    std::string rule = of_pairs ? "\n|---|---|---|" : "\n|---|---|";
+    for (const GpuTime& time : first->times) {
+        stream << " | " << time.way;
+        rule += "---|";
+    }
+    stream << " |" << rule << '\n';
+    for (const GpuRow& row : rows) {
+        if (!of_kind(row)) {
+            continue;
+        }
+        stream << "| " << row.name << " | " << row.size;
+        if (of_pairs) {
+            stream << " | " << row.found;
+        }
+        for (const GpuTime& time : row.times) {
+            stream << " | " << cell(time);
+        }
+        stream << " |\n";
+    }
+}
+
+/// The first row from which on a way takes less time than `cpu` in each; null if it does in none.
+const GpuRow* crossover(std::span<const GpuRow> rows, bool of_pairs, std::size_t way) {
+    const GpuRow* from = nullptr;
+    for (const GpuRow& row : rows) {
+        if (row.has_pairs != of_pairs || row.times[way].frames == 0) {
+            continue;
+        }
+        const bool is_faster = row.times[way].frame < row.times.front().frame;
+        from = is_faster ? (from != nullptr ? from : &row) : nullptr;
+    }
+    return from;
+}
+
+void write_crossovers(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {
+    const auto first = std::find_if(rows.begin(), rows.end(), [of_pairs](const GpuRow& row) {
+        return row.has_pairs == of_pairs;
+    });
+    if (first == rows.end()) {
+        return;
+    }
+    stream << '\n';
+    for (std::size_t way = 1; way < first->times.size(); ++way) {
+        const GpuRow* const from = crossover(rows, of_pairs, way);
+        stream << "* " << first->times[way].way << ": "
+               << (from != nullptr ? "faster than cpu from " + from->name + " on"
+                                   : "not faster than cpu in the largest row measured")
+               << '\n';
+    }
+}
+
+void write_time(JsonWriter& json, const GpuTime& time) {
+    json.key(time.way);
+    if (time.frames == 0) {
+        json.null();
+        return;
+    }
+    json.begin_object();
+    json.key("frames").value(std::uint64_t{time.frames});
+    json.key("median_ms").value(time.frame);
+    json.key("cpu_ms").value(time.cpu);
+    json.key("device_ms");
+    if (time.device) {
+        json.value(*time.device);
+    } else {
+        json.null();
+    }
+    json.end_object();
+}
+
+}  // namespace
+
+void write_gpu_tables(std::ostream& stream, std::span<const GpuRow> rows,
+                      const Surroundings& surroundings) {
+    const benchmark::Machine& machine = surroundings.machine;
+    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
+           << machine.cores << " cores; " << device_text(surroundings.device) << " ("
+           << surroundings.driver << ")\n\n"
+           << "Medians, milliseconds: a whole frame; of it processor time of the calling thread; "
+              "passes on the device, by timestamps.\n"
+           << "Crowds: penetration of boundary samples, summaries, all objects move. `device "
+              "pairs`: the rows stay unread; `read`: each is read.\n"
+           << "Fields: values at the cells around a coast line of 8,000 vertices, read back. `-`: "
+              "left out, since a smaller row took more than two seconds.\n";
+    for (const bool of_pairs : {true, false}) {
+        write_table(stream, rows, of_pairs);
+        write_crossovers(stream, rows, of_pairs);
+    }
+}
+
+void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,
+                    const Surroundings& surroundings) {
+    JsonWriter json(stream);
+    json.begin_object(JsonWriter::Layout::lines);
+    json.key("commit").value(std::string_view(surroundings.machine.commit));
+    json.key("date").value(std::string_view(surroundings.machine.date));
+    json.key("processor").value(std::string_view(surroundings.machine.processor));
+    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
+    json.key("device").value_or_null(surroundings.device);
+    json.key("driver").value(std::string_view(surroundings.driver));
+    json.key("rows").begin_array(JsonWriter::Layout::lines);
+    for (const GpuRow& row : rows) {
+        json.begin_object(JsonWriter::Layout::lines);
+        json.key("name").value(std::string_view(row.name));
+        json.key(row.has_pairs ? "pairs" : "cells").value(row.size);
+        if (row.has_pairs) {
+            json.key("points").value(row.found);
+        }
+        json.key("times").begin_object(JsonWriter::Layout::lines);
+        for (const GpuTime& time : row.times) {
+            write_time(json, time);
+        }
+        json.end_object();
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+    stream << '\n';
+}
+
+}  // namespace nearfield::tools
