@@ -1,5 +1,6 @@
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/render/compute_buffers.hpp>
+#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -64,14 +65,8 @@ void ComputeBuffers::upload(const plan::TileBatch& batch) {
 void ComputeBuffers::upload_fields(const plan::FieldWork& work) {
     const auto shapes = std::as_bytes(work.shapes->units());
     field_bytes_ = shapes.size() + bytes_of(work.tiles) + bytes_of(work.points);
-    bool is_new = false;
-    // Where making either of the two failed before, there is no view.
-    if (!texels_ || field_bytes_ > fields_.capacity()) {
-        texels_.reset();
-        fields_.reserve(field_bytes_);
-        texels_ = gpu::make_texel_view(*device_, fields_, "nearfield field texels");
-        is_new = true;
-    }
+    const bool is_new =
+        reserve_with_texels(*device_, fields_, texels_, field_bytes_, "nearfield field texels");
     if (is_new || work.shapes->revision() != revision_) {
         std::copy(shapes.begin(), shapes.end(), fields_.data());
         revision_ = work.shapes->revision();
@@ -128,7 +123,7 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Til
             write(set, Layout::shapes, {fields_.handle(), 0, field_bytes_});
             write(set, Layout::scratch_of_fields, scratch);
             write(set, Layout::output, output.field);
-            layout.write_texels(set, texels_.get());
+            layout.write_texels(set, Layout::texels, texels_.get());
         };
         write_fields(sets.fields);
         write(sets.fields, Layout::crowd, {crowd_.handle(), 0, smallest_part});
