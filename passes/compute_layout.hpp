@@ -25,9 +25,10 @@ public:
         kept_hits = geometry,         ///< collect passes that read images
         work = tiles,                 ///< mask passes (plan::ComputeWork)
         scratch_of_masks = geometry,  ///< the compute technique's scratch memory
-        blocks = tiles,               ///< field passes of the compute technique
-        segments = geometry,
-        scratch_of_blocks = points,
+        shapes = tiles,               ///< fields of the compute technique
+        scratch_of_fields = geometry,
+        crowd = points,
+        long_searches = points,
         // Export passes (resident outputs):
         words = tiles,
         tables = geometry,

@@ -30,8 +30,8 @@ constexpr std::array<const char*, 6 + plan::sign_encodings + intersection_strate
                         "nearfield collect set, logic op",
                         "nearfield collect set, depth",
                         "nearfield masks set",
-                        "nearfield blocks set",
-                        "nearfield feature blocks set",
+                        "nearfield fields set",
+                        "nearfield places of fields set",
                         "nearfield points by lists set"};
 
 }  // namespace
@@ -64,8 +64,8 @@ ComputeSets::ComputeSets(const gpu::Device& device, const ComputeLayout& layout)
         samples = all_[next++];
     }
     sets_.masks = all_[next++];
-    sets_.blocks = all_[next++];
-    sets_.feature_blocks = all_[next++];
+    sets_.fields = all_[next++];
+    sets_.places = all_[next++];
     sets_.points_by_lists = all_[next++];
 }
 

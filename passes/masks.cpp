@@ -37,12 +37,19 @@ void Masks::record_clear(VkCommandBuffer commands, const RecordContext& context)
     };
     fill(0, work.mask_words, 0);
     fill(work.mask_words, work.run_words, UINT32_MAX);
+    if (!work.fields.tiles.empty()) {
+        fill(work.field_lists().crowd - std::uint64_t{1}, 1, 0);
+    }
+}
+
+graph::Handle Masks::declare_marks(TileGraph& graph, graph::Handle input,
+                                   graph::Handle scratch) const {
+    return graph.add_compute_pass("mark edges", {{input, Access::storage_read_in_compute}}, scratch,
+                                  std::bind_front(&Masks::record_edges, this));
 }
 
 graph::Handle Masks::declare_fill(TileGraph& graph, graph::Handle input,
                                   graph::Handle scratch) const {
-    scratch = graph.add_compute_pass("mark edges", {{input, Access::storage_read_in_compute}},
-                                     scratch, std::bind_front(&Masks::record_edges, this));
     return graph.add_compute_pass("fill rows", {{input, Access::storage_read_in_compute}}, scratch,
                                   std::bind_front(&Masks::record_rows, this));
 }

@@ -20,7 +20,10 @@ public:
     /// each other in a command buffer or in a queue. Like all functions below, it returns the new
     /// version of its output.
     [[nodiscard]] graph::Handle declare_clear(TileGraph& graph, graph::Handle scratch) const;
-    /// Adds the passes that mark edges, then fill rows.
+    /// Adds the pass that marks edges of the input.
+    [[nodiscard]] graph::Handle declare_marks(TileGraph& graph, graph::Handle input,
+                                              graph::Handle scratch) const;
+    /// Adds the pass that fills rows, once all edges are marked.
     [[nodiscard]] graph::Handle declare_fill(TileGraph& graph, graph::Handle input,
                                              graph::Handle scratch) const;
     /// A's come after all of B's masks: samples of A's boundary count only where those are set.

@@ -17,10 +17,6 @@ NEARFIELD_SHARED_BEGIN
 const uint block_side = 16u;
 const uint columns_per_thread = 2u;
 const uint threads_per_block = block_side / columns_per_thread;
-// Segments that a thread considers in a turn of its loop. Some drivers end the loops of a shader
-// after 65,535 turns, without notice.
-const uint segments_per_turn = 4u;
-const uint max_block_segments = segments_per_turn * 65000u;
 
 // Position and size of a mask.
 struct MaskData {
@@ -88,26 +84,6 @@ struct OverlapRowData {
 };
 const uint words_of_overlap_row = 2u;
 NEARFIELD_CHECK(sizeof(OverlapRowData) == 4 * words_of_overlap_row)
-
-// An edge that can be nearest in a block, in cells relative to the block's low corner.
-struct SegmentData {
-    vec2 middle;
-    vec2 half_way;  // from the middle to an end
-};
-NEARFIELD_CHECK(sizeof(SegmentData) == 16)
-
-// A block of cells whose distances are requested.
-struct BlockData {
-    uint first_segment NEARFIELD_DEFAULT(0);  // in ComputeWork::segments
-    uint segments NEARFIELD_DEFAULT(0);
-    uint size NEARFIELD_DEFAULT(0);        // width | height << 16
-    uint tile_width NEARFIELD_DEFAULT(0);  // from row to row in the results, in words
-    uint value NEARFIELD_DEFAULT(0);       // where its low cell's value goes in the field's results
-    uint sign NEARFIELD_DEFAULT(0);  // where the signs of its lowest row lie in the scratch memory
-    uint first_sign NEARFIELD_DEFAULT(0);     // its low cell's bit in that word
-    uint words_per_row NEARFIELD_DEFAULT(0);  // from row to row of signs
-};
-NEARFIELD_CHECK(sizeof(BlockData) == 32)
 
 NEARFIELD_SHARED_END
 

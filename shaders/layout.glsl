@@ -21,7 +21,7 @@ TileData tile_at(uint index) {
     uvec4 c = tile_words[4u * index + 2u];
     uvec4 d = tile_words[4u * index + 3u];
     return TileData(a.x, a.y, a.z, a.w, EdgeListData(b.x, b.y, b.z), EdgeListData(b.w, c.x, c.y),
-                    uintBitsToFloat(c.z), uintBitsToFloat(c.w), d.x, d.y, d.z, d.w);
+                    uintBitsToFloat(c.z), uintBitsToFloat(c.w), d.x, uint[3](0u, 0u, 0u));
 }
 
 // The groups follow the tiles.

@@ -31,9 +31,8 @@ struct EdgeListData {
 const uint not_asked = 0xffffffffu;
 
 struct TileData {
-    // For a block of a tile (ComputeWork): its column in that tile
     uint atlas_x NEARFIELD_DEFAULT(0);
-    uint atlas_y NEARFIELD_DEFAULT(0);  // and its row
+    uint atlas_y NEARFIELD_DEFAULT(0);
     uint width NEARFIELD_DEFAULT(0);
     uint height NEARFIELD_DEFAULT(0);
     EdgeListData nearest;   // every edge that can be nearest to a needed sample
@@ -42,11 +41,7 @@ struct TileData {
     float settled NEARFIELD_DEFAULT(0.0F);
     float margin NEARFIELD_DEFAULT(0.0F);  // two distances that differ by less count as equal
     uint outside NEARFIELD_DEFAULT(0);     // 1: points outside B are resolved as well
-    // For a block of a field tile only:
-    uint tile_width NEARFIELD_DEFAULT(0);  // of that tile, in cells
-    uint mask NEARFIELD_DEFAULT(0);  // where its fill mask starts, in words of the scratch memory
-    // Where its features start in the field's results
-    uint first_feature NEARFIELD_DEFAULT(not_asked);
+    uint unused[3] NEARFIELD_DEFAULT({});
 };
 NEARFIELD_CHECK(sizeof(TileData) == 64)
 

@@ -25,12 +25,6 @@ bool are_on_two_sides(vec2 areas, float limit) {
     return min(areas.x, areas.y) < -limit && max(areas.x, areas.y) > limit;
 }
 
-vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
-    vec2 d = b - a;
-    float squared = dot(d, d);
-    return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
-}
-
 // The least distance of an end of either segment from the other.
 float distance_of_ends(vec2 a, vec2 b, vec4 edge) {
     float of_edge = min(distance(edge.xy, nearest_on_segment(edge.xy, a, b)),

@@ -70,15 +70,25 @@ struct MaskPolygonsPush {
     uint bits_of;  // bits of sub-pixel precision; plus polygons_of_a: the polygons are A's
 };
 
-struct ResolveBlocksPush {
-    uint first;  // thread
-    uint end;
-};
-
-struct ResolveFeaturesPush {
+// Of all passes over fields whose lists the device makes (fields.h).
+struct FieldPush {
     uint first;
     uint end;
+    uint tiles;  // first unit in the input
+    uint tile_count;
+    uint regions;   // first words of their lists in the scratch memory
+    uint quarters;
+    uint blocks;    // first word of what tells where their segments are
+    uint segments;  // first unit
+    uint room;      // for how many; the word before `crowd` counts how many would be needed
+    uint numbers;   // first word of the numbers of their edges
+    uint crowd;     // first word of the numbers of crowded blocks
     uint resident;  // 1: features are resident and flag nearest vertices
+    // Of points of one field:
+    uint points;      // first unit of the first one in the input
+    uint first_word;  // of its results
+    uint words_per_point;
+    uint cells_per_point;
 };
 
 struct ResolveFieldPush {
@@ -95,16 +105,6 @@ struct ResolveFieldPointsPush {
     uint origin;
     uint words_per_point;  // plan::FieldParts
     uint cells_per_point;  // 4, or 12 for central differences
-};
-
-struct ResolveFieldPointsByListsPush {
-    uint first;
-    uint end;
-    uint points;      // where they start in the geometry array; even
-    uint first_word;  // as above
-    uint origin;
-    uint words_per_point;
-    uint cells_per_point;
 };
 
 struct ResolvePointsPush {

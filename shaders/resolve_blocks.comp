@@ -1,5 +1,4 @@
 #version 450
-#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 
 // The signed distance at every cell of a field (section 2.2.2 of the paper), from the segments that
@@ -10,26 +9,19 @@
 // along the segment and one across it. The distance is the one across, combined beyond an end with
 // the distance along to that end. Both coordinates change by constant steps from row to row.
 
-#include "compute_work.h"
-#include "layout.h"
-#include "push.h"
+#include "fields.glsl"
 
 layout(local_size_x = group_size) in;
 
-layout(std430, set = 0, binding = 0) readonly buffer Blocks {
-    uvec4 blocks[];  // two per BlockData
-};
-layout(std430, set = 0, binding = 1) readonly buffer Segments {
-    vec4 segments[];  // one per SegmentData
-};
-layout(std430, set = 0, binding = 2) readonly buffer Scratch {
+layout(std430, set = 0, binding = 1) readonly buffer Scratch {
     uint scratch[];
+};
+layout(std430, set = 0, binding = 1) readonly buffer ScratchUnits {
+    uvec4 scratch_units[];  // the same memory
 };
 layout(std430, set = 0, binding = 3) writeonly buffer Field {
     uint words[];
 } field;
-
-layout(push_constant) uniform Push { ResolveBlocksPush push; };
 
 const float columns_apart = float(threads_per_block);
 const vec4 rows = vec4(0.0, 1.0, 2.0, 3.0);
@@ -68,7 +60,7 @@ void consider(vec2 from_middle, vec2 way, float half_length, inout Column column
 
 // Updates two columns, the first of which begins at a cell.
 void consider_segment(uint index, vec2 cell, inout Column left, inout Column right) {
-    vec4 segment = segments[index];
+    vec4 segment = uintBitsToFloat(scratch_units[index]);
     float squared = dot(segment.zw, segment.zw);
     float inverse = squared > 0.0 ? inversesqrt(squared) : 0.0;
     // For a segment of length 0 any direction is valid.
@@ -78,25 +70,29 @@ void consider_segment(uint index, vec2 cell, inout Column left, inout Column rig
     consider(from_middle + vec2(columns_apart, 0.0), way, squared * inverse, right);
 }
 
-BlockData block_at(uint index) {
-    uvec4 a = blocks[2u * index];
-    uvec4 b = blocks[2u * index + 1u];
-    return BlockData(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
-}
-
 void write(uint word, uint squared, bool inside) {
     float value = sqrt(uintBitsToFloat(squared));
     field.words[word] = floatBitsToUint(inside ? -value : value);
 }
 
-void write_rows(BlockData block, uvec2 size, uint row, uint x, uvec4 left, uvec4 right) {
+// Where the values and the signs of a block's lowest row go and lie, and the bit of its low cell.
+struct Rows {
+    uint value;
+    uint stride;
+    uint sign;
+    uint first_sign;
+    uint words_per_row;
+    uvec2 size;
+};
+
+void write_rows(Rows block, uint row, uint x, uvec4 left, uvec4 right) {
     uint beside = x + threads_per_block;
     for (uint i = 0u; i < 4u; ++i) {
-        if (row + i < size.y) {
+        if (row + i < block.size.y) {
             uint signs = scratch[block.sign + (row + i) * block.words_per_row] >> block.first_sign;
-            uint word = block.value + (row + i) * block.tile_width + x;
+            uint word = block.value + (row + i) * block.stride + x;
             write(word, left[i], (signs >> x & 1u) != 0u);
-            if (beside < size.x) {
+            if (beside < block.size.x) {
                 write(word + threads_per_block, right[i], (signs >> beside & 1u) != 0u);
             }
         }
@@ -108,25 +104,29 @@ void main() {
     if (index >= push.end) {
         return;
     }
-    BlockData block = block_at(index / threads_per_block);
+    uint number = index / threads_per_block;
     uint x = index % threads_per_block;
-    uvec2 size = unpacked(block.size);
-    if (x >= size.x) {
+    FieldTileData tile = tile_at(tile_of(number, by_block));
+    uvec2 low = block_side * place_of(tile, number - tile.first_block, block_side);
+    uvec2 tile_size = unpacked(tile.size);
+    uvec2 size = min(tile_size - low, uvec2(block_side));
+    uint first = push.segments + scratch[push.blocks + 2u * number];
+    uint count = scratch[push.blocks + 2u * number + 1u];
+    if (tile.first_value == not_asked || x >= size.x || count == crowded) {
         return;
     }
     Column left = nothing_near;
     Column right = nothing_near;
     vec2 cell = vec2(float(x) + 0.5, 0.5);
-    uint end = block.first_segment + block.segments;
-    for (uint i = block.first_segment; i < end; i += segments_per_turn) {
-        [[unroll]] for (uint k = 0u; k < segments_per_turn; ++k) {
-            if (i + k < end) {
-                consider_segment(i + k, cell, left, right);
-            }
-        }
+    for (uint i = 0u; i < count; ++i) {
+        consider_segment(first + i, cell, left, right);
     }
-    write_rows(block, size, 0u, x, left.rows_0, right.rows_0);
-    write_rows(block, size, 4u, x, left.rows_4, right.rows_4);
-    write_rows(block, size, 8u, x, left.rows_8, right.rows_8);
-    write_rows(block, size, 12u, x, left.rows_12, right.rows_12);
+    uint words_per_row = (tile_size.x + 31u) / 32u;
+    Rows block = Rows(tile.first_value + low.y * tile_size.x + low.x, tile_size.x,
+                      tile.mask + low.y * words_per_row + low.x / 32u, low.x % 32u, words_per_row,
+                      size);
+    write_rows(block, 0u, x, left.rows_0, right.rows_0);
+    write_rows(block, 4u, x, left.rows_4, right.rows_4);
+    write_rows(block, 8u, x, left.rows_8, right.rows_8);
+    write_rows(block, 12u, x, left.rows_12, right.rows_12);
 }

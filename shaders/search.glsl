@@ -1,15 +1,9 @@
-// The search for boundary points (search.h): access to its input, and walks over a shape's boxes.
-// All positions and lengths are in B's frame, relative to its centre, in its units.
+// The search for boundary points (search.h): access to its input. All positions and lengths are in
+// B's frame, relative to its centre, in its units.
 
 #include "push.h"
-#include "search.h"
+#include "shapes.glsl"
 
-layout(std430, set = 0, binding = 0) readonly buffer Input {
-    uvec4 units[];
-};
-layout(set = 0, binding = 8) uniform usamplerBuffer texels;  // the same memory
-// Some devices read texels several times as fast, and others allow too few.
-layout(constant_id = 0) const bool reads_texels = false;
 // Directions, and how many items there are, are in the scratch memory (pairs.h).
 layout(constant_id = 1) const bool finds_pairs = false;
 
@@ -25,20 +19,6 @@ layout(push_constant) uniform Push { SearchPush push; };
 
 // Beside the direction of a thread's first point, from this bit on: the points found before it.
 const uint local_shift = 24u;
-const float infinity = 1.0 / 0.0;
-
-// The parts of the input.
-uvec4 unit_at(uint unit) {
-    return reads_texels ? texelFetch(texels, int(unit)) : units[unit];
-}
-
-vec4 floats_at(uint unit) {
-    return uintBitsToFloat(unit_at(unit));
-}
-
-uint word_at(uint word) {
-    return unit_at(word >> 2)[word & 3u];
-}
 
 // The parts of the scratch memory that earlier dispatches have written.
 uvec4 scratch_unit(uint unit) {
@@ -114,38 +94,6 @@ uint direction_of(uint item) {
     return low;
 }
 
-struct Shape {
-    uint chunks;
-    uint levels;
-    uint edges;  // first unit
-    uint infos;  // first word
-    uint first_boxes;  // first word: of each level, its first unit
-};
-
-Shape shape_at(uint unit) {
-    uvec4 head = unit_at(unit);
-    return Shape(head.x, head.y, head.z, head.w, 4u * (unit + unit_of_first_boxes));
-}
-
-vec4 box_of_shape(uint unit) {
-    return floats_at(unit + unit_of_box);
-}
-
-// The chunk at a place along the rings of the shape.
-uint chunk_along_rings(Shape shape, uint place) {
-    return word_at(shape.infos + 4u * ((shape.chunks + 3u) / 4u) + place);
-}
-
-// The end of the slots of a chunk's edges.
-uint edges_end(Shape shape, uint chunk) {
-    return chunk_size * chunk + (word_at(shape.infos + chunk) & 15u);
-}
-
-// The number of the edge in a slot.
-uint number_of(Shape shape, uint slot) {
-    return (word_at(shape.infos + slot / chunk_size) >> 4) + slot % chunk_size;
-}
-
 uint parts_of(SearchDirectionData direction, uint edge) {
     return direction.parts == no_parts ? 1u : word_at(direction.parts + edge);
 }
@@ -177,15 +125,6 @@ uint points_before(uint edge) {
            scratch_unit(push.edge_units + units_of_edge * edge).w;
 }
 
-// A walk over the boxes of a shape from the top level to chunks, depth first: groups of boxes are
-// entered, and the chunks of a group are looked at together, since some devices execute the body of a
-// condition for none of the threads too.
-struct Walk {
-    uint level;
-    uint group;     // the boxes of this level that were entered last are 8 * group, ...
-    uvec2 pending;  // boxes still to be visited: eight bits per level
-};
-
 // The steps of one walk, which are its groups and chunks, each of which takes up to nine turns of
 // loops. Some drivers end the loops of
 // an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
@@ -193,62 +132,3 @@ struct Walk {
 // longer walk would find is left to the CPU, which takes less time than long walks where boxes do
 // not tell the edges apart.
 const uint max_steps = 256u;
-
-// The boxes of a walk's group.
-struct Group {
-    uint first;  // unit
-    uint count;
-};
-
-Group group_of(Shape shape, uint level, uint group) {
-    uint boxes = (shape.chunks + (1u << (3u * level)) - 1u) >> (3u * level);
-    return Group(word_at(shape.first_boxes + level) + chunk_size * group,
-                 min(boxes - chunk_size * group, chunk_size));
-}
-
-Walk start_walk(Shape shape) {
-    return Walk(shape.levels - 1u, 0u, uvec2(0u));
-}
-
-// Marks boxes of the walk's group, one bit each, as ones to be visited.
-void add_boxes(inout Walk walk, uint boxes) {
-    uint bits = boxes << (chunk_size * (walk.level & 3u));
-    walk.pending |= walk.level < 4u ? uvec2(bits, 0u) : uvec2(0u, bits);
-}
-
-// The marked chunks of the walk's group, one bit each, which then need no visit. The first one of the
-// group has the number chunk_size * walk.group.
-uint take_chunks(inout Walk walk) {
-    uint chunks = walk.level == 0u ? walk.pending.x & ((1u << chunk_size) - 1u) : 0u;
-    walk.pending.x ^= chunks;
-    return chunks;
-}
-
-// Takes the lowest bit, and returns its number.
-uint take_bit(inout uint bits) {
-    uint bit = findLSB(bits);
-    bits &= bits - 1u;
-    return bit;
-}
-
-// Goes to the next box to visit, on the lowest level that has one, and says which it is; false at
-// the end of the walk.
-bool next_box(inout Walk walk, out uint box) {
-    bool upper = walk.pending.x == 0u;
-    uint word = upper ? walk.pending.y : walk.pending.x;
-    if (word == 0u) {
-        return false;
-    }
-    uint bit = findLSB(word);
-    walk.pending &= upper ? uvec2(0u, word - 1u) : uvec2(word - 1u, ~0u);
-    uint level = bit / chunk_size + (upper ? 4u : 0u);
-    walk.group >>= 3u * (level - walk.level);
-    walk.level = level;
-    box = chunk_size * walk.group + bit % chunk_size;
-    return true;
-}
-
-void descend(inout Walk walk, uint box) {
-    walk.group = box;
-    --walk.level;
-}

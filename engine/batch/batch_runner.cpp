@@ -324,6 +324,9 @@ void BatchRunner::decode(std::uint32_t number) {
     std::vector<AnyResult>& results = results_.results;
     decoder_.add_points(batch, slot_->points(number));
     decoder_.add_field(plan_, batch, slot_->field_words(number), results);
+    if (slot_->tile_batch(number).had_long_searches) {
+        decoder_.refuse_fields(plan_, batch);
+    }
     results::ResultDecoder::add_summaries(plan_, batch, slot_->summaries(number), results);
     decoder_.add_samples(plan_, batch, slot_->samples(number));
 }

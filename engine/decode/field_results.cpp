@@ -164,6 +164,12 @@ void FieldDecoder::add_point(const plan::PlannedQuery& planned, const Tile& tile
     }
 }
 
+void FieldDecoder::refuse(const plan::Plan& plan, const plan::TileBatch& batch) {
+    for (const plan::FieldTile& field : batch.field_tiles) {
+        refused_.push_back(plan.tiles[batch.tile_index[field.tile]].query);
+    }
+}
+
 void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query,
                           DistanceFieldResult& result) const {
     const auto& asked = std::get<DistanceFieldQuery>(*planned.query);
@@ -182,6 +188,13 @@ void FieldDecoder::finish(const plan::PlannedQuery& planned, std::uint32_t query
         result.unique.clear();
         result.points.clear();
     };
+    if (std::find(refused_.begin(), refused_.end(), query) != refused_.end()) {
+        clear();
+        result.status = {StatusCode::too_large,
+                         "more edges are about equally near to a cell of the distance field than "
+                         "technique compute compares; ask for another technique"};
+        return;
+    }
     if (Status status = plan::check_distance(result.tolerance, result.error_bound, largest);
         !status.ok()) {
         clear();

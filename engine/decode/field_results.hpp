@@ -18,11 +18,17 @@ public:
     /// `gradient_format`: name of the format that gradients are blended in.
     explicit FieldDecoder(const char* gradient_format) : gradient_format_(gradient_format) {}
 
-    void begin_batch(const plan::Plan& plan) { largest_.assign(plan.queries.size(), 0.0F); }
+    void begin_batch(const plan::Plan& plan) {
+        largest_.assign(plan.queries.size(), 0.0F);
+        refused_.clear();
+    }
 
     /// Decodes the read-back of one tile batch.
     void add(const plan::Plan& plan, const plan::TileBatch& batch,
              std::span<const std::uint32_t> words, std::vector<AnyResult>& results);
+
+    /// The device did not answer all cells of the fields of a tile batch.
+    void refuse(const plan::Plan& plan, const plan::TileBatch& batch);
 
     /// Sets the largest magnitude of a value of a query that the CPU answered, in world units.
     void set_largest(std::uint32_t query, double largest) {
@@ -50,7 +56,8 @@ private:
     [[nodiscard]] float in_world(std::uint32_t word, const plan::Tile& tile);
 
     const char* gradient_format_;
-    std::vector<float> largest_;  // by query: largest magnitude of a value, world units
+    std::vector<float> largest_;          // by query: largest magnitude of a value, world units
+    std::vector<std::uint32_t> refused_;  // queries
 };
 
 }  // namespace nearfield::decode

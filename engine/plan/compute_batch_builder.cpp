@@ -1,5 +1,4 @@
 #include <engine/base/interruption.hpp>
-#include <engine/base/status_exception.hpp>
 #include <engine/geometry/fill_mesh.hpp>
 #include <engine/geometry/offset_mesh.hpp>
 #include <engine/plan/asked_points.hpp>
@@ -11,16 +10,12 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 namespace nearfield::plan {
 namespace {
 
 using geometry::TransformedPolygon;
 using geometry::Vector;
-
-// Reach of a point's reconstruction outside its block, in cells: a sample two cells away.
-constexpr double points_reach = 2.5 * std::numbers::sqrt2;
 
 constexpr double margin_in_cells = uniqueness_margin / std::numbers::sqrt2;
 
@@ -33,25 +28,10 @@ std::int32_t steps(double coordinate, const geometry::SubpixelGrid& grid) {
     return static_cast<std::int32_t>(coordinate * grid.steps);
 }
 
-void require_few(std::uint32_t segments) {
-    if (segments > max_block_segments) {
-        throw StatusException(
-            {StatusCode::too_large,
-             std::to_string(segments) +
-                 " edges can be nearest in one block of cells of a distance field; technique "
-                 "compute has room for " +
-                 std::to_string(max_block_segments)});
-    }
-}
-
 TileBoundary boundary_of(const PlannedQuery& query, const Tile& tile, SimplifiedShapes& shapes) {
     const double cell = tile.grid.cell;
     return {shapes.get(*query.b, query.budget.simplification, longest_tile_run * cell),
             ToCells(TransformedPolygon(*query.b, query.pose_b), tile.origin(), cell)};
-}
-
-EdgeListWriter::Entry words(std::uint32_t first, std::uint32_t second) {
-    return {std::bit_cast<float>(first), std::bit_cast<float>(second)};
 }
 
 std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
@@ -62,33 +42,13 @@ std::uint32_t add_mask(const Tile& tile, ComputeWork& work) {
     return static_cast<std::uint32_t>(work.masks.size() - 1);
 }
 
-/// A block of a tile, in cells.
-struct BlockPlace {
-    std::uint32_t column = 0;
-    std::uint32_t row = 0;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-};
-
-/// Visits the blocks row by row, as BlockEdges numbers them.
-template <class Visit>
-void for_blocks(const Tile& tile, Visit&& visit) {
-    for (std::uint32_t row = 0; row < tile.height; row += block_side) {
-        for (std::uint32_t column = 0; column < tile.width; column += block_side) {
-            visit(BlockPlace{column, row, std::min(block_side, tile.width - column),
-                             std::min(block_side, tile.height - row)});
-        }
+void add_rows(const MaskData& mask, ComputeWork& work) {
+    for (std::uint32_t row = 0; row < mask.height; ++row) {
+        work.rows.push_back({mask.first_word + row * mask.words_per_row, mask.words_per_row});
     }
 }
 
 }  // namespace
-
-EdgeListData ComputeBuilder::add_crossing(const TileBoundary& boundary, const Tile& tile,
-                                          double slack, TileBatch& batch) {
-    crossing_.clear();
-    crossing_edges(boundary, tile.width, tile.height, slack, crossing_);
-    return batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
-}
 
 bool ComputeBuilder::add_points_tile(const PlannedQuery& query, const Tile& tile,
                                      SimplifiedShapes& shapes, TileData& data, TileBatch& batch) {
@@ -125,95 +85,18 @@ void ComputeBuilder::add_fill(const Tile& tile, std::uint32_t mask, ComputeWork&
                 {steps(x0, grid_), steps(y0, grid_), steps(x1, grid_), steps(y1, grid_), mask});
         }
     }
-    const MaskData& data = work.masks[mask];
-    for (std::uint32_t row = 0; row < data.height; ++row) {
-        work.rows.push_back({data.first_word + row * data.words_per_row, data.words_per_row});
-    }
+    add_rows(work.masks[mask], work);
 }
 
 void ComputeBuilder::add_field_tile(const PlannedQuery& query, const Tile& tile,
-                                    const FieldTile& field, SimplifiedShapes& shapes,
-                                    TileBatch& batch) {
-    ComputeWork& work = batch.compute;
-    const TileBoundary boundary = boundary_of(query, tile, shapes);
-    crossing_.clear();
-    crossing_edges(boundary, tile.width, tile.height, query.budget.simplification / tile.grid.cell,
-                   crossing_);
-    const std::uint32_t mask = add_mask(tile, work);
-    add_fill(tile, mask, work);
-    if (query.field().parts.values) {
-        add_blocks(boundary, tile, work.masks[mask], field.first_value, work);
+                                    const FieldTile& field, ComputeWork& work) {
+    std::uint32_t first_word = 0;
+    if (field.first_value != not_asked || field.first_feature != not_asked) {
+        const MaskData& mask = work.masks[add_mask(tile, work)];
+        add_rows(mask, work);
+        first_word = mask.first_word;
     }
-    if (query.field().parts.features || query.field().point_count > 0) {
-        add_feature_blocks(query, boundary, tile, work.masks[mask], field.first_feature, batch);
-    }
-}
-
-void ComputeBuilder::add_blocks(const TileBoundary& boundary, const Tile& tile,
-                                const MaskData& mask, std::uint32_t first_value,
-                                ComputeWork& work) {
-    block_edges_.find(boundary, tile.width, tile.height, 0.0);
-    std::uint32_t index = 0;
-    for_blocks(tile, [&](const BlockPlace& place) {
-        BlockData block;
-        block.first_segment = static_cast<std::uint32_t>(work.segments.size());
-        block_edges_.append(index++, work.segments);
-        block.segments = static_cast<std::uint32_t>(work.segments.size()) - block.first_segment;
-        require_few(block.segments);
-        block.size = place.width | place.height << 16U;
-        block.tile_width = tile.width;
-        block.value = first_value + place.row * tile.width + place.column;
-        block.sign = mask.first_word + place.row * mask.words_per_row + place.column / 32;
-        block.first_sign = place.column % 32;
-        block.words_per_row = mask.words_per_row;
-        work.blocks.push_back(block);
-    });
-}
-
-void ComputeBuilder::add_feature_blocks(const PlannedQuery& query, const TileBoundary& boundary,
-                                        const Tile& tile, const MaskData& mask,
-                                        std::uint32_t first_feature, TileBatch& batch) {
-    ComputeWork& work = batch.compute;
-    const double simplification = query.budget.simplification / tile.grid.cell;
-    block_edges_.find(
-        boundary, tile.width, tile.height,
-        simplification + margin_in_cells + (query.field().point_count > 0 ? points_reach : 0.0));
-    work.features = work.features || first_feature != not_asked;
-    batch.lists.begin_tile(boundary);
-    TileData data;
-    data.crossing = batch.lists.write(crossing_, std::max(tile.width, tile.height) + 4.0);
-    data.tile_width = tile.width;
-    data.mask = mask.first_word;
-    data.first_feature = first_feature;
-    data.settled = static_cast<float>(std::numbers::sqrt2 / 2.0 + simplification +
-                                      2.0 * grid_.largest_move() + 0.01);
-    data.margin = static_cast<float>(margin_in_cells);
-    const double extent = block_edges_.window() + tile.width + tile.height;
-    std::uint32_t index = 0;
-    for_blocks(tile, [&](const BlockPlace& place) {
-        data.atlas_x = place.column;
-        data.atlas_y = place.row;
-        data.width = place.width;
-        data.height = place.height;
-        nearest_list_.clear();
-        block_edges_.append(index++, nearest_list_);
-        data.nearest = batch.lists.write(nearest_list_, extent);
-        work.feature_blocks.push_back(data);
-    });
-}
-
-void ComputeBuilder::add_field_point(const Tile& tile, std::uint32_t first_block,
-                                     const PlannedFieldPoint& point, ComputeWork& work) {
-    const Vector local = (point.position - tile.origin()) / tile.grid.cell;
-    const auto place = [](double coordinate, std::uint32_t cells) {
-        return static_cast<std::uint32_t>(std::clamp(std::floor(coordinate), 0.0, cells - 1.0)) /
-               block_side;
-    };
-    const std::uint32_t column = place(local.x(), tile.width);
-    const std::uint32_t row = place(local.y(), tile.height);
-    work.points.push_back({static_cast<float>(local.x()), static_cast<float>(local.y())});
-    work.points.push_back(words(first_block + row * BlockEdges::along(tile.width) + column,
-                                point.column | point.row << 16U));
+    field_tiles_.add(query, tile, first_word, field.first_value, field.first_feature, work.fields);
 }
 
 void ComputeBuilder::add_boundary(const TileBoundary& boundary, const Tile& tile, double offset,

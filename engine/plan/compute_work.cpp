@@ -10,11 +10,7 @@ void ComputeWork::clear() {
     polygons_b.clear();
     overlaps.clear();
     overlap_rows.clear();
-    blocks.clear();
-    segments.clear();
-    feature_blocks.clear();
-    features = false;
-    points.clear();
+    fields.clear();
     mask_words = run_words = 0;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <engine/plan/edge_lists.hpp>
+#include <engine/plan/field_tiles.hpp>
 
 #include <shaders/compute_work.h>
 #include <shaders/layout.h>
@@ -26,24 +26,16 @@ struct ComputeWork {
     std::vector<OverlapData> overlaps;
     std::vector<OverlapRowData> overlap_rows;
 
-    /// Blocks of field tiles (BlockEdges) and all their segments, block after block.
-    std::vector<BlockData> blocks;
-    std::vector<SegmentData> segments;
-    /// Blocks whose cells or points need the nearest of the shape's own edges, each with edge lists
-    /// relative to the tile. Where `features` is false, none of them writes features at cells.
-    std::vector<TileData> feature_blocks;
-    bool features = false;
-    /// Points at which a field is reconstructed. They follow the lists in the geometry array:
-    /// position in the tile; the block; the low one of the four surrounding cells (column | row <<
-    /// 16, in the tile).
-    std::vector<EdgeListWriter::Entry> points;
+    FieldWork fields;
 
     std::uint64_t mask_words = 0;  ///< scratch memory starts with the masks, initially zero,
-    std::uint64_t run_words = 0;   ///< then the runs of cells, initially all ones
+    std::uint64_t run_words = 0;   ///< then the runs of cells, initially all ones; then the lists
+                                   ///< of fields
 
     void clear();
 
-    [[nodiscard]] std::uint64_t scratch_words() const { return mask_words + run_words; }
+    [[nodiscard]] FieldLists field_lists() const { return {fields, mask_words + run_words}; }
+    [[nodiscard]] std::uint64_t scratch_words() const { return field_lists().end; }
 
     /// Where each kind lies in one array of words, one kind after the other.
     struct Ranges {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// \file Finds the edges that can be nearest in a box, with SIMD: compiled for several instruction
+/// \file Distances to the edges that can be near, with SIMD: compiled for several instruction
 /// sets, of which the best that the machine supports is selected at run time. Single precision,
 /// relative to a nearby origin.
 
@@ -30,24 +30,6 @@ public:
 /// squared length of the part, 0 for an edge of no length.
 double push_part(const geometry::Vector& a, const geometry::Vector& b, double window,
                  std::uint32_t index, EdgeStack& edges);
-
-/// A box given by its centre and half extents.
-struct EdgeNode {
-    float x = 0.0F;
-    float y = 0.0F;
-    float half_width = 0.0F;
-    float half_height = 0.0F;
-};
-
-/// Pushes those of the edges first, ..., end - 1 that can be nearest somewhere in a box, in the
-/// same order; at least one edge. `slack`: how far the distances of two edges may be off together.
-///
-/// The distance to an edge is a convex function, so it lies above its tangent at the centre; and
-/// the excess of another edge's distance over a linear function is largest at a corner. An edge
-/// whose tangent exceeds the distance to some other edge at all four corners is therefore nearest
-/// nowhere in the box. The edges nearest to the centre and to each corner serve as the others.
-void push_near(EdgeStack& edges, std::size_t first, std::size_t end, const EdgeNode& node,
-               float slack);
 
 /// Writes the squared distances of the edges first, ..., end - 1 from a point to `squared`, by
 /// position on the stack; there is room for one more vector. Returns the smallest. The same bits on

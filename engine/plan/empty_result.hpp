@@ -9,9 +9,17 @@
 
 namespace nearfield::plan {
 
-/// Returns an empty result of the right kind that keeps the memory of the last one.
+inline void clear_cells(DistanceFieldResult& result) {
+    result.values.clear();
+    result.features.clear();
+    result.gradients.clear();
+    result.unique.clear();
+}
+
+/// Returns an empty result of the right kind that keeps the memory of the last one. `keeps_cells`:
+/// a field's arrays of cells stay as they are, since filling them costs more than all planning.
 template <class Result>
-Result& make_empty(AnyResult& any) {
+Result& make_empty(AnyResult& any, bool keeps_cells = false) {
     if (!std::holds_alternative<Result>(any)) {
         any.emplace<Result>();
     }
@@ -35,10 +43,9 @@ Result& make_empty(AnyResult& any) {
     } else if constexpr (std::is_same_v<Result, DistanceFieldResult>) {
         result.origin = {};
         result.width = result.height = 0;
-        result.values.clear();
-        result.features.clear();
-        result.gradients.clear();
-        result.unique.clear();
+        if (!keeps_cells) {
+            clear_cells(result);
+        }
         result.points.clear();
         result.gradient_error_bound = 0.0;
         result.gradient_format = "";

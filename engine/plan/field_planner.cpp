@@ -1,6 +1,7 @@
 #include <engine/geometry/magnitude.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/check_target.hpp>
+#include <engine/plan/compute_work.hpp>
 #include <engine/plan/field_planner.hpp>
 
 #include <shaders/layout.h>
@@ -103,14 +104,17 @@ bool check_numbers(const PlannedQuery& planned, const Box& box, ResultSummary& r
 }
 
 /// Side of a field's tiles in cells, without the halo.
-std::uint32_t side_of_tiles(const PlannedQuery& planned, const PlanLimits& limits) {
+std::uint32_t side_of_tiles(const PlannedQuery& planned, bool at_points, const PlanLimits& limits) {
     if (planned.technique == Technique::cpu) {
         return UINT32_MAX;  // the whole grid
     }
     const FieldParts& parts = planned.field().parts;
-    const std::uint32_t drawn = parts.small_tiles
-                                    ? std::min(limits.features_tile, limits.largest_tile)
-                                    : limits.largest_tile;
+    // By compute, cells have lists of their blocks, and points need no lists.
+    const bool small_tiles = planned.technique == Technique::compute
+                                 ? at_points && !parts.values && !parts.features
+                                 : parts.small_tiles;
+    const std::uint32_t drawn =
+        small_tiles ? std::min(limits.features_tile, limits.largest_tile) : limits.largest_tile;
     return drawn - 2 * parts.halo;
 }
 
@@ -221,13 +225,14 @@ void FieldPlanner::plan(const DistanceFieldQuery& query, CurrentQuery& current,
     if (on_cpu) {
         regions_.require_sides(current.index, query.tolerance);
     }
-    const std::uint32_t side = side_of_tiles(planned, limits);
-    current.memory.require(bytes_of_cells(query, field.parts, grid, side) +
-                               bytes_of_points(query, field.parts) +
-                               (planned.technique == Technique::compute
-                                    ? regions_.bytes_of_masks(1, limits.largest_tile)
-                                    : 0.0),
-                           2.0);
+    const std::uint32_t side = side_of_tiles(planned, !query.points.empty(), limits);
+    current.memory.require(
+        bytes_of_cells(query, field.parts, grid, side) + bytes_of_points(query, field.parts) +
+            (planned.technique == Technique::compute && (field.parts.values || field.parts.features)
+                 ? regions_.bytes_of_masks(1, limits.largest_tile) +
+                       bytes_of_field_lists(grid.cells())
+                 : 0.0),
+        2.0);
     const auto first_tile = static_cast<std::uint32_t>(current.plan.tiles.size());
     result.status = add_points(query, grid, side, on_cpu, field, current.plan);
     if (!result.status.ok()) {

@@ -67,7 +67,7 @@ void Planner::plan_all(std::span<const AnyQuery> queries, std::span<const QueryS
         std::visit(
             [&](const auto& query) {
                 using Result = typename std::decay_t<decltype(query)>::Result;
-                auto& result = make_empty<Result>(results[i]);
+                auto& result = make_empty<Result>(results[i], true);
                 if constexpr (requires { query.tolerance; }) {
                     result.tolerance = query.tolerance;
                 }
@@ -110,6 +110,9 @@ void Planner::plan_query(const Query& query, const QueryShapes& shapes, Submissi
     }
     if (!result.status.ok()) {
         targets_.drop(current.index);
+        if constexpr (std::is_same_v<Query, DistanceFieldQuery>) {
+            clear_cells(result);
+        }
     }
 }
 

@@ -34,8 +34,8 @@ std::uint32_t units_for(std::size_t words) {
     return static_cast<std::uint32_t>((words + 3) / 4);
 }
 
-std::uint32_t chunks_of(const Polygon& polygon, std::uint32_t ring) {
-    return (polygon.ring_end(ring) - polygon.ring_begin(ring) + chunk_size - 1) / chunk_size;
+std::uint32_t chunks_for(std::uint32_t edges) {
+    return (edges + chunk_size - 1) / chunk_size;
 }
 
 /// Moves bits 0, 1, ... 15 to bits 0, 2, ... 30.
@@ -68,7 +68,8 @@ float rounded_up(double value) {
 }
 
 std::size_t SearchShapes::Hash::operator()(const Key& key) const {
-    return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.spacing) << 1U);
+    return std::hash<const Polygon*>{}(key.polygon) ^ (std::hash<double>{}(key.length) << 1U) ^
+           static_cast<std::size_t>(key.content);
 }
 
 void SearchShapes::begin_batch() {
@@ -95,10 +96,14 @@ std::uint32_t SearchShapes::find_or_make(const Key& key) {
     Entry& entry = entries_[key];
     if (entry.room == 0 || entry.revision != key.polygon->revision()) {
         made_.clear();
-        if (key.spacing == 0.0) {
-            make_shape(*key.polygon);
+        if (key.content == Content::parts) {
+            make_parts(*key.polygon, key.length);
         } else {
-            make_parts(*key.polygon, key.spacing);
+            list_edges(*key.polygon, key.length);
+            make_shape(*key.polygon);
+        }
+        if (key.content == Content::field) {
+            add_low_parts(*key.polygon);
         }
         const auto count = static_cast<std::uint32_t>(made_.size());
         if (entry.room < count) {
@@ -109,7 +114,7 @@ std::uint32_t SearchShapes::find_or_make(const Key& key) {
             entry.first = static_cast<std::uint32_t>(first);
             entry.room = room;
         }
-        if (key.spacing == 0.0) {
+        if (key.content != Content::parts) {
             // The header's places are relative to the shape until here.
             for (std::size_t i = unit_of_first_boxes; i < units_of_header; ++i) {
                 for (std::uint32_t& first_box : made_[i]) {
@@ -131,6 +136,26 @@ std::uint32_t SearchShapes::find_or_make(const Key& key) {
     return entry.first;
 }
 
+/// The shape's own edges, or those of its simplified boundary.
+void SearchShapes::list_edges(const Polygon& polygon, double deviation) {
+    edges_.clear();
+    ring_begin_.assign(1, 0);
+    if (deviation > 0.0) {
+        geometry::simplify(polygon, deviation, std::numeric_limits<double>::infinity(), edges_);
+    } else {
+        for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
+            edges_.push_back({edge, polygon.next(edge)});
+        }
+    }
+    for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
+        std::uint32_t end = ring_begin_.back();
+        while (end < edges_.size() && edges_[end].first < polygon.ring_end(ring)) {
+            ++end;
+        }
+        ring_begin_.push_back(end);
+    }
+}
+
 /// Sorts the rings; where they are few their own order is as good.
 void SearchShapes::order_rings(const Polygon& polygon) {
     constexpr std::uint32_t few_rings = 32;
@@ -139,7 +164,7 @@ void SearchShapes::order_rings(const Polygon& polygon) {
     for (std::uint32_t ring = 0; ring < polygon.ring_count(); ++ring) {
         const Vector& start = polygon.vertices()[polygon.ring_begin(ring)];
         rings_.push_back({on_morton_curve(start, polygon.radius()), ring, chunk});
-        chunk += chunks_of(polygon, ring);
+        chunk += chunks_for(ring_begin_[ring + 1] - ring_begin_[ring]);
     }
     if (polygon.ring_count() >= few_rings) {
         std::sort(rings_.begin(), rings_.end(), [](const OrderedRing& i, const OrderedRing& j) {
@@ -155,7 +180,7 @@ void SearchShapes::make_shape(const Polygon& polygon) {
     order_rings(polygon);
     std::uint32_t chunks = 0;
     for (const OrderedRing& ring : rings_) {
-        chunks += chunks_of(polygon, ring.ring);
+        chunks += chunks_for(ring_begin_[ring.ring + 1] - ring_begin_[ring.ring]);
     }
     made_.resize(units_of_header);
     std::uint32_t levels = 0;
@@ -198,21 +223,42 @@ void SearchShapes::add_chunks(const Polygon& polygon, std::uint32_t edges, std::
     for (const OrderedRing& ring : rings_) {
         made_[start / 4][start % 4] = chunk;
         ++start;
-        const std::uint32_t begin = polygon.ring_begin(ring.ring);
-        const std::uint32_t end = polygon.ring_end(ring.ring);
+        const std::uint32_t end = ring_begin_[ring.ring + 1];
         std::uint32_t along = ring.first_chunk;
-        for (std::uint32_t edge = begin; edge < end; ++chunk, ++along) {
+        for (std::uint32_t edge = ring_begin_[ring.ring]; edge < end; ++chunk, ++along) {
             const std::uint32_t count = std::min(end - edge, chunk_size);
             made_[places + along / 4][along % 4] = chunk;
             made_[infos + chunk / 4][chunk % 4] = edge << 4U | count;
             for (std::uint32_t i = 0; i < count; ++i, ++edge) {
-                const auto a = end_of(edge);
-                const auto b = end_of(edge + 1 == end ? begin : edge + 1);
+                const auto a = end_of(edges_[edge].first);
+                const auto b = end_of(edges_[edge].last);
                 const FloatBox ends{a[0], a[1], b[0], b[1]};
                 made_[edges + chunk_size * chunk + i] = unit_of(ends);
                 extend(boxes_[chunk], ends);
                 extend(boxes_[chunk], {ends[2], ends[3], ends[0], ends[1]});
             }
+        }
+    }
+}
+
+/// What the rounding of their coordinates took from the edges, as these lie.
+void SearchShapes::add_low_parts(const Polygon& polygon) {
+    const std::span<const Vector> vertices = polygon.vertices();
+    const double unit = unit_length_of(polygon);
+    const auto [chunks, levels, edges, infos] = made_[0];
+    const auto lost = [](double coordinate) {
+        return static_cast<float>(coordinate - static_cast<double>(static_cast<float>(coordinate)));
+    };
+    const std::size_t first = made_.size();
+    made_.resize(first + std::size_t{chunk_size} * chunks);
+    for (std::uint32_t chunk = 0; chunk < chunks; ++chunk) {
+        const std::uint32_t info = made_[infos / 4 + chunk / 4][chunk % 4];
+        for (std::uint32_t i = 0; i < (info & 15U); ++i) {
+            const geometry::SimplifiedEdge& edge = edges_[(info >> 4U) + i];
+            const Vector a = vertices[edge.first] / unit;
+            const Vector b = vertices[edge.last] / unit;
+            made_[first + chunk_size * chunk + i] =
+                unit_of({lost(a.x()), lost(a.y()), lost(b.x()), lost(b.y())});
         }
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/polygon.hpp>
+#include <engine/geometry/simplify.hpp>
 
 #include <shaders/search.h>
 
@@ -31,11 +32,17 @@ public:
     void begin_batch();
     /// The first unit of a shape, until the next batch begins.
     [[nodiscard]] std::uint32_t place(const geometry::Polygon& polygon) {
-        return find_or_make({&polygon, 0.0});
+        return find_or_make({&polygon, Content::shape, 0.0});
+    }
+    /// The same for a field: a boundary simplified to `deviation` (0: the shape's own edges), with
+    /// what the coordinates lack to twice the precision.
+    [[nodiscard]] std::uint32_t place_for_field(const geometry::Polygon& polygon,
+                                                double deviation) {
+        return find_or_make({&polygon, Content::field, deviation});
     }
     /// The first word of the numbers of samples on a shape's edges; likewise.
     [[nodiscard]] std::uint32_t place_parts(const geometry::Polygon& polygon, double spacing) {
-        return 4 * find_or_make({&polygon, spacing});
+        return 4 * find_or_make({&polygon, Content::parts, spacing});
     }
 
     [[nodiscard]] std::span<const SearchUnit> units() const { return units_; }
@@ -43,9 +50,11 @@ public:
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
 private:
+    enum class Content : std::uint8_t { shape, field, parts };
     struct Key {
         const geometry::Polygon* polygon = nullptr;
-        double spacing = 0.0;  ///< of samples; 0: the shape itself
+        Content content{};
+        double length = 0.0;  ///< deviation of a field's boundary; spacing of samples
 
         [[nodiscard]] bool operator==(const Key&) const = default;
     };
@@ -62,8 +71,10 @@ private:
     void drop_unused();
     [[nodiscard]] std::uint32_t find_or_make(const Key& key);
     void make_shape(const geometry::Polygon& polygon);
+    void list_edges(const geometry::Polygon& polygon, double deviation);
     void order_rings(const geometry::Polygon& polygon);
     void add_chunks(const geometry::Polygon& polygon, std::uint32_t edges, std::uint32_t infos);
+    void add_low_parts(const geometry::Polygon& polygon);
     void add_level(std::uint32_t first);
     void make_parts(const geometry::Polygon& polygon, double spacing);
 
@@ -71,6 +82,8 @@ private:
     std::vector<SearchUnit> units_;
     std::vector<SearchUnit> made_;  // of one shape
     std::vector<std::array<float, 4>> boxes_;
+    std::vector<geometry::SimplifiedEdge> edges_;  // of that shape
+    std::vector<std::uint32_t> ring_begin_;        // in edges_; then the end of the last ring
     /// Of a ring: its place on a Morton curve, its number, its first chunk along the rings.
     struct OrderedRing {
         std::uint32_t on_curve;

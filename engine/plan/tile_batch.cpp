@@ -79,14 +79,14 @@ void TileBatchBuilder::build(const Plan& plan, std::uint32_t number, TileBatch& 
     batch.by_compute = number >= plan.raster_tile_batches;
     select_watched(plan, number);
     tile_of_plan_.resize(plan.tiles.size());
-    first_block_.resize(plan.tiles.size());
+    field_tile_of_plan_.resize(plan.tiles.size());
     left_to_cpu_.clear();
     for (const std::uint32_t i : plan.tiles_by_batch.of(number)) {
         checkpoint();
         const Tile& tile = plan.tiles[i];
         const PlannedQuery& query = plan.queries[tile.query];
         tile_of_plan_[i] = static_cast<std::uint32_t>(batch.tiles.size());
-        first_block_[i] = static_cast<std::uint32_t>(batch.compute.feature_blocks.size());
+        field_tile_of_plan_[i] = static_cast<std::uint32_t>(batch.compute.fields.tiles.size());
         batch.tile_index.push_back(i);
         left_to_cpu_.push_back(false);
         batch.resident = batch.resident || (tile.kind != TileKind::overlap && query.resident);
@@ -125,8 +125,7 @@ void TileBatchBuilder::add_compute_tile(const PlannedQuery& query, const Tile& t
                 !compute_.add_points_tile(query, tile, shapes_, batch.tiles.back(), batch);
             break;
         case TileKind::field:
-            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), shapes_,
-                                    batch);
+            compute_.add_field_tile(query, tile, add_field_tile(query, tile, batch), batch.compute);
             break;
         case TileKind::overlap:
             compute_.add_overlap_tile(
@@ -355,7 +354,8 @@ void TileBatchBuilder::add_field_points(const Plan& plan, std::uint32_t number, 
             run.parts = query.field().parts;
         }
         if (batch.by_compute) {
-            ComputeBuilder::add_field_point(tile, first_block_[point.tile], point, batch.compute);
+            FieldTiles::add_point(tile, field_tile_of_plan_[point.tile], point,
+                                  batch.compute.fields);
         } else {
             const Vector local = (point.position - tile.origin()) / tile.grid.cell;
             batch.raster.field_points.push_back(

@@ -137,7 +137,10 @@ public:
     explicit TileBatchBuilder(geometry::SubpixelGrid grid) : grid_(grid), compute_(grid) {}
 
     /// Drops simplified shapes; call first in each batch, since shapes may have changed.
-    void begin_batch() { shapes_.clear(); }
+    void begin_batch() {
+        shapes_.clear();
+        compute_.begin_batch();
+    }
     void build(const Plan& plan, std::uint32_t number, TileBatch& batch);
 
 private:
@@ -187,7 +190,8 @@ private:
     std::vector<std::uint32_t> watched_;       // tiles of the plan
     std::vector<std::uint32_t> tile_of_plan_;  // by tile of the plan: its index in the tile batch
     std::vector<bool> left_to_cpu_;            // by tile of the tile batch: so are its points
-    std::vector<std::uint32_t> first_block_;   // by tile of the plan: its first feature block
+    // By tile of the plan: its index among the field tiles of the compute technique.
+    std::vector<std::uint32_t> field_tile_of_plan_;
     ComputeBuilder compute_;
 };
 

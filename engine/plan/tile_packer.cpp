@@ -4,7 +4,7 @@
 namespace nearfield::plan {
 
 /// A tile batch of the compute technique takes as many cells as an atlas image has, which bounds
-/// the memory for masks and lists. Whole words and blocks count.
+/// the memory for masks and lists. Whole words and rows count, and of fields whole regions.
 void TilePacker::add_compute_tile_batches(Plan& plan) const {
     const auto whole = [](std::uint32_t cells, std::uint32_t step) {
         const std::uint32_t steps = (cells + step - 1) / step;
@@ -16,7 +16,9 @@ void TilePacker::add_compute_tile_batches(Plan& plan) const {
         if (plan.queries[tile.query].technique != Technique::compute) {
             continue;
         }
-        const double own = whole(tile.width, 32) * whole(tile.height, block_side);
+        const double own = tile.kind == TileKind::field
+                               ? whole(tile.width, region_side) * whole(tile.height, region_side)
+                               : whole(tile.width, 32) * tile.height;
         cells += own;
         if (cells > most) {
             ++plan.tile_batches;

@@ -182,6 +182,7 @@ passes::RecordContext BatchResources::record_context(std::uint32_t number) const
             .mesh_offset = on_device.input.meshes,
             .tile_mesh_offset = on_device.input.tile_meshes,
             .scratch = by_compute ? compute_[number]->scratch() : VK_NULL_HANDLE,
+            .crowd = by_compute ? compute_[number]->crowd() : VK_NULL_HANDLE,
             .subpixel_bits = device_->limits().subPixelPrecisionBits,
             .read_back = read_back_.handle(),
             .summaries_offset = on_device.output.summaries,
@@ -264,6 +265,8 @@ void BatchResources::wait() {
         TileBatchOnDevice& on_device = tile_batches_[number];
         std::memcpy(&on_device.sample_count, read_back_.data() + on_device.output.samples,
                     sizeof(on_device.sample_count));
+        on_device.had_long_searches =
+            on_device.batch->by_compute && compute_[number]->had_long_searches();
     }
 }
 

@@ -48,6 +48,7 @@ struct TileBatchOnDevice {
     OutputParts output;
     std::uint32_t sample_capacity = 0;
     std::uint32_t sample_count = 0;  ///< found; only sample_capacity of them were stored
+    bool had_long_searches = false;  ///< in crowded blocks of fields, which are not answered
 
     [[nodiscard]] bool had_room() const { return sample_count <= sample_capacity; }
 };

@@ -38,7 +38,7 @@ RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::Comput
 ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
     : resolve_points(device, layout, passes::ResolvePoints::Source::lists),
       masks(device, layout),
-      blocks(device, layout) {}
+      fields(device, layout) {}
 
 CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
                              VkExtent2D extent)
@@ -58,12 +58,32 @@ void CompiledGraph::declare_compute(const ComputePipelines& passes) {
         results_ = graph_.import_buffer({"point results", false, true});
         passes.resolve_points.declare(graph_, input_, results_);
     }
-    if (!needs.fill && !needs.overlap) {
-        return;
+    if (needs.fields || needs.field_points) {
+        shapes_ = graph_.import_buffer({"shapes and fields", true, false});
+        long_searches_ = graph_.import_buffer({"long searches", true, true});
+        field_ = graph_.import_buffer({"field results", false, true});
     }
+    passes::Fields::Output output{long_searches_, field_};
+    if (needs.marks || needs.fields || needs.overlap) {
+        output = declare_masked(passes, output);
+    }
+    if (needs.field_points) {
+        static_cast<void>(passes.fields.declare_points(graph_, shapes_, output));
+    }
+}
+
+passes::Fields::Output CompiledGraph::declare_masked(const ComputePipelines& passes,
+                                                     passes::Fields::Output output) {
+    const ComputeKey& needs = needs_.compute;
     scratch_ = graph_.import_buffer({"scratch", false, false});
     Handle scratch = passes.masks.declare_clear(graph_, scratch_);
-    if (needs.fill) {
+    if (needs.marks) {
+        scratch = passes.masks.declare_marks(graph_, input_, scratch);
+    }
+    if (needs.fields) {
+        scratch = passes.fields.declare_marks(graph_, {shapes_, scratch, {}});
+    }
+    if (needs.marks || needs.fields) {
         scratch = passes.masks.declare_fill(graph_, input_, scratch);
     }
     if (needs.boundaries_b) {
@@ -76,19 +96,21 @@ void CompiledGraph::declare_compute(const ComputePipelines& passes) {
         samples_ = graph_.import_buffer({"samples", true, true});
         static_cast<void>(passes.masks.declare_collect(graph_, input_, scratch, samples_));
     }
-    if (needs.field_values || needs.field_features || needs.field_points) {
-        field_ = graph_.import_buffer({"field results", false, true});
-        Handle field = field_;
-        if (needs.field_values) {
-            field = passes.blocks.declare_values(graph_, input_, scratch, field);
-        }
-        if (needs.field_features) {
-            field = passes.blocks.declare_features(graph_, input_, scratch, field);
-        }
-        if (needs.field_points) {
-            field = passes.blocks.declare_points(graph_, input_, scratch, field);
-        }
+    return needs.fields ? declare_cells(passes.fields, scratch, output) : output;
+}
+
+passes::Fields::Output CompiledGraph::declare_cells(const passes::Fields& fields, Handle scratch,
+                                                    passes::Fields::Output output) {
+    crowd_ = graph_.import_buffer({"crowded blocks", true, false});
+    const passes::Fields::Buffers buffers =
+        fields.declare_lists(graph_, {shapes_, scratch, crowd_});
+    if (needs_.compute.field_values) {
+        output.field = fields.declare_values(graph_, buffers, output.field);
     }
+    if (needs_.compute.field_features) {
+        output.field = fields.declare_features(graph_, buffers, output.field);
+    }
+    return fields.declare_crowded(graph_, buffers, output);
 }
 
 void CompiledGraph::declare_drawn(const RasterPipelines& passes) {
@@ -176,6 +198,9 @@ void CompiledGraph::set_buffers(const Buffers& buffers) {
     set(mesh_, buffers.mesh);
     set(input_, buffers.input);
     set(scratch_, buffers.scratch);
+    set(shapes_, buffers.fields);
+    set(crowd_, buffers.crowd);
+    set(long_searches_, buffers.long_searches);
     set(results_, buffers.words);
     set(field_, buffers.words);
     set(samples_, buffers.read_back);

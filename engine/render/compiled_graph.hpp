@@ -3,7 +3,6 @@
 #include <engine/gpu/device.hpp>
 #include <engine/gpu/timestamps.hpp>
 #include <nearfield/diagnostics.hpp>
-#include <passes/blocks.hpp>
 #include <passes/collect.hpp>
 #include <passes/collect_gradients.hpp>
 #include <passes/color_fill.hpp>
@@ -11,6 +10,7 @@
 #include <passes/cone_mesh.hpp>
 #include <passes/early_out.hpp>
 #include <passes/feature_bit.hpp>
+#include <passes/fields.hpp>
 #include <passes/fill.hpp>
 #include <passes/gradient.hpp>
 #include <passes/intersect.hpp>
@@ -35,7 +35,8 @@ struct ComputeKey {
     bool field_values = false;
     bool field_features = false;
     bool field_points = false;  ///< some output at points of a field
-    bool fill = false;          ///< a volume as a mask, or the sign of a field
+    bool marks = false;         ///< edges in masks that the host lists: a volume as a mask
+    bool fields = false;        ///< values or features of fields
     bool boundaries_a = false;
     bool boundaries_b = false;
     bool overlap = false;
@@ -99,7 +100,7 @@ struct ComputePipelines {
 
     passes::ResolvePoints resolve_points;
     passes::Masks masks;
-    passes::Blocks blocks;
+    passes::Fields fields;
 };
 
 /// The passes of the techniques that a context has. Made once; compiled graphs combine them.
@@ -120,8 +121,11 @@ public:
     /// The buffers behind the graph's handles; null for handles that the graph does not have.
     struct Buffers {
         VkBuffer mesh = VK_NULL_HANDLE;
-        VkBuffer input = VK_NULL_HANDLE;      ///< of compute passes
-        VkBuffer scratch = VK_NULL_HANDLE;    ///< of the compute technique
+        VkBuffer input = VK_NULL_HANDLE;    ///< of compute passes
+        VkBuffer scratch = VK_NULL_HANDLE;  ///< of the compute technique
+        VkBuffer fields = VK_NULL_HANDLE;   ///< of the compute technique: shapes and tiles
+        VkBuffer crowd = VK_NULL_HANDLE;
+        VkBuffer long_searches = VK_NULL_HANDLE;
         VkBuffer words = VK_NULL_HANDLE;      ///< of points and fields
         VkBuffer hits = VK_NULL_HANDLE;       ///< of intersections, where they are kept
         VkBuffer read_back = VK_NULL_HANDLE;  ///< of summaries and samples
@@ -144,6 +148,11 @@ private:
     void declare_compute(const ComputePipelines& passes);
     void declare_images(const RasterPipelines& passes);
     void declare_field(const RasterPipelines& passes);
+    /// The passes over masks, and of fields at cells; returns what these wrote.
+    passes::Fields::Output declare_masked(const ComputePipelines& passes,
+                                          passes::Fields::Output output);
+    passes::Fields::Output declare_cells(const passes::Fields& fields, graph::Handle scratch,
+                                         passes::Fields::Output output);
 
     GraphKey needs_;
     VkExtent2D extent_;
@@ -151,6 +160,9 @@ private:
     graph::Handle mesh_;
     graph::Handle input_;
     graph::Handle scratch_;
+    graph::Handle shapes_;
+    graph::Handle crowd_;
+    graph::Handle long_searches_;
     graph::Handle results_;
     graph::Handle field_;
     graph::Handle samples_;

@@ -1,5 +1,6 @@
 #include <engine/gpu/buffer_parts.hpp>
 #include <engine/render/compute_buffers.hpp>
+#include <engine/render/search_memory.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -10,7 +11,13 @@ ComputeBuffers::ComputeBuffers(const gpu::Device& device)
       input_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::upload,
              "nearfield compute input"),
       scratch_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-               gpu::Direction::none, "nearfield compute scratch") {}
+               gpu::Direction::none, "nearfield compute scratch"),
+      fields_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+              gpu::Direction::upload, "nearfield fields"),
+      crowd_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+             gpu::Direction::upload, "nearfield crowded blocks"),
+      long_searches_(device, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::Direction::readback,
+                     "nearfield long searches") {}
 
 template <class... Vectors>
 BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
@@ -33,26 +40,66 @@ BufferPart ComputeBuffers::append(const char* what, const Vectors&... vectors) {
 
 void ComputeBuffers::upload(const plan::TileBatch& batch) {
     const plan::ComputeWork& work = batch.compute;
-    constexpr std::uint64_t parts = 7;
+    constexpr std::uint64_t parts = 4;
     const std::uint64_t between =
         parts * (device_->limits().minStorageBufferOffsetAlignment + smallest_part);
     input_.reserve(between + bytes_of(batch.tiles) + bytes_of(batch.points) +
-                   bytes_of(work.blocks) + bytes_of(work.segments) + bytes_of(work.feature_blocks) +
-                   bytes_of(batch.lists.geometry()) + bytes_of(work.points) +
-                   work.ranges().words * sizeof(std::uint32_t));
+                   bytes_of(batch.lists.geometry()) + work.ranges().words * sizeof(std::uint32_t));
     scratch_bytes_ = work.scratch_words() * sizeof(std::uint32_t);
-    require_range(*device_, scratch_bytes_, "the masks");
+    require_range(*device_, scratch_bytes_, "the masks and lists");
     scratch_.reserve(std::max(scratch_bytes_, smallest_part));
     end_ = 0;
     tiles_ = append("the tiles", batch.tiles);
     points_ = append("the points", batch.points);
-    blocks_ = append("the blocks of fields", work.blocks);
-    segments_ = append("the edges near blocks of fields", work.segments);
-    feature_blocks_ = append("the blocks of fields with features", work.feature_blocks);
-    geometry_ = append("the edges", batch.lists.geometry(), work.points);
+    geometry_ = append("the edges", batch.lists.geometry());
     work_ = append("the edges of masks", work.masks, work.edges, work.rows, work.polygons_a,
                    work.polygons_b, work.overlaps, work.overlap_rows);
     input_.flush();
+    field_bytes_ = 0;
+    if (!work.fields.tiles.empty()) {
+        upload_fields(work.fields);
+    }
+}
+
+/// The shapes only if one of them changed.
+void ComputeBuffers::upload_fields(const plan::FieldWork& work) {
+    const auto shapes = std::as_bytes(work.shapes->units());
+    field_bytes_ = shapes.size() + bytes_of(work.tiles) + bytes_of(work.points);
+    const bool is_new =
+        reserve_with_texels(*device_, fields_, texels_, field_bytes_, "nearfield field texels");
+    if (is_new || work.shapes->revision() != revision_) {
+        std::copy(shapes.begin(), shapes.end(), fields_.data());
+        revision_ = work.shapes->revision();
+    }
+    std::byte* target = fields_.data() + shapes.size();
+    std::memcpy(target, work.tiles.data(), bytes_of(work.tiles));
+    if (!work.points.empty()) {
+        std::memcpy(target + bytes_of(work.tiles), work.points.data(), bytes_of(work.points));
+    }
+    fields_.flush();
+    crowd_.reserve(smallest_part);
+    long_searches_.reserve(smallest_part);
+}
+
+void ComputeBuffers::empty_crowd() const {
+    if (field_bytes_ == 0) {
+        return;
+    }
+    const VkDispatchIndirectCommand none{0, plan::groups_per_block, 1};
+    std::memcpy(crowd_.data(), &none, sizeof(none));
+    crowd_.flush();
+    std::memset(long_searches_.data(), 0, sizeof(std::uint32_t));
+    long_searches_.flush();
+}
+
+bool ComputeBuffers::had_long_searches() const {
+    if (field_bytes_ == 0) {
+        return false;
+    }
+    long_searches_.invalidate();
+    std::uint32_t count = 0;
+    std::memcpy(&count, long_searches_.data(), sizeof(count));
+    return count > 0;
 }
 
 void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::TileBatchSets& sets,
@@ -71,14 +118,18 @@ void ComputeBuffers::bind(const passes::ComputeLayout& layout, const passes::Til
     write(sets.masks, Layout::scratch_of_masks, scratch);
     write(sets.masks, Layout::summaries, output.summaries);
     write(sets.masks, Layout::output, output.samples);
-    write(sets.blocks, Layout::blocks, blocks_);
-    write(sets.blocks, Layout::segments, segments_);
-    write(sets.blocks, Layout::scratch_of_blocks, scratch);
-    write(sets.blocks, Layout::output, output.field);
-    write(sets.feature_blocks, Layout::tiles, feature_blocks_);
-    write(sets.feature_blocks, Layout::geometry, geometry_);
-    write(sets.feature_blocks, Layout::scratch_of_blocks, scratch);
-    write(sets.feature_blocks, Layout::output, output.field);
+    if (field_bytes_ > 0) {
+        const auto write_fields = [&](VkDescriptorSet set) {
+            write(set, Layout::shapes, {fields_.handle(), 0, field_bytes_});
+            write(set, Layout::scratch_of_fields, scratch);
+            write(set, Layout::output, output.field);
+            layout.write_texels(set, Layout::texels, texels_.get());
+        };
+        write_fields(sets.fields);
+        write(sets.fields, Layout::crowd, {crowd_.handle(), 0, smallest_part});
+        write_fields(sets.places);
+        write(sets.places, Layout::long_searches, {long_searches_.handle(), 0, smallest_part});
+    }
 }
 
 }  // namespace nearfield::render

@@ -2,6 +2,7 @@
 
 #include <engine/gpu/buffer.hpp>
 #include <engine/gpu/device.hpp>
+#include <engine/gpu/owned.hpp>
 #include <engine/plan/tile_batch.hpp>
 #include <passes/compute_layout.hpp>
 #include <passes/record_context.hpp>
@@ -29,6 +30,15 @@ public:
 
     [[nodiscard]] VkBuffer input() const { return input_.handle(); }
     [[nodiscard]] VkBuffer scratch() const { return scratch_.handle(); }
+    /// Shapes and tiles of fields, the arguments of the dispatch for crowded blocks, and the number
+    /// of searches there that were too long.
+    [[nodiscard]] VkBuffer fields() const { return fields_.handle(); }
+    [[nodiscard]] VkBuffer crowd() const { return crowd_.handle(); }
+    [[nodiscard]] VkBuffer long_searches() const { return long_searches_.handle(); }
+    /// Empties the last two; call before each submission.
+    void empty_crowd() const;
+    /// Call once the device is done with the last uploaded tile batch.
+    [[nodiscard]] bool had_long_searches() const;
     /// The part of the scratch memory that the last uploaded tile batch uses.
     [[nodiscard]] BufferPart scratch_part() const { return {scratch_.handle(), 0, scratch_bytes_}; }
 
@@ -44,13 +54,20 @@ private:
     /// Copies the contents of vectors, one after the other, into the next part of the input.
     template <class... Vectors>
     BufferPart append(const char* what, const Vectors&... vectors);
+    void upload_fields(const plan::FieldWork& work);
 
     const gpu::Device* device_;
     gpu::MappedBuffer input_;
     gpu::MappedBuffer scratch_;
     std::uint64_t end_ = 0;  // of the data in the input
     std::uint64_t scratch_bytes_ = 0;
-    BufferPart tiles_, points_, blocks_, segments_, feature_blocks_, geometry_, work_;
+    BufferPart tiles_, points_, geometry_, work_;
+    gpu::MappedBuffer fields_;
+    gpu::MappedBuffer crowd_;
+    gpu::MappedBuffer long_searches_;
+    gpu::Owned<VkBufferView> texels_;  // of fields_
+    std::uint64_t field_bytes_ = 0;    // none: the last uploaded tile batch has no fields
+    std::uint64_t revision_ = 0;       // of the shapes in fields_
 };
 
 }  // namespace nearfield::render

@@ -40,6 +40,7 @@ void BatchResources::lay_out_output() {
         find_copies(on_device);
         empty_output(on_device);
         if (on_device.batch->by_compute) {
+            compute_[number]->empty_crowd();
             bind_compute(number);
         } else {
             bind(number);
@@ -192,11 +193,19 @@ void BatchResources::bind_buffers(CompiledGraph& graph, std::uint32_t number) co
     const VkBuffer words = words_of(tile_batches_[number]);
     if (tile_batches_[number].batch->by_compute) {
         const ComputeBuffers& compute = *compute_[number];
-        graph.set_buffers({VK_NULL_HANDLE, compute.input(), compute.scratch(), words,
-                           VK_NULL_HANDLE, read_back_.handle()});
+        graph.set_buffers({.input = compute.input(),
+                           .scratch = compute.scratch(),
+                           .fields = compute.fields(),
+                           .crowd = compute.crowd(),
+                           .long_searches = compute.long_searches(),
+                           .words = words,
+                           .read_back = read_back_.handle()});
     } else {
-        graph.set_buffers({mesh_.handle(), input_.handle(), VK_NULL_HANDLE, words, words_.handle(),
-                           read_back_.handle()});
+        graph.set_buffers({.mesh = mesh_.handle(),
+                           .input = input_.handle(),
+                           .words = words,
+                           .hits = words_.handle(),
+                           .read_back = read_back_.handle()});
     }
 }
 

@@ -18,10 +18,11 @@ ComputeKey compute_key_of(const plan::TileBatch& batch) {
     const plan::ComputeWork& work = batch.compute;
     ComputeKey needs;
     needs.points = !batch.points.empty();
-    needs.field_values = !work.blocks.empty();
-    needs.field_features = work.features;
-    needs.field_points = !work.points.empty();
-    needs.fill = !work.rows.empty();
+    needs.field_values = work.fields.values;
+    needs.field_features = work.fields.features;
+    needs.field_points = !work.fields.points.empty();
+    needs.marks = !work.edges.empty();
+    needs.fields = work.fields.values || work.fields.features;
     needs.boundaries_a = !work.polygons_a.empty();
     needs.boundaries_b = !work.polygons_b.empty();
     needs.overlap = !work.overlaps.empty();

@@ -36,6 +36,10 @@ public:
                    std::span<const std::uint32_t> words, std::vector<AnyResult>& results) {
         fields_.add(plan, batch, words, results);
     }
+    /// Makes the results of a tile batch's fields errors: the device did not answer all cells.
+    void refuse_fields(const plan::Plan& plan, const plan::TileBatch& batch) {
+        fields_.refuse(plan, batch);
+    }
     void add_samples(const plan::Plan& plan, const plan::TileBatch& batch,
                      std::span<const plan::SampleData> samples);
 

@@ -45,8 +45,8 @@ inline constexpr double max_deviation = 0.25;
 /// less than d/1000. A point penetrates a shape if it is inside and deeper than d/1024; otherwise
 /// it touches. Intersections have the same samples and edges, bit for bit, on a device with 8
 /// sub-pixel bits, whose grid cpu has everywhere; on others, only raster and compute do. Fields
-/// have the same grid, and values within both error bounds; raster and compute give the same signs,
-/// bit for bit.
+/// have the same grid, and values within both error bounds; signs differ only where these allow
+/// it, near the boundary.
 enum class Technique {
     /// Selects, per query, the technique that makes the batch take the least time by the costs on
     /// this machine (Settings::costs).

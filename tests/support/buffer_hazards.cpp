@@ -94,8 +94,9 @@ struct Event {
 std::map<VkPipelineStageFlags, VkAccessFlags> readers_of(VkBuffer buffer) {
     const std::string name = BufferAccesses::name_of(buffer);
     if (name == "nearfield read-back" || name == "nearfield found points" ||
-        name == "nearfield search arguments" || name == "nearfield pair points" ||
-        name == "nearfield pair rows" || name == "nearfield pair arguments") {
+        name == "nearfield search arguments" || name == "nearfield long searches" ||
+        name == "nearfield pair points" || name == "nearfield pair rows" ||
+        name == "nearfield pair arguments") {
         return {{VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT}};
     }
     if (name == "nearfield resident records") {

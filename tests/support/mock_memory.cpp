@@ -110,7 +110,7 @@ void perform(Tag_vkGetImageMemoryRequirements tag, VkDevice, VkImage image,
 template <class Handle>
 VkResult bind(std::string_view call, Handle wanted, VkDeviceMemory memory, VkDeviceSize offset) {
     MockObject* const object = driver().find(call, wanted);
-    const MockObject* const found = driver().find(call, memory);
+    MockObject* const found = driver().find(call, memory);
     if (object == nullptr || found == nullptr) {
         return VK_SUCCESS;
     }
@@ -126,6 +126,12 @@ VkResult bind(std::string_view call, Handle wanted, VkDeviceMemory memory, VkDev
     object->bound = true;
     object->offset = offset;
     object->needs[0] = number(memory);
+    if (!found->mapped && !found->words.empty()) {
+        // Not what another buffer left there.
+        const std::span own = found->words.subspan(offset / sizeof(std::uint32_t),
+                                                   object->bytes / sizeof(std::uint32_t));
+        std::fill(own.begin(), own.end(), MockDriver::resident_word);
+    }
     return VK_SUCCESS;
 }
 

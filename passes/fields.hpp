@@ -1,0 +1,65 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <engine/graph/graph.hpp>
+#include <passes/compute_shader.hpp>
+#include <passes/record_context.hpp>
+
+namespace nearfield::passes {
+
+/// Distance fields of the compute technique (shaders/fields.h). The device marks the edges of B in
+/// the masks of tiles, and lists the edges that can be nearest in each block of 16 x 16 cells, from
+/// coarse to fine; the cells of a block search its list. Each dispatch covers all fields of a tile
+/// batch. No thread waits for another: on software drivers, barriers within a workgroup and shared
+/// memory cost the most.
+class Fields {
+public:
+    Fields(const gpu::Device& device, const ComputeLayout& layout);
+
+    /// The buffers of the passes; `input`: shapes and tiles; `crowd`: the arguments of the dispatch
+    /// for crowded blocks.
+    struct Buffers {
+        graph::Handle input;
+        graph::Handle scratch;
+        graph::Handle crowd;
+    };
+    /// Adds the pass that marks edges in the masks; returns the new version of the scratch memory.
+    [[nodiscard]] graph::Handle declare_marks(TileGraph& graph, const Buffers& buffers) const;
+    /// Adds the passes that list edges; returns the new versions.
+    [[nodiscard]] Buffers declare_lists(TileGraph& graph, Buffers buffers) const;
+    /// Adds the pass that writes the signed distances of cells; reads the masks for the signs.
+    /// Returns the new version of `field`, as the others do.
+    [[nodiscard]] graph::Handle declare_values(TileGraph& graph, const Buffers& buffers,
+                                               graph::Handle field) const;
+    /// Adds the pass that writes the nearest features of cells.
+    [[nodiscard]] graph::Handle declare_features(TileGraph& graph, const Buffers& buffers,
+                                                 graph::Handle field) const;
+    /// What a pass writes that searches place by place: the number of places for which that took
+    /// too long, and the results.
+    struct Output {
+        graph::Handle long_searches;
+        graph::Handle field;
+    };
+    /// Adds the pass that writes both in crowded blocks.
+    [[nodiscard]] Output declare_crowded(TileGraph& graph, const Buffers& buffers,
+                                         Output output) const;
+    /// Adds the pass for points of fields; it writes the same words as ResolveFieldPoints.
+    [[nodiscard]] Output declare_points(TileGraph& graph, graph::Handle input, Output output) const;
+
+private:
+    void dispatch(VkCommandBuffer commands, const RecordContext& context,
+                  const ComputeShader& shader, std::uint64_t threads) const;
+    void record_crowded(VkCommandBuffer commands, const RecordContext& context) const;
+    void record_points(VkCommandBuffer commands, const RecordContext& context) const;
+
+    ComputeShader marks_;
+    ComputeShader regions_;
+    ComputeShader quarters_;
+    ComputeShader blocks_;
+    ComputeShader values_;
+    ComputeShader features_;
+    ComputeShader crowded_;
+    ComputeShader points_;
+};
+
+}  // namespace nearfield::passes

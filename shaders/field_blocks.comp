@@ -1,0 +1,114 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+// The segments that can be nearest in a block of a field tile, one thread per block: of the edges in
+// the list of its quarter. Crowded blocks are noted.
+
+#include "fields.glsl"
+#include "near_edges.glsl"
+
+layout(local_size_x = group_size) in;
+
+layout(std430, set = 0, binding = 1) buffer Scratch {
+    uint scratch[];
+};
+layout(std430, set = 0, binding = 1) buffer ScratchUnits {
+    uvec4 scratch_units[];  // the same memory
+};
+layout(std430, set = 0, binding = 2) buffer Crowd {
+    uint crowd;  // the number of crowded blocks
+};
+
+// The segment of an edge, relative to the block's low corner. Farther along the edge than the block
+// is wide, nothing is nearest to a cell.
+uvec4 segment_of(SeenEdge edge, vec2 half_size) {
+    float reach = 1.5 * float(block_side);
+    float from = max(edge.from, -reach);
+    float to = min(edge.to, reach);
+    vec2 middle = half_size + edge.nearest + 0.5 * (from + to) * edge.way;
+    return floatBitsToUint(vec4(middle, 0.5 * (to - from) * edge.way));
+}
+
+// Up to this many edges are tested at every cell instead of being culled further.
+const uint few_edges = 2u;
+
+// Which of 32 of the quarter's edges, from one on, can be nearest: one bit each.
+uint near_edges(Shape shape, Square square, Limits limits, uint first, uint count) {
+    uint near = 0u;
+    for (uint i = 0u; i < count; ++i) {
+        vec4 edge = floats_at(shape.edges + scratch[first + i]);
+        bool keeps = can_be_nearest(square, limits, way_from_edge(square.centre, edge));
+        near |= keeps ? 1u << i : 0u;
+    }
+    return near;
+}
+
+Limits find_limits(FieldTileData tile, Shape shape, Square square, uint edges, uint edge_count) {
+    Rivals rivals = no_rivals;
+    for (uint i = 0u; i < edge_count; ++i) {
+        uint slot = scratch[edges + i];
+        consider(square, floats_at(shape.edges + slot), slot, rivals);
+    }
+    return limits_of(tile, shape, square, rivals);
+}
+
+// Writes the segments if there is room, and where they are; returns whether there was. `edges`: the
+// first word of the quarter's edges.
+bool list_segments(FieldTileData tile, Shape shape, uvec2 place, uint edges, uint edge_count,
+                   uint block) {
+    Square square = square_at(tile, place, block_side);
+    Limits limits;
+    uint count = edge_count;
+    uvec4 near = uvec4((1u << min(edge_count, few_edges)) - 1u, 0u, 0u, 0u);  // of the first 128 edges
+    if (edge_count > few_edges) {
+        limits = find_limits(tile, shape, square, edges, edge_count);
+        count = 0u;
+        for (uint i = 0u; i < edge_count; i += 32u) {
+            uint some = near_edges(shape, square, limits, edges + i, min(edge_count - i, 32u));
+            count += bitCount(some);
+            near = mix(near, uvec4(some), equal(uvec4(i / 32u), uvec4(0u, 1u, 2u, 3u)));
+        }
+    }
+    // The order in which blocks come to this line is of no consequence.
+    uint next = atomicAdd(scratch[push.crowd - 1u], count);
+    if (next + count > push.room) {
+        return false;
+    }
+    scratch[push.blocks + 2u * block] = next;
+    scratch[push.blocks + 2u * block + 1u] = count;
+    vec2 low = vec2(place * block_side);
+    vec2 half_size = 0.5 * min(vec2(unpacked(tile.size)) - low, vec2(block_side));
+    for (uint i = 0u; i < edge_count; i += 32u) {
+        uint some = i < 128u ? near[i / 32u]
+                             : near_edges(shape, square, limits, edges + i,
+                                          min(edge_count - i, 32u));
+        for (; some != 0u; some &= some - 1u) {
+            uint slot = scratch[edges + i + findLSB(some)];
+            scratch_units[push.segments + next] =
+                segment_of(edge_seen_from(tile, shape, slot, low + half_size), half_size);
+            if (tile.first_feature != not_asked) {
+                scratch[push.numbers + next] = number_of(shape, slot);
+            }
+            ++next;
+        }
+    }
+    return true;
+}
+
+void main() {
+    uint index = push.first + gl_GlobalInvocationID.x;
+    if (index >= push.end) {
+        return;
+    }
+    FieldTileData tile = tile_at(tile_of(index, by_block));
+    Shape shape = shape_at(tile.shape);
+    uvec2 place = place_of(tile, index - tile.first_block, block_side);
+    uint quarter =
+        tile.first_quarter + place.y / 2u * count_along(tile, quarter_side).x + place.x / 2u;
+    uint edges = push.quarters + words_of_quarter * quarter;
+    uint count = scratch[edges];
+    if (count == crowded || !list_segments(tile, shape, place, edges + 1u, count, index)) {
+        scratch[push.blocks + 2u * index + 1u] = crowded;
+        scratch[push.crowd + atomicAdd(crowd, 1u)] = index;
+    }
+}

@@ -1,0 +1,160 @@
+// Field tiles (fields.h): where they lie, and B's edges in cells, relative to a place in the tile.
+// Shapes are read as the searches read them.
+
+#include "push.h"
+#include "fields.h"
+#include "shapes.glsl"
+
+layout(push_constant) uniform Push { FieldPush push; };
+
+// Which of the four numbers of a tile's first elements.
+const uint by_chunk = 0u;
+const uint by_region = 1u;
+const uint by_quarter = 2u;
+const uint by_block = 3u;
+
+uint tile_unit(uint tile, uint unit) {
+    return push.tiles + units_of_field_tile * tile + unit;
+}
+
+// The tile that an element belongs to.
+uint tile_of(uint index, uint kind) {
+    uint tile = 0u;
+    uint count = push.tile_count;
+    while (count > 1u) {
+        uint half_count = count / 2u;
+        if (unit_at(tile_unit(tile + half_count, 3u))[kind] <= index) {
+            tile += half_count;
+            count -= half_count;
+        } else {
+            count = half_count;
+        }
+    }
+    return tile;
+}
+
+FieldTileData tile_at(uint tile) {
+    vec4 axis = floats_at(tile_unit(tile, 0u));
+    vec4 offset = floats_at(tile_unit(tile, 1u));
+    uvec4 own = unit_at(tile_unit(tile, 2u));
+    uvec4 first = unit_at(tile_unit(tile, 3u));
+    uvec4 results = unit_at(tile_unit(tile, 4u));
+    return FieldTileData(axis.xy, axis.zw, offset.xy, offset.zw, own.x, own.y, own.z,
+                         uintBitsToFloat(own.w), first.x, first.y, first.z, first.w, results.x,
+                         results.y, uintBitsToFloat(results.z), 0u);
+}
+
+uvec2 count_along(FieldTileData tile, uint side) {
+    return (unpacked(tile.size) + side - 1u) / side;
+}
+
+// Column and row of an element of a tile: `number` among those of the tile, each with this side.
+uvec2 place_of(FieldTileData tile, uint number, uint side) {
+    uint across = count_along(tile, side).x;
+    return uvec2(number % across, number / across);
+}
+
+float scale_of(FieldTileData tile) {
+    return length(tile.axis);
+}
+
+// A point of the tile in B's frame, in single precision.
+vec2 in_frame(FieldTileData tile, vec2 cells) {
+    vec2 way = cells - tile.offset;
+    return vec2(dot(tile.axis, way), tile.axis.x * way.y - tile.axis.y * way.x) /
+           dot(tile.axis, tile.axis);
+}
+
+// Sums of two floats, the second below the rounding of the first: about 48 bits. Dekker 1971, Knuth.
+vec2 sum_of(float a, float b) {
+    precise float sum = a + b;
+    precise float part = sum - a;
+    precise float error = (a - (sum - part)) + (b - part);
+    return vec2(sum, error);
+}
+
+vec2 normalised(float a, float b) {
+    precise float sum = a + b;
+    precise float error = b - (sum - a);
+    return vec2(sum, error);
+}
+
+vec2 halves_of(float a) {
+    precise float scaled = 4097.0 * a;
+    precise float high = scaled - (scaled - a);
+    precise float low = a - high;
+    return vec2(high, low);
+}
+
+vec2 product_of(float a, float b) {
+    vec2 s = halves_of(a);
+    vec2 t = halves_of(b);
+    precise float product = a * b;
+    precise float error = ((s.x * t.x - product) + s.x * t.y + s.y * t.x) + s.y * t.y;
+    return vec2(product, error);
+}
+
+vec2 add(vec2 a, vec2 b) {
+    vec2 sum = sum_of(a.x, b.x);
+    precise float low = sum.y + (a.y + b.y);
+    return normalised(sum.x, low);
+}
+
+vec2 times(vec2 a, vec2 b) {
+    vec2 product = product_of(a.x, b.x);
+    precise float low = product.y + (a.x * b.y + a.y * b.x);
+    return normalised(product.x, low);
+}
+
+// A point in cells: x and y as sums of two floats.
+struct Exact {
+    vec2 x;
+    vec2 y;
+};
+
+// A point of B's frame, in cells relative to a place in the tile. Equal for equal vertices.
+Exact placed(FieldTileData tile, vec2 high, vec2 low, vec2 place) {
+    vec2 x = vec2(high.x, low.x);
+    vec2 y = vec2(high.y, low.y);
+    vec2 axis_x = vec2(tile.axis.x, tile.axis_low.x);
+    vec2 axis_y = vec2(tile.axis.y, tile.axis_low.y);
+    vec2 offset_x = add(vec2(tile.offset.x, tile.offset_low.x), vec2(-place.x, 0.0));
+    vec2 offset_y = add(vec2(tile.offset.y, tile.offset_low.y), vec2(-place.y, 0.0));
+    return Exact(add(add(times(axis_x, x), -times(axis_y, y)), offset_x),
+                 add(add(times(axis_y, x), times(axis_x, y)), offset_y));
+}
+
+// What the coordinates of a slot's edge lack, as the coordinates themselves, behind all else.
+vec4 low_parts(FieldTileData tile, uint slot) {
+    uvec4 rings = unit_at(tile.shape + unit_of_rings);
+    return floats_at(rings.y / 4u + (rings.x + 3u) / 4u + slot);
+}
+
+// An edge as seen from a place: its nearest point, relative to the place, its direction, and how far
+// it extends from that point, against the direction and along it. In cells.
+struct SeenEdge {
+    vec2 nearest;
+    vec2 way;
+    float from;
+    float to;
+};
+
+SeenEdge seen_edge(Exact a, Exact b) {
+    vec2 dx = add(b.x, -a.x);
+    vec2 dy = add(b.y, -a.y);
+    vec2 d = vec2(dx.x, dy.x);
+    float squared = dot(d, d);
+    if (!(squared > 0.0)) {
+        return SeenEdge(vec2(a.x.x, a.y.x), vec2(1.0, 0.0), 0.0, 0.0);
+    }
+    float t = clamp(-dot(vec2(a.x.x, a.y.x), d) / squared, 0.0, 1.0);
+    float size = sqrt(squared);
+    vec2 nearest = vec2(add(a.x, times(vec2(t, 0.0), dx)).x, add(a.y, times(vec2(t, 0.0), dy)).x);
+    return SeenEdge(nearest, d / size, -t * size, size - t * size);
+}
+
+SeenEdge edge_seen_from(FieldTileData tile, Shape shape, uint slot, vec2 place) {
+    vec4 high = floats_at(shape.edges + slot);
+    vec4 low = low_parts(tile, slot);
+    return seen_edge(placed(tile, high.xy, low.xy, place), placed(tile, high.zw, low.zw, place));
+}

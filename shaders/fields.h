@@ -1,0 +1,61 @@
+// Distance fields of the compute technique, whose lists of near edges the device makes, for shaders
+// and for C++ (see shared.h).
+//
+// A field tile is cut into regions of 4 x 4 blocks, these into quarters of 2 x 2 blocks. Each region
+// lists the chunks of B's edges (search.h) that can be nearest somewhere in it, each quarter the edges
+// of these chunks that can, each block the segments of these edges. What does not fit makes the blocks
+// below crowded: their cells search B's hierarchy one by one.
+#ifndef NEARFIELD_SHADERS_FIELDS_H
+#define NEARFIELD_SHADERS_FIELDS_H
+
+#include "compute_work.h"
+#include "search.h"
+
+NEARFIELD_SHARED_BEGIN
+
+const uint quarter_side = 2u * block_side;  // in cells
+const uint region_side = 2u * quarter_side;
+
+// The lists in the scratch memory. The first word of a list is the number of its elements.
+const uint words_of_region = 512u;
+const uint words_of_quarter = 512u;
+// All blocks share the room for segments, a unit each: the middle of an edge's part near the block,
+// relative to the block's low corner, and the way from there to the end of the part. For each block
+// two words tell which is its first segment and how many there are.
+const uint crowded = 0xffffffffu;  // in place of a number: there was no room
+
+// A field tile. Numbers in two parts are sums of two floats.
+struct FieldTileData {
+    // From B's frame to cells relative to the tile's low corner: the x axis, of a unit of B's frame,
+    // and B's centre.
+    vec2 axis;
+    vec2 axis_low;
+    vec2 offset;
+    vec2 offset_low;
+    uint shape NEARFIELD_DEFAULT(0);  // first unit of B in the input
+    uint size NEARFIELD_DEFAULT(0);   // width | height << 16
+    uint mask NEARFIELD_DEFAULT(0);   // where its fill starts, in words of the scratch memory
+    // Two distances in its blocks may be off by less than this together, in cells, beside a part of
+    // the distance itself
+    float slack NEARFIELD_DEFAULT(0.0F);
+    // Numbers of the first of its chunks, regions, quarters and blocks, among those of all tiles
+    uint first_chunk NEARFIELD_DEFAULT(0);
+    uint first_region NEARFIELD_DEFAULT(0);
+    uint first_quarter NEARFIELD_DEFAULT(0);
+    uint first_block NEARFIELD_DEFAULT(0);
+    // Where its values and features start in the field's results, or not_asked
+    uint first_value NEARFIELD_DEFAULT(not_asked);
+    uint first_feature NEARFIELD_DEFAULT(not_asked);
+    float margin NEARFIELD_DEFAULT(0.0F);  // two distances that differ by less count as equal
+    uint unused NEARFIELD_DEFAULT(0);
+};
+const uint units_of_field_tile = 5u;
+NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)
+
+// The cells of crowded blocks are searched by an indirect dispatch, whose arguments count the blocks:
+// in each a workgroup for a part of the cells.
+const uint groups_per_block = block_side * block_side / group_size;
+
+NEARFIELD_SHARED_END
+
+#endif

@@ -1,0 +1,103 @@
+// Which edges can be nearest somewhere in a square of a field tile. Include after fields.glsl.
+//
+// The distance to an edge, or to a box around edges, is a convex function: it lies above its tangent at
+// the centre, and the excess of another edge's distance over a linear function is largest at a corner.
+// An edge whose tangent exceeds the distance to some other edge, the rival, at all four corners is
+// nearest nowhere in the square. The edges nearest to the centre and to the corners serve as rivals.
+
+// A square, or rectangle, in B's frame: its centre, and the ways to the middles of two of its sides.
+struct Square {
+    vec2 centre;
+    vec2 across;
+    vec2 up;
+    vec4 corners_x;
+    vec4 corners_y;
+    float radius;
+};
+
+const vec4 corner_across = vec4(-1.0, 1.0, -1.0, 1.0);
+const vec4 corner_up = vec4(-1.0, -1.0, 1.0, 1.0);
+
+// The square of this side in a column and a row of a tile, as far as it lies in the tile.
+Square square_at(FieldTileData tile, uvec2 place, uint side) {
+    vec2 low = vec2(place * side);
+    vec2 high = min(low + float(side), vec2(unpacked(tile.size)));
+    vec2 half_size = 0.5 * (high - low);
+    vec2 axis = tile.axis / dot(tile.axis, tile.axis);
+    vec2 centre = in_frame(tile, 0.5 * (low + high));
+    vec2 across = half_size.x * vec2(axis.x, -axis.y);
+    vec2 up = half_size.y * vec2(axis.y, axis.x);
+    return Square(centre, across, up, centre.x + corner_across * across.x + corner_up * up.x,
+                  centre.y + corner_across * across.y + corner_up * up.y, length(across + up));
+}
+
+// The nearest edges: their squared distances, and their slots.
+struct Rivals {
+    float squared;  // from the centre
+    uint slot;
+    vec4 corner_squared;
+    uvec4 corner_slot;
+};
+
+const Rivals no_rivals = Rivals(infinity, no_parts, vec4(infinity), uvec4(no_parts));
+
+vec4 corner_distances(Square square, vec4 edge) {
+    vec2 d = edge.zw - edge.xy;
+    float squared = dot(d, d);
+    float inverse = squared > 0.0 ? 1.0 / squared : 0.0;
+    vec4 x = square.corners_x - edge.x;
+    vec4 y = square.corners_y - edge.y;
+    vec4 t = clamp((x * d.x + y * d.y) * inverse, 0.0, 1.0);
+    x -= t * d.x;
+    y -= t * d.y;
+    return x * x + y * y;
+}
+
+void consider(Square square, vec4 edge, uint slot, inout Rivals rivals) {
+    vec2 way = square.centre - nearest_on_segment(square.centre, edge.xy, edge.zw);
+    float squared = dot(way, way);
+    rivals.slot = squared < rivals.squared ? slot : rivals.slot;
+    rivals.squared = min(squared, rivals.squared);
+    vec4 from_corners = corner_distances(square, edge);
+    rivals.corner_slot =
+        mix(rivals.corner_slot, uvec4(slot), lessThan(from_corners, rivals.corner_squared));
+    rivals.corner_squared = min(from_corners, rivals.corner_squared);
+}
+
+// The distances of the corners from the rivals, with the slack: no edge farther is nearest.
+struct Limits {
+    vec4 centre;
+    vec4 low_left;
+    vec4 low_right;
+    vec4 high_left;
+    vec4 high_right;
+};
+
+Limits limits_of(FieldTileData tile, Shape shape, Square square, Rivals rivals) {
+    float slack = tile.slack / scale_of(tile) + sqrt(rivals.squared) / 131072.0;
+    return Limits(
+        sqrt(corner_distances(square, floats_at(shape.edges + rivals.slot))) + slack,
+        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.x))) + slack,
+        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.y))) + slack,
+        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.z))) + slack,
+        sqrt(corner_distances(square, floats_at(shape.edges + rivals.corner_slot.w))) + slack);
+}
+
+// `way`: to the centre from the nearest point of an edge, or of a box.
+bool can_be_nearest(Square square, Limits limits, vec2 way) {
+    float size = length(way);
+    vec2 slope = size > 0.0 ? way / size : vec2(0.0);
+    vec4 tangent = size + corner_across * dot(slope, square.across) + corner_up * dot(slope, square.up);
+    return any(lessThanEqual(tangent, limits.centre)) && any(lessThanEqual(tangent, limits.low_left)) &&
+           any(lessThanEqual(tangent, limits.low_right)) &&
+           any(lessThanEqual(tangent, limits.high_left)) &&
+           any(lessThanEqual(tangent, limits.high_right));
+}
+
+vec2 way_from_box(vec2 p, vec4 box) {
+    return p - clamp(p, box.xy, box.zw);
+}
+
+vec2 way_from_edge(vec2 p, vec4 edge) {
+    return p - nearest_on_segment(p, edge.xy, edge.zw);
+}
