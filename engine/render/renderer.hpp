@@ -119,7 +119,7 @@ private:
     bool last_had_samples_ = false;
     bool last_had_searches_ = false;
     std::optional<plan::PairGoal> last_pairs_;  // since the last batch
-    SearchCounts max_counts_{};      // found by a search, reserved for the next
+    SearchCounts max_counts_{};                 // found by a search, reserved for the next
     std::uint32_t max_samples_ = 0;  // largest number found by a tile batch, reserved for the next
 };
 

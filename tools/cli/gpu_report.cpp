@@ -10,7 +10,7 @@
 namespace nearfield::tools {
 namespace {
 
-std::string digits(double number) {
+std::string significant(double number) {
     char text[32];
     std::snprintf(text, sizeof text, number < 1000.0 ? "%.3g" : "%.0f", number);
     return text;
@@ -20,8 +20,8 @@ std::string cell(const GpuTime& time) {
     if (time.frames == 0) {
         return "-";
     }
-    return digits(time.frame) + "; " + digits(time.cpu) + "; " +
-           (time.device ? digits(*time.device) : "-");
+    return significant(time.frame) + "; " + significant(time.cpu) + "; " +
+           (time.device ? significant(*time.device) : "-");
 }
 
 void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pairs) {

@@ -111,7 +111,7 @@ private:
     std::set<std::string> too_slow_;
 };
 
-std::vector<GpuRowPlan> rows_with(const std::string& filter) {
+std::vector<GpuRowPlan> plans_with(const std::string& filter) {
     std::vector<GpuRowPlan> rows = gpu_rows();
     std::string names;
     for (const GpuRowPlan& row : rows) {
@@ -130,7 +130,7 @@ std::vector<GpuRowPlan> rows_with(const std::string& filter) {
 
 void run_gpu_table(const std::string& filter, const Settings& settings,
                    const std::optional<std::string>& json) {
-    const std::vector<GpuRowPlan> plans = rows_with(filter);
+    const std::vector<GpuRowPlan> plans = plans_with(filter);
     ReportTarget report(json);
     GpuRace race(settings);
     const Surroundings surroundings{benchmark::this_machine(), race.device_name(),
