@@ -207,6 +207,19 @@ TEST_F(Bench, MeasuresWhenAGpuIsWorthItsWhile) {
     }
 }
 
+TEST_F(Bench, SaysWhichRowsOfAGpuAreTooLarge) {
+    const std::string file = folder_.path("gpu.json");
+    const Outcome outcome = run_program(
+        {"bench", "--gpu", "--filter", "crowd of 420", "--memory-limit", "1", "--json", file});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Json times = Json::parse(folder_.read("gpu.json")).at("rows").at(0).at("times");
+    EXPECT_GT(times.at("cpu").at("median_ms"), 0.0);
+    const std::string reason = times.at("device pairs").at("refused");
+    EXPECT_NE(reason.find("memory_limit"), std::string::npos) << reason;
+    EXPECT_NE(outcome.out.find("* crowd of 420 by device pairs: " + reason), std::string::npos)
+        << outcome.out;
+}
+
 TEST_F(Bench, MeasuresFieldsOnAGpu) {
     const Json json = answer({"bench", "--gpu", "--filter", "field 256"});
     ASSERT_EQ(json.at("rows").size(), 1U);

@@ -18,7 +18,7 @@ std::string significant(double number) {
 
 std::string cell(const GpuTime& time) {
     if (time.frames == 0) {
-        return "-";
+        return time.refusal.empty() ? "-" : "refused";
     }
     return significant(time.frame) + "; " + significant(time.cpu) + "; " +
            (time.device ? significant(*time.device) : "-");
@@ -82,8 +82,22 @@ void write_crossovers(std::ostream& stream, std::span<const GpuRow> rows, bool o
     }
 }
 
+void write_refusals(std::ostream& stream, std::span<const GpuRow> rows) {
+    for (const GpuRow& row : rows) {
+        for (const GpuTime& time : row.times) {
+            if (!time.refusal.empty()) {
+                stream << "* " << row.name << " by " << time.way << ": " << time.refusal << '\n';
+            }
+        }
+    }
+}
+
 void write_time(JsonWriter& json, const GpuTime& time) {
     json.key(time.way);
+    if (!time.refusal.empty()) {
+        json.begin_object().key("refused").value(std::string_view(time.refusal)).end_object();
+        return;
+    }
     if (time.frames == 0) {
         json.null();
         return;
@@ -119,6 +133,7 @@ void write_gpu_tables(std::ostream& stream, std::span<const GpuRow> rows,
         write_table(stream, rows, of_pairs);
         write_crossovers(stream, rows, of_pairs);
     }
+    write_refusals(stream, rows);
 }
 
 void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,

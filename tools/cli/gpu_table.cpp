@@ -6,6 +6,7 @@
 #include <tools/cli/gpu_times.hpp>
 #include <tools/cli/open_context.hpp>
 #include <tools/common/interruptible.hpp>
+#include <tools/common/library_error.hpp>
 #include <tools/io/input_error.hpp>
 #include <tools/io/report_target.hpp>
 #include <unistd.h>
@@ -81,17 +82,20 @@ public:
         for (const GpuRowPlan::Way& way : plan.ways) {
             const std::string key = (plan.has_pairs ? "pairs " : "field ") + way.name;
             if (too_slow_.count(key) != 0) {
-                row.times.push_back({way.name, 0, 0.0, 0.0, std::nullopt});
+                row.times.push_back({.way = way.name});
                 continue;
             }
-            Context context = open();
-            const std::unique_ptr<GpuWork> work = way.make(context);
-            row.times.push_back(measure(*work, way.name));
+            try {
+                run(way, row);
+            } catch (const LibraryError& error) {
+                if (error.code() != StatusCode::too_large) {
+                    throw;
+                }
+                row.times.push_back({.way = way.name, .refusal = error.what()});
+            }
             if (row.times.back().frame > too_long_ms) {
                 too_slow_.insert(key);
             }
-            row.found = std::max(row.found, work->found());
-            row.size = plan.has_pairs ? std::max(row.size, work->pairs()) : row.size;
         }
         return row;
     }
@@ -99,6 +103,14 @@ public:
     [[nodiscard]] const std::string& device_name() const { return device_; }
 
 private:
+    void run(const GpuRowPlan::Way& way, GpuRow& row) const {
+        Context context = open();
+        const std::unique_ptr<GpuWork> work = way.make(context);
+        row.times.push_back(measure(*work, way.name));
+        row.found = std::max(row.found, work->found());
+        row.size = row.has_pairs ? std::max(row.size, work->pairs()) : row.size;
+    }
+
     [[nodiscard]] Context open() const {
         AskedTechniques asked;
         asked.add(Technique::raster);

@@ -15,10 +15,11 @@ namespace nearfield::tools {
 /// Medians of one way to do the work of a row, in milliseconds a frame.
 struct GpuTime {
     std::string way;
-    std::size_t frames = 0;  ///< 0: left out, since a smaller row took too long
+    std::size_t frames = 0;  ///< 0: refused, or left out, since a smaller row took too long
     double frame = 0.0;
-    double cpu = 0.0;              ///< processor time of the calling thread
-    std::optional<double> device;  ///< by timestamps; empty if the device did nothing
+    double cpu = 0.0;                             ///< processor time of the calling thread
+    std::optional<double> device = std::nullopt;  ///< by timestamps; empty if it did nothing
+    std::string refusal = {};                     ///< why the row is too large for it
 };
 
 /// A measured row.

@@ -26,6 +26,7 @@ public:
     LibraryError(const Status& status, const std::string& message)
         : std::runtime_error(message), code_(status.code()) {}
 
+    [[nodiscard]] StatusCode code() const noexcept { return code_; }
     [[nodiscard]] int program_status() const noexcept { return exit_status_of(code_); }
 
 private:
