@@ -1,10 +1,10 @@
 // Distance fields of the compute technique, whose lists of near edges the device makes, for shaders
 // and for C++ (see shared.h).
 //
-// A field tile is cut into regions of 4 x 4 blocks, these into quarters of 2 x 2 blocks. Each region
-// lists the chunks of B's edges (search.h) that can be nearest somewhere in it, each quarter the edges
-// of these chunks that can, each block the segments of these edges. What does not fit makes the blocks
-// below crowded: their cells search B's hierarchy one by one.
+// A field tile is cut into regions of 4 x 4 blocks, these into quarters of 2 x 2 blocks. Each
+// region lists the chunks of B's edges (search.h) that can be nearest somewhere in it, each quarter
+// the edges of these chunks that can, each block the segments of these edges. What does not fit
+// makes the blocks below crowded: their cells search B's hierarchy one by one.
 #ifndef NEARFIELD_SHADERS_FIELDS_H
 #define NEARFIELD_SHADERS_FIELDS_H
 
@@ -26,8 +26,8 @@ const uint crowded = 0xffffffffu;  // in place of a number: there was no room
 
 // A field tile. Numbers in two parts are sums of two floats.
 struct FieldTileData {
-    // From B's frame to cells relative to the tile's low corner: the x axis, of a unit of B's frame,
-    // and B's centre.
+    // From B's frame to cells relative to the tile's low corner: the x axis, of a unit of B's
+    // frame, and B's centre.
     vec2 axis;
     vec2 axis_low;
     vec2 offset;
@@ -52,8 +52,8 @@ struct FieldTileData {
 const uint units_of_field_tile = 5u;
 NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)
 
-// The cells of crowded blocks are searched by an indirect dispatch, whose arguments count the blocks:
-// in each a workgroup for a part of the cells.
+// The cells of crowded blocks are searched by an indirect dispatch, whose arguments count the
+// blocks: in each a workgroup for a part of the cells.
 const uint groups_per_block = block_side * block_side / group_size;
 
 NEARFIELD_SHARED_END

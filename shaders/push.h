@@ -76,7 +76,7 @@ struct FieldPush {
     uint end;
     uint tiles;  // first unit in the input
     uint tile_count;
-    uint regions;   // first words of their lists in the scratch memory
+    uint regions;  // first words of their lists in the scratch memory
     uint quarters;
     uint blocks;    // first word of what tells where their segments are
     uint segments;  // first unit
