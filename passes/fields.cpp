@@ -118,7 +118,7 @@ graph::Handle Fields::declare_features(TileGraph& graph, const Buffers& buffers,
         field, [this](VkCommandBuffer commands, const RecordContext& context) {
             constexpr std::uint64_t cells_per_thread = 4;
             constexpr std::uint64_t threads =
-                plan::block_side * plan::block_side / cells_per_thread;
+                std::uint64_t{plan::block_side} * plan::block_side / cells_per_thread;
             dispatch(commands, context, features_, threads * context.batch.compute.fields.blocks);
         });
 }

@@ -257,7 +257,7 @@ void SearchShapes::add_low_parts(const Polygon& polygon) {
             const geometry::SimplifiedEdge& edge = edges_[(info >> 4U) + i];
             const Vector a = vertices[edge.first] / unit;
             const Vector b = vertices[edge.last] / unit;
-            made_[first + chunk_size * chunk + i] =
+            made_[first + std::size_t{chunk_size} * chunk + i] =
                 unit_of({lost(a.x()), lost(a.y()), lost(b.x()), lost(b.y())});
         }
     }
