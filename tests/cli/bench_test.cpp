@@ -186,9 +186,9 @@ TEST_F(Bench, ATechniqueThatRefusesARowIsNamedInTheTable) {
 TEST_F(Bench, MeasuresWhenAGpuIsWorthItsWhile) {
     const std::string file = folder_.path("gpu.json");
     const Outcome outcome =
-        run_program({"bench", "--gpu", "--filter", "crowd of 420", "--json", file});
+        run_program({"bench", "--gpu", "--filter", "crowd of 420 objects", "--json", file});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\n| crowd of 420 | "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("\n| crowd of 420 objects | "), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("* device pairs: "), std::string::npos) << outcome.out;
     const Json json = Json::parse(folder_.read("gpu.json"));
     EXPECT_FALSE(json.at("device").get<std::string>().empty());
@@ -209,14 +209,14 @@ TEST_F(Bench, MeasuresWhenAGpuIsWorthItsWhile) {
 
 TEST_F(Bench, SaysWhichRowsOfAGpuAreTooLarge) {
     const std::string file = folder_.path("gpu.json");
-    const Outcome outcome = run_program(
-        {"bench", "--gpu", "--filter", "crowd of 420", "--memory-limit", "1", "--json", file});
+    const Outcome outcome = run_program({"bench", "--gpu", "--filter", "crowd of 420 objects",
+                                         "--memory-limit", "1", "--json", file});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const Json times = Json::parse(folder_.read("gpu.json")).at("rows").at(0).at("times");
-    EXPECT_GT(times.at("cpu").at("median_ms"), 0.0);
     const std::string reason = times.at("device pairs").at("refused");
     EXPECT_NE(reason.find("memory_limit"), std::string::npos) << reason;
-    EXPECT_NE(outcome.out.find("* crowd of 420 by device pairs: " + reason), std::string::npos)
+    EXPECT_NE(outcome.out.find("* crowd of 420 objects by device pairs: " + reason),
+              std::string::npos)
         << outcome.out;
 }
 
@@ -229,7 +229,8 @@ TEST_F(Bench, MeasuresFieldsOnAGpu) {
 
 TEST_F(Bench, RefusesAFilterThatLeavesNoRowAndOptionsOfTheOtherWay) {
     expect_refused({"bench", "--filter", "no such row"}, {"--filter", "no such row", small_row});
-    expect_refused({"bench", "--gpu", "--filter", "no such row"}, {"no such row", "crowd of 420"});
+    expect_refused({"bench", "--gpu", "--filter", "no such row"},
+                   {"no such row", "crowd of 420 objects"});
     expect_refused({"bench", "--gpu", "--paper"}, {"--gpu", "--paper"});
     expect_refused({"bench", "--scene", folder_.write("scene.json", good_scene), "--gpu"},
                    {"--gpu", "--scene"});

@@ -122,7 +122,7 @@ GpuRowPlan crowd_row(std::size_t objects) {
                                                     context);
         };
     };
-    return {"crowd of " + std::to_string(objects),
+    return {"crowd of " + std::to_string(objects) + " objects",
             true,
             0,
             {batch_way("cpu", Technique::cpu, scene),
