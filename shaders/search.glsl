@@ -125,10 +125,9 @@ uint points_before(uint edge) {
            scratch_unit(push.edge_units + units_of_edge * edge).w;
 }
 
-// The steps of one walk, which are its groups and chunks, each of which takes up to nine turns of
-// loops. Some drivers end the loops of
-// an invocation without notice after 65,535 turns: a thread of search_points.comp has up to four runs
-// of three walks each, and the threads that run in step with it may take the longest of each. What a
-// longer walk would find is left to the CPU, which takes less time than long walks where boxes do
-// not tell the edges apart.
+// The steps of one walk, which are its groups and chunks, each of which takes up to ten turns of loops.
+// Some drivers end the loops of an invocation without notice after 65,535 turns: a thread of
+// search_points.comp walks up to three times, and threads that run in step wait for the longest loop of
+// each. What a longer walk would find is left to the CPU, which takes less time than long walks where
+// boxes do not tell the edges apart.
 const uint max_steps = 256u;

@@ -62,9 +62,9 @@ vec2 nearest_on_segment(vec2 p, vec2 a, vec2 b) {
     return a + (squared > 0.0 ? clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0.0) * d;
 }
 
-// A walk over the boxes of a shape from the top level to chunks, depth first: groups of boxes are
-// entered, and the chunks of a group are looked at together, since some devices execute the body of a
-// condition for none of the threads too.
+// A walk over the boxes of a shape from the top level to chunks, depth first. Searches enter a group of
+// boxes and then look at its chunks in one loop: some devices execute the body of a condition even if no
+// thread needs it.
 struct Walk {
     uint level;
     uint group;     // the boxes of this level that were entered last are 8 * group, ...

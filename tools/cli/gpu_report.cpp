@@ -1,5 +1,4 @@
 #include <tools/cli/gpu_report.hpp>
-#include <tools/io/answer.hpp>
 #include <tools/io/json_writer.hpp>
 
 #include <algorithm>
@@ -119,10 +118,8 @@ void write_time(JsonWriter& json, const GpuTime& time) {
 
 void write_gpu_tables(std::ostream& stream, std::span<const GpuRow> rows,
                       const Surroundings& surroundings) {
-    const benchmark::Machine& machine = surroundings.machine;
-    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-           << machine.cores << " cores; " << device_text(surroundings.device) << " ("
-           << surroundings.driver << ")\n\n"
+    write_surroundings(stream, surroundings);
+    stream << "\n\n"
            << "Medians, milliseconds: a whole frame; of it processor time of the calling thread; "
               "passes on the device, by timestamps.\n"
            << "Crowds: penetration of boundary samples, summaries, all objects move. `device "
@@ -140,12 +137,7 @@ void write_gpu_json(std::ostream& stream, std::span<const GpuRow> rows,
                     const Surroundings& surroundings) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("commit").value(std::string_view(surroundings.machine.commit));
-    json.key("date").value(std::string_view(surroundings.machine.date));
-    json.key("processor").value(std::string_view(surroundings.machine.processor));
-    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
-    json.key("device").value_or_null(surroundings.device);
-    json.key("driver").value(std::string_view(surroundings.driver));
+    write_surroundings(json, surroundings);
     json.key("rows").begin_array(JsonWriter::Layout::lines);
     for (const GpuRow& row : rows) {
         json.begin_object(JsonWriter::Layout::lines);

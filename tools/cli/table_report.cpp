@@ -83,12 +83,26 @@ void write_technique(JsonWriter& json, const TechniqueTime& time) {
 
 }  // namespace
 
-TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
+void write_surroundings(std::ostream& stream, const Surroundings& surroundings) {
     const benchmark::Machine& machine = surroundings.machine;
+    stream << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
+           << machine.cores << " cores; " << device_text(surroundings.device) << " ("
+           << surroundings.driver << ')';
+}
+
+void write_surroundings(JsonWriter& json, const Surroundings& surroundings) {
+    json.key("commit").value(std::string_view(surroundings.machine.commit));
+    json.key("date").value(std::string_view(surroundings.machine.date));
+    json.key("processor").value(std::string_view(surroundings.machine.processor));
+    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
+    json.key("device").value_or_null(surroundings.device);
+    json.key("driver").value(std::string_view(surroundings.driver));
+}
+
+TextTable::TextTable(std::ostream& stream, const Surroundings& surroundings) : stream_(stream) {
+    write_surroundings(stream_, surroundings);
     stream_
-        << machine.date << ", nearfield " << machine.commit << "; " << machine.processor << ", "
-        << machine.cores << " cores; " << device_text(surroundings.device) << " ("
-        << surroundings.driver << ")\n\n"
+        << "\n\n"
         << "Milliseconds of a whole frame, everything handed over anew: median (least; lower "
            "quartile - upper quartile);\n"
         << "gpu: of it on the device, by timestamps. Work: queries, vertices, grid cells -> "
@@ -144,12 +158,7 @@ void write_table_json(std::ostream& stream, std::span<const RowTimes> table,
                       const Surroundings& surroundings) {
     JsonWriter json(stream);
     json.begin_object(JsonWriter::Layout::lines);
-    json.key("commit").value(std::string_view(surroundings.machine.commit));
-    json.key("date").value(std::string_view(surroundings.machine.date));
-    json.key("processor").value(std::string_view(surroundings.machine.processor));
-    json.key("cores").value(std::uint64_t{surroundings.machine.cores});
-    json.key("device").value_or_null(surroundings.device);
-    json.key("driver").value(std::string_view(surroundings.driver));
+    write_surroundings(json, surroundings);
     json.key("rows").begin_array(JsonWriter::Layout::lines);
     for (const RowTimes& row : table) {
         json.begin_object(JsonWriter::Layout::lines);

@@ -2,6 +2,7 @@
 
 #include <tools/benchmark/machine.hpp>
 #include <tools/cli/technique_race.hpp>
+#include <tools/io/json_writer.hpp>
 
 #include <ostream>
 #include <span>
@@ -16,6 +17,11 @@ struct Surroundings {
     std::string device;
     std::string driver;
 };
+
+/// "2026-11-21, nearfield COMMIT; PROCESSOR, 2 cores; DEVICE (DRIVER)", without a line feed.
+void write_surroundings(std::ostream& stream, const Surroundings& surroundings);
+/// The same as members of an open object.
+void write_surroundings(JsonWriter& json, const Surroundings& surroundings);
 
 /// The table in Markdown, written row by row.
 class TextTable {
