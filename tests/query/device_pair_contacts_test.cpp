@@ -196,44 +196,10 @@ TEST_F(DevicePairContacts, FarFromTheOrigin) {
     });
 }
 
-/// Any sequence of changes, seen by one pair of tables.
 TEST_F(DevicePairContacts, DoNotShowTheirHistory) {
     Random random(seed + 2000);
-    std::vector<ShapeHandle> shapes;
-    for (const Rings& rings : some_shapes(random)) {
-        shapes.push_back(add_shape(rings));
-    }
-    const auto any_of_shapes = [&] {
-        return shapes[static_cast<std::size_t>(
-            random.whole(0, static_cast<int>(shapes.size()) - 1))];
-    };
-    std::vector<InstanceHandle> present;
     Tables tables({.tolerance = 0.05, .contact_distance = 0.1});
-    for (int step = 0; step < 8; ++step) {
-        SCOPED_TRACE("step " + std::to_string(step));
-        const int added = step == 0 ? 100 : random.whole(0, 20);
-        for (int i = 0; i < added; ++i) {
-            present.push_back(add(any_of_shapes(), any_pose(random, 20.0)));
-        }
-        for (const InstanceHandle handle : present) {
-            if (random.whole(0, 3) == 0) {
-                ASSERT_TRUE(world().move(handle, any_pose(random, 20.0)).ok());
-            }
-            if (random.whole(0, 30) == 0) {
-                const auto bits = static_cast<std::uint32_t>(random.whole(1, 3));
-                ASSERT_TRUE(world().set_filter(handle, bits, 3 - bits / 2).ok());
-            }
-        }
-        for (int i = random.whole(0, 10); i > 0; --i) {
-            ASSERT_TRUE(world().remove(present.back()).ok());
-            present.pop_back();
-        }
-        if (random.whole(0, 2) == 0) {
-            ASSERT_TRUE(context().update_shape(any_of_shapes(), star(random, 40, 0.4)).ok());
-        }
-        ASSERT_NO_FATAL_FAILURE(compare(tables));
-    }
-    remove(present);
+    run_history(random, {.steps = 8, .instances = 100, .extent = 20.0}, [&] { compare(tables); });
 }
 
 /// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
