@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 // What is found of each pair, one thread per pair: how many of its points are deeper than a touch,
-// the deepest, and whether single precision can tell.
+// the deepest, and whether single precision can tell that, or at least that there is one.
 
 #include "search.glsl"
 #include "block_sum.glsl"
@@ -16,13 +16,15 @@ struct Depths {
     float depth;
     float second;  // the depth of the next one
     bool decided;
+    bool any_is_certain;
 };
 
 Depths compare(uint first, uint end, float touching, float margin) {
-    Depths depths = Depths(0u, first, 0.0, 0.0, true);
+    Depths depths = Depths(0u, first, 0.0, 0.0, true, false);
     for (uint i = first; i < end; ++i) {
         float depth = uintBitsToFloat(scratch_word(push.record_depths + i));
         depths.decided = depths.decided && depth >= 0.0 && abs(depth - touching) > margin;
+        depths.any_is_certain = depths.any_is_certain || depth > touching + margin;
         if (depth > touching) {
             ++depths.count;
             bool deeper = depth > depths.depth;
@@ -49,10 +51,13 @@ void main() {
         float margin = 1.5 * lengths.y;
         bool is_short = end - first <= max_compared_depths;
         Depths depths = compare(first, is_short ? end : first, touching, margin);
-        bool decided = touching >= 0.0 && is_short && depths.decided;
+        bool has_all = touching >= 0.0 && is_short;
         bool has_rival = depths.second >= depths.depth - 2.0 * margin;
-        count = depths.count | (decided ? 0u : row_undecided) | (has_rival ? row_to_resolve : 0u);
-        count = depths.count == 0u && decided ? 0u : count;
+        if (!has_all || (!depths.decided && !depths.any_is_certain)) {
+            count = row_undecided;
+        } else if (depths.count > 0u) {
+            count = depths.count | (has_rival || !depths.decided ? row_to_resolve : 0u);
+        }
         scratch_units[unit] = uvec4(first, end - first, depths.deepest, count);
     }
     uint before = sum_before(count != 0u ? 1u : 0u, push.row_blocks + direction / search_block);

@@ -59,8 +59,9 @@ const uint units_of_row = 3u;
 NEARFIELD_CHECK(sizeof(PairRowData) == 16 * units_of_row)
 
 // Flags of PairRowData::count.
-const uint row_undecided = 1u << 31;  // the CPU has to answer the pair
-// Another point may be as deep; or not every contact is certain, and the count has those that are
+const uint row_undecided = 1u << 31;  // the CPU has to answer the pair, which may have no row
+// It has one, which the CPU makes exact: another point may be as deep, or not all points are
+// certain
 const uint row_to_resolve = 1u << 30;
 const uint row_intersects = 1u << 29;  // the shapes of a pair of contacts intersect for certain
 const uint row_count_mask = row_intersects - 1u;
