@@ -41,6 +41,9 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
         if (changes_.capacity() <= entries_.size()) {
             changes_.reserve(2 * entries_.size() + 8);  // for all, so that changes never fail
         }
+        if (kept_.size() == entries_.size()) {
+            kept_.emplace_back();
+        }
         entries_.emplace_back();
         free_.push_back(static_cast<std::uint32_t>(entries_.size() - 1));
     }
@@ -50,8 +53,8 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     Entry& entry = entries_[index];
     entry.instance = instance;
     entry.present = true;
-    entry.number = next_number_++;
-    entry.polygon = nullptr;
+    kept_[index].number = next_number_++;
+    kept_[index].polygon = nullptr;
     ++count_;
     ++membership_;
     return {index, entry.generation, world_};
@@ -83,7 +86,7 @@ void Instances::remove(std::uint32_t index) {
     Entry& entry = entries_[index];
     entry.present = false;
     ++entry.generation;
-    entry.has_edges = false;
+    kept_[index].has_edges = false;
     boxes_.remove(index);
     --count_;
     ++membership_;
@@ -93,10 +96,11 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
     if (shapes_revision_ != shapes_revision) {
         for (std::uint32_t i = 0; i < entries_.size(); ++i) {
             const Entry& entry = entries_[i];
+            const Kept& kept = kept_[i];
             const geometry::Polygon* const polygon =
                 entry.present ? find_shape(entry.instance.shape) : nullptr;
-            if (entry.present && (polygon != entry.polygon ||
-                                  (polygon != nullptr && polygon->revision() != entry.revision))) {
+            if (entry.present && (polygon != kept.polygon ||
+                                  (polygon != nullptr && polygon->revision() != kept.revision))) {
                 note_change(i);
             }
         }
@@ -106,10 +110,10 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
         ++last_change_;
     }
     for (const std::uint32_t i : changes_) {
-        Entry& entry = entries_[i];
+        const Entry& entry = entries_[i];
         if (entry.present) {
-            entry.polygon = find_shape(entry.instance.shape);
-            entry.changed = last_change_;
+            kept_[i].polygon = find_shape(entry.instance.shape);
+            kept_[i].changed = last_change_;
             place(i);
         }
     }
@@ -121,47 +125,49 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
 }
 
 void Instances::place(std::uint32_t index) {
-    Entry& entry = entries_[index];
-    entry.has_edges = false;
-    if (entry.polygon == nullptr) {
+    Kept& kept = kept_[index];
+    kept.has_edges = false;
+    if (kept.polygon == nullptr) {
         boxes_.remove(index);
         return;
     }
-    const TransformedPolygon placed(*entry.polygon, entry.instance.pose);
-    entry.revision = entry.polygon->revision();
-    entry.box = placed.box();
-    entry.rounding = localize::placement_rounding(placed, entry.box);
-    max_rounding_ = std::max(max_rounding_, entry.rounding);
-    boxes_.set(index, entry.box);
+    const TransformedPolygon placed(*kept.polygon, entries_[index].instance.pose);
+    kept.revision = kept.polygon->revision();
+    kept.box = placed.box();
+    kept.rounding = localize::placement_rounding(placed, kept.box);
+    max_rounding_ = std::max(max_rounding_, kept.rounding);
+    boxes_.set(index, kept.box);
 }
 
-void Instances::keep(const Entry& entry) const {
+void Instances::make_edges(std::uint32_t index) const {
     const std::lock_guard lock(making_edges_);
-    if (entry.has_edges.load(std::memory_order_relaxed)) {
+    const Kept& kept = kept_[index];
+    if (kept.has_edges.load(std::memory_order_relaxed)) {
         return;
     }
-    entry.edges.clear();
+    kept.edges.clear();
     const std::uint32_t only =
-        entry.edges.place(TransformedPolygon(*entry.polygon, entry.instance.pose));
-    entry.edges.complete(only);
-    entry.tree.emplace(entry.edges[only].tree());
-    entry.has_edges.store(true, std::memory_order_release);
+        kept.edges.place(TransformedPolygon(*kept.polygon, entries_[index].instance.pose));
+    kept.edges.complete(only);
+    kept.tree.emplace(kept.edges[only].tree());
+    kept.has_edges.store(true, std::memory_order_release);
 }
 
 std::size_t Instances::bytes() const {
-    std::size_t bytes = sizeof(Entry) * entries_.size() + boxes_.bytes() +
+    std::size_t bytes = sizeof(Entry) * entries_.capacity() + sizeof(Kept) * kept_.size() +
+                        boxes_.bytes() +
                         sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity());
-    for (const Entry& entry : entries_) {
-        bytes += entry.edges.bytes();
+    for (const Kept& kept : kept_) {
+        bytes += kept.edges.bytes();
     }
     return bytes;
 }
 
 void Instances::trim() {
     boxes_.trim();
-    for (Entry& entry : entries_) {
-        entry.edges = {};
-        entry.has_edges = false;
+    for (Kept& kept : kept_) {
+        kept.edges = {};
+        kept.has_edges = false;
     }
 }
 

@@ -79,48 +79,48 @@ public:
     }
     /// True if there is an instance and its shape exists.
     [[nodiscard]] bool is_placed(std::uint32_t index) const {
-        return entries_[index].present && entries_[index].polygon != nullptr;
+        return entries_[index].present && kept_[index].polygon != nullptr;
     }
     /// The order in which instances were added.
-    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return entries_[index].number; }
+    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return kept_[index].number; }
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
-    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const {
-        return entries_[index].changed;
-    }
+    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return kept_[index].changed; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
-    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const {
-        return entries_[index].box;
-    }
+    [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index].box; }
     /// Of its transformed vertices: localize::placement_rounding.
-    [[nodiscard]] double rounding(std::uint32_t index) const { return entries_[index].rounding; }
+    [[nodiscard]] double rounding(std::uint32_t index) const { return kept_[index].rounding; }
     [[nodiscard]] double deviation(std::uint32_t index) const {
-        return entries_[index].polygon->deviation();
+        return kept_[index].polygon->deviation();
     }
     /// The largest of all instances.
     [[nodiscard]] double max_rounding() const { return max_rounding_; }
     [[nodiscard]] const geometry::Polygon& polygon(std::uint32_t index) const {
-        return *entries_[index].polygon;
+        return *kept_[index].polygon;
     }
     /// Its complete edges, in world coordinates.
     [[nodiscard]] const simd::TransformedEdges& edges(std::uint32_t index) const {
-        return kept(index).edges[0];
+        return with_edges(index).edges[0];
     }
     /// The boxes over them.
     [[nodiscard]] const simd::AabbTree& tree(std::uint32_t index) const {
-        return *kept(index).tree;
+        return *with_edges(index).tree;
     }
 
     [[nodiscard]] std::size_t bytes() const;
     void trim();
 
 private:
+    // What the host changes from frame to frame, side by side for all instances.
     struct Entry {
         WorldInstance instance;
+        std::uint64_t moves = 0;
         std::uint32_t generation = 0;
         bool present = false;
-        bool is_changed = false;   // listed in changes_
+        bool is_changed = false;  // listed in changes_
+    };
+    // What is kept of an instance.
+    struct Kept {
         std::uint64_t number = 0;  // in the order of adding
-        std::uint64_t moves = 0;
         std::uint64_t changed = 0;
         const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
         std::uint64_t revision = 0;                  // of the polygon
@@ -132,20 +132,21 @@ private:
         mutable std::atomic<bool> has_edges = false;
     };
 
-    [[nodiscard]] const Entry& kept(std::uint32_t index) const {
-        const Entry& entry = entries_[index];
-        if (!entry.has_edges.load(std::memory_order_acquire)) {
-            keep(entry);
+    [[nodiscard]] const Kept& with_edges(std::uint32_t index) const {
+        const Kept& kept = kept_[index];
+        if (!kept.has_edges.load(std::memory_order_acquire)) {
+            make_edges(index);
         }
-        return entry;
+        return kept;
     }
-    void keep(const Entry& entry) const;
+    void make_edges(std::uint32_t index) const;
 
     void note_change(std::uint32_t index);
     void place(std::uint32_t index);
 
     std::uint32_t world_ = next_owner_number();
-    std::deque<Entry> entries_;  // which stay where they are
+    std::vector<Entry> entries_;
+    std::deque<Kept> kept_;  // which stay where they are
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> changes_;
     BoxHierarchy boxes_;
