@@ -11,6 +11,9 @@ layout(local_size_x = group_size) in;
 layout(std430, set = 0, binding = 2) writeonly buffer Records {
     uvec4 records[];  // direction, edge of A, sample on it, word
 };
+layout(std430, set = 0, binding = 2) writeonly buffer RecordWords {
+    uint record_words[];  // the same memory: behind all records, their depths for the host
+};
 
 void main() {
     uint thread = dispatched_index();
@@ -24,8 +27,11 @@ void main() {
             record.x &= (1u << local_shift) - 1u;
         }
         if (record.w != 0u && target < scratch[record_total]) {
+            uint depth = scratch_word(push.depths + i);
             if (finds_pairs) {
-                scratch[push.record_depths + target] = scratch_word(push.depths + i);
+                scratch[push.record_depths + target] = depth;
+            } else {
+                record_words[4u * push.capacity + target] = depth;
             }
             records[target++] = record;
         }

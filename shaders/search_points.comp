@@ -371,8 +371,6 @@ void main() {
         scratch_units[push.point_units + index + i] =
             uvec4(batch.direction | (i == 0u ? before << local_shift : 0u), edges[i],
                   batch.number[i], words[i]);
-        if (finds_pairs) {
-            scratch[push.depths + index + i] = floatBitsToUint(depths[i]);
-        }
+        scratch[push.depths + index + i] = floatBitsToUint(depths[i]);
     }
 }

@@ -247,7 +247,8 @@ void BatchRunner::read_back() {
         for (const std::uint32_t number : slot_->running_searches()) {
             if (slot_->search(number).had_room()) {
                 checkpoint();
-                decoder_.add_found(searches_[number], slot_->search(number).found(), plan_);
+                decoder_.add_found(searches_[number], slot_->search(number).found(),
+                                   slot_->search(number).depths(), plan_);
             }
         }
         timings.decode += start.milliseconds();

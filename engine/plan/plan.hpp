@@ -57,6 +57,9 @@ struct PlannedPoint {
 
     BoundaryPoint point;
     std::uint32_t tile = 0;
+    /// Of points that the device has found: their distance from B's boundary, world units, up to
+    /// the errors of single precision. Negative: unknown.
+    float depth = -1.0F;
 };
 
 /// A point at which a field is reconstructed, between four cells of a tile.

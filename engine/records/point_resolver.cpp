@@ -18,6 +18,9 @@ namespace {
 /// Beyond this many cells, single precision cannot resolve a thousandth of d: the nearest edge is
 /// determined again, in double precision.
 constexpr double farthest_in_single_precision = 1024.0;
+/// The error of a depth that the device has computed, in margins of its query: that of the point's
+/// place, and roundings of the distance.
+constexpr double depth_margins = 1.5;
 
 }  // namespace
 
@@ -145,6 +148,42 @@ ResolvedPoint PointResolver::resolve(std::uint32_t index) {
             feature_at(*b_, found.nearest.edge, on_edge.parameter),
             found.inside && distance > touching(planned),
             found.unique};
+}
+
+/// Whether a point that the device has found is inside B and deeper than `depth` for certain.
+bool PointResolver::is_deeper(std::uint32_t index, double depth) const {
+    constexpr std::uint32_t side = plan::point_inside | plan::point_doubtful;
+    return (words_[index] & side) == plan::point_inside &&
+           plan_->points[index].depth > depth + depth_margins * query_->points().margin;
+}
+
+PenetrationSummary PointResolver::summarize_penetration(double tolerance) {
+    const double touching = tolerance * static_cast<double>(plan::touching_depth);
+    const plan::PlannedPoints& points = query_->points();
+    double deepest = 0.0;
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
+        if (is_deeper(i, touching)) {
+            deepest = std::max(deepest, static_cast<double>(plan_->points[i].depth));
+        }
+    }
+    // Points that are not as deep as this are not the deepest.
+    const double deep = deepest - 2.0 * depth_margins * points.margin;
+    PenetrationSummary summary;
+    for (std::uint32_t i = points.first; i < points.end(); ++i) {
+        const bool is_certain = is_deeper(i, touching);
+        if (is_certain && plan_->points[i].depth < deep) {
+            ++summary.count;
+            continue;
+        }
+        const ResolvedPoint resolved = resolve(i);
+        if (is_certain || (resolved.inside && resolved.distance > touching)) {
+            ++summary.count;
+            if (resolved.distance > summary.deepest.depth) {
+                summary.deepest = penetration_record(resolved);
+            }
+        }
+    }
+    return summary;
 }
 
 }  // namespace nearfield::records

@@ -38,6 +38,12 @@ struct ResolvedPoint {
             resolved.unique};
 }
 
+/// How many points penetrate B, and the deepest of them, if any; the first of several.
+struct PenetrationSummary {
+    std::uint32_t count = 0;
+    PenetrationRecord deepest;
+};
+
 /// Makes the device's answers for the points of a query, or of one direction of it, exact.
 class PointResolver {
 public:
@@ -64,6 +70,10 @@ public:
         }
     }
 
+    /// What for_each_penetration() tells of points that the device has found, at less cost: it
+    /// makes only those exact that may just touch, or may be the deepest.
+    [[nodiscard]] PenetrationSummary summarize_penetration(double tolerance);
+
     [[nodiscard]] const geometry::TransformedPolygon& a() const { return *a_; }
     [[nodiscard]] const geometry::TransformedPolygon& b() const { return *b_; }
     /// For queries that the device leaves open.
@@ -82,6 +92,7 @@ private:
     [[nodiscard]] narrowphase::NearestPoint nearest_of_neighbours(const geometry::Vector& point,
                                                                   std::uint32_t edge) const;
     [[nodiscard]] double touching(const plan::PlannedPoint& planned) const;
+    [[nodiscard]] bool is_deeper(std::uint32_t index, double depth) const;
 
     const plan::Plan* plan_ = nullptr;
     const plan::PlannedQuery* query_ = nullptr;

@@ -15,6 +15,11 @@ std::uint32_t rounded_up(double value) {
     return static_cast<std::uint32_t>(std::ceil(value));
 }
 
+/// Of so many points, and of their depths behind them.
+std::uint64_t bytes_of_found(std::uint32_t count) {
+    return std::max<std::uint64_t>(count, 1) * (sizeof(plan::FoundPointData) + sizeof(float));
+}
+
 }  // namespace
 
 SearchBuffers::SearchBuffers(const gpu::Device& device, const passes::ComputeLayout& layout)
@@ -66,10 +71,11 @@ void SearchBuffers::lay_out(const SearchCounts& expected) {
     const auto [edges, points, found] = item_.capacities;
     ScratchLayout layout;
     layout.add_stages(item_.push.direction_count, item_.push.items, edges, points, item_.push);
+    item_.push.depths = layout.words(points);
     scratch_bytes_ = layout.bytes();
     reserve_with_texels(*device_, scratch_, scratch_texels_, scratch_bytes_,
                         "nearfield search scratch texels");
-    records_.reserve(std::max<std::uint64_t>(found, 1) * sizeof(plan::FoundPointData));
+    records_.reserve(bytes_of_found(found));
     clear_counts(arguments_, plan::stages);
     item_.input = input_.handle();
     item_.scratch = scratch_.handle();
@@ -86,8 +92,7 @@ void SearchBuffers::bind() const {
     layout_->begin_updates();
     write(Layout::tiles, item_.input, input_bytes_);
     write(Layout::geometry, item_.scratch, scratch_bytes_);
-    write(Layout::points, item_.records,
-          std::max(item_.capacities[2], 1U) * sizeof(plan::FoundPointData));
+    write(Layout::points, item_.records, bytes_of_found(item_.capacities[plan::record_total]));
     write(Layout::output, item_.arguments, argument_bytes(plan::stages));
     layout_->write_texels(item_.set, Layout::texels, texels_.get());
     layout_->write_texels(item_.set, Layout::scratch_texels, scratch_texels_.get());
@@ -127,7 +132,14 @@ void SearchBuffers::grow() {
 }
 
 std::span<const plan::FoundPointData> SearchBuffers::found() const {
-    return {reinterpret_cast<const plan::FoundPointData*>(records_.data()), counts_[2]};
+    return {reinterpret_cast<const plan::FoundPointData*>(records_.data()),
+            counts_[plan::record_total]};
+}
+
+std::span<const float> SearchBuffers::depths() const {
+    const std::byte* const behind =
+        records_.data() + item_.capacities[plan::record_total] * sizeof(plan::FoundPointData);
+    return {reinterpret_cast<const float*>(behind), counts_[plan::record_total]};
 }
 
 }  // namespace nearfield::render

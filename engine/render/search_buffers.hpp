@@ -41,6 +41,8 @@ public:
     void grow();
     /// The points found, ordered by direction, edge and number. Valid after read_back(), with room.
     [[nodiscard]] std::span<const plan::FoundPointData> found() const;
+    /// Of each, its distance from B's boundary, in units of B's frame; negative: unknown.
+    [[nodiscard]] std::span<const float> depths() const;
 
 private:
     void lay_out(const SearchCounts& expected);

@@ -52,15 +52,22 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
     }
     const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     resolver_.begin(asked.plan, planned, asked.words);
-    resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
-        if (result.count == 0 || record.depth > result.deepest.depth) {
-            result.deepest = record;
-        }
-        ++result.count;
-        if (keep) {
-            result.records.push_back(record);
-        }
-    });
+    if (planned.has_points_of(plan::PointSource::device) && !keep) {
+        const records::PenetrationSummary summary =
+            resolver_.summarize_penetration(result.tolerance);
+        result.count = summary.count;
+        result.deepest = summary.deepest;
+    } else {
+        resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
+            if (result.count == 0 || record.depth > result.deepest.depth) {
+                result.deepest = record;
+            }
+            ++result.count;
+            if (keep) {
+                result.records.push_back(record);
+            }
+        });
+    }
     result.intersects = result.count > 0 || shapes_intersect(asked, result);
 }
 

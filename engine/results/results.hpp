@@ -26,9 +26,10 @@ public:
 
     /// Decodes the read-back of one tile batch.
     void add_points(const plan::TileBatch& batch, std::span<const std::uint32_t> words);
-    /// Adds the points that a search has found to those of the plan.
+    /// Adds the points that a search has found to those of the plan. `depths`: of each, in units of
+    /// B's frame.
     void add_found(const plan::PointSearch& search, std::span<const plan::FoundPointData> found,
-                   plan::Plan& plan);
+                   std::span<const float> depths, plan::Plan& plan);
     static void add_summaries(const plan::Plan& plan, const plan::TileBatch& batch,
                               std::span<const plan::TileSummary> summaries,
                               std::vector<AnyResult>& results);

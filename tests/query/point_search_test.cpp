@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace nearfield::test {
@@ -37,8 +38,13 @@ protected:
     /// All numbers of the answer of a query alone.
     template <class Query>
     static std::vector<double> numbers(Context& context, const Query& query) {
+        return numbers_of(run_alone(context, query));
+    }
+
+    template <class Result>
+    static std::vector<double> numbers_of(Result result) {
         Results results;
-        results.results.emplace_back(run_alone(context, query));
+        results.results.emplace_back(std::move(result));
         return all_numbers(results);
     }
 
@@ -96,9 +102,22 @@ private:
         add_by_technique(pair.contacts(contact_distance_of(pair)));
     }
 
+    /// Without records, only the points that may decide the summary are made exact: it is the same.
+    static void check_summary(const PlacedPair& pair, PenetrationPoints points, Context& context,
+                              PenetrationResult found) {
+        PenetrationQuery query = pair.penetration(points);
+        query.technique = Technique::compute;
+        query.records = false;
+        found.records.clear();
+        EXPECT_EQ(numbers(context, query), numbers_of(std::move(found)));
+    }
+
     static void check(const PlacedPair& pair, Context& context, const AnyResult* found) {
-        check_penetration(pair, PenetrationPoints::boundary, std::get<PenetrationResult>(found[0]));
-        check_penetration(pair, PenetrationPoints::vertices, std::get<PenetrationResult>(found[1]));
+        for (const auto& [points, result] : {std::pair(PenetrationPoints::boundary, found),
+                                             std::pair(PenetrationPoints::vertices, found + 1)}) {
+            check_penetration(pair, points, std::get<PenetrationResult>(*result));
+            check_summary(pair, points, context, std::get<PenetrationResult>(*result));
+        }
         check_contacts(pair, contact_distance_of(pair), std::get<ContactResult>(found[2]));
         Batch batch;
         add(pair, Technique::cpu, batch);
