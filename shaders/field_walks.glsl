@@ -1,10 +1,6 @@
 // Walks over B's boxes for one place in a field tile. Include after feature_words.glsl. In B's frame
 // single precision selects boxes and edges, with the tile's slack for its errors.
 
-// Turns of the loops of a walk. Some drivers end the loops of an invocation without notice after 65,535
-// turns, and there are up to three walks.
-const uint max_turns = 20000u;
-
 // A place in cells and in B's frame, and how long a cell, and the slack, are there.
 struct Place {
     vec2 cells;
@@ -73,7 +69,7 @@ void consider(FieldTileData tile, Shape shape, Place place, uint chunk, inout Ne
 // Goes to the next chunk within reach; false at the end, or if the walk is too long.
 bool next_chunk(Shape shape, Place place, float reach, inout Walk walk, inout bool enters,
                 inout uint turns, out uint chunk) {
-    while (turns < max_turns) {
+    while (turns < max_walk_turns) {
         ++turns;
         if (enters) {
             add_boxes(walk, boxes_near(place, group_of(shape, walk.level, walk.group), reach));
@@ -168,7 +164,7 @@ bool find_inside(FieldTileData tile, Shape shape, Place place, inout uint turns)
     bool odd = false;
     Walk walk = start_walk(shape);
     bool enters = true;
-    while (turns < max_turns) {
+    while (turns < max_walk_turns) {
         ++turns;
         if (enters) {
             Group group = group_of(shape, walk.level, walk.group);

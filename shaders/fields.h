@@ -52,6 +52,13 @@ struct FieldTileData {
 const uint units_of_field_tile = 5u;
 NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)
 
+// Turns of the loops of one walk over B's boxes. Some drivers end the loops of an invocation
+// without notice after 65,535 turns, and there are up to three walks. A walk takes a turn for each
+// edge, chunk and group that it visits, so it ends before that around shapes of at most so many
+// edges.
+const uint max_walk_turns = 20000u;
+const uint max_certain_edges = 12000u;
+
 // The cells of crowded blocks are searched by an indirect dispatch, whose arguments count the
 // blocks: in each a workgroup for a part of the cells.
 const uint groups_per_block = block_side * block_side / group_size;

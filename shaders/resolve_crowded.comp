@@ -41,11 +41,11 @@ void main() {
         field.words[tile.first_value + word] =
             floatBitsToUint(inside ? -nearest.distance : nearest.distance);
     }
-    bool too_long = turns >= max_turns;
+    bool too_long = turns >= max_walk_turns;
     if (tile.first_feature != not_asked) {
         turns = 0u;
         bool rival = find_rival(tile, shape, place, nearest, turns);
-        too_long = too_long || turns >= max_turns;
+        too_long = too_long || turns >= max_walk_turns;
         field.words[tile.first_feature + word] =
             feature_word(number_of(shape, nearest.edge), rival, inside, nearest.vertex);
     }

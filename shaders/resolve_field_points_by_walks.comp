@@ -53,7 +53,7 @@ void main() {
         word = feature_word(number_of(shape, nearest.edge), rival, inside, 0u);
     }
     field.words[push.first_word + index / words * push.words_per_point + i] = word;
-    if (longest >= max_turns) {
+    if (longest >= max_walk_turns) {
         atomicAdd(long_searches, 1u);
     }
 }

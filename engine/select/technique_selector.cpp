@@ -2,6 +2,8 @@
 #include <engine/select/technique_selector.hpp>
 #include <engine/select/work.hpp>
 
+#include <shaders/fields.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -17,6 +19,13 @@ constexpr double never = std::numeric_limits<double>::infinity();
 bool are_known(const AnyQuery& query, const plan::QueryShapes& shapes) {
     return shapes.b != nullptr &&
            (shapes.a != nullptr || std::holds_alternative<DistanceFieldQuery>(query));
+}
+
+/// Whether the compute technique may find only while it answers that it cannot: of a field, more
+/// edges may be equally near to a cell than it compares.
+bool may_be_refused(const AnyQuery& query, const plan::QueryShapes& shapes) {
+    return std::holds_alternative<DistanceFieldQuery>(query) && shapes.b != nullptr &&
+           shapes.b->size() > plan::max_certain_edges;
 }
 
 }  // namespace
@@ -71,8 +80,11 @@ void TechniqueSelector::estimate(Candidate& candidate) const {
     for (std::uint32_t i = 0; i < count; ++i) {
         // An invalid query may contain NaN, which gives no time.
         const double time = work.time(costs_[i]);
-        candidate.times[i] =
-            can_answer(by_position[i], query) ? (time < never ? time : 0.0) : never;
+        const bool is_ruled_out =
+            i == compute && can_answer(Technique::cpu, query) && may_be_refused(query, shapes);
+        candidate.times[i] = can_answer(by_position[i], query) && !is_ruled_out
+                                 ? (time < never ? time : 0.0)
+                                 : never;
     }
 }
 

@@ -66,6 +66,29 @@ TEST_F(ChosenTechnique, AutomaticIsWhatCostsLeast) {
     }
 }
 
+/// Compute refuses a field where too many edges are equally near to a cell, which it finds out
+/// while it answers.
+TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
+    Settings settings;
+    settings.costs = favouring(&CostModel::compute);
+    Expected<Context> made = Context::create(host_device(), settings);
+    ASSERT_TRUE(made.has_value()) << made.error().text();
+    const Expected<ShapeHandle> shape =
+        made->add_shape(scaled_and_moved(regular(25000), 1e-5, {0.3, 0.3}));
+    ASSERT_TRUE(shape.has_value());
+    DistanceFieldQuery field{.b = {*shape, {}},
+                             .tolerance = 0.05,
+                             .rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}},
+                             .features = true};
+    EXPECT_TRUE(run_alone(*made, field).status.ok());
+    field.technique = Technique::compute;
+    EXPECT_EQ(run_alone(*made, field).status.code(), StatusCode::too_large);
+    // The device alone has results that stay there.
+    field.technique = Technique::automatic;
+    field.resident = true;
+    EXPECT_EQ(run_alone(*made, field).status.code(), StatusCode::too_large);
+}
+
 TEST_F(ChosenTechnique, WhatTheCpuDoesNotAnswerIsRefusedByName) {
     const PlacedPair pair(context(),
                           {{"A", regular(5)}, {"B", regular(7)}, {}, {{0.5, 0.2}, 0.0}, 0.05},
