@@ -139,18 +139,36 @@ struct SeenEdge {
     float to;
 };
 
+// The point a + t * (b - a), in single precision. `t`: a sum of two floats.
+vec2 point_between(Exact a, vec2 dx, vec2 dy, vec2 t) {
+    return vec2(add(a.x, times(t, dx)).x, add(a.y, times(t, dy)).x);
+}
+
 SeenEdge seen_edge(Exact a, Exact b) {
     vec2 dx = add(b.x, -a.x);
     vec2 dy = add(b.y, -a.y);
     vec2 d = vec2(dx.x, dy.x);
+    vec2 start = vec2(a.x.x, a.y.x);
+    vec2 end = vec2(b.x.x, b.y.x);
     float squared = dot(d, d);
     if (!(squared > 0.0)) {
-        return SeenEdge(vec2(a.x.x, a.y.x), vec2(1.0, 0.0), 0.0, 0.0);
+        return SeenEdge(start, vec2(1.0, 0.0), 0.0, 0.0);
     }
-    float t = clamp(-dot(vec2(a.x.x, a.y.x), d) / squared, 0.0, 1.0);
     float size = sqrt(squared);
-    vec2 nearest = vec2(add(a.x, times(vec2(t, 0.0), dx)).x, add(a.y, times(vec2(t, 0.0), dy)).x);
-    return SeenEdge(nearest, d / size, -t * size, size - t * size);
+    vec2 way = d / size;
+    // In two steps: of an edge of millions of cells, one float does not tell a place to the cell.
+    float t = clamp(-dot(start, d) / squared, 0.0, 1.0);
+    vec2 first = point_between(a, dx, dy, vec2(t, 0.0));
+    float more = -dot(first, way);
+    if (more <= dot(start - first, way)) {
+        return SeenEdge(start, way, 0.0, size);
+    }
+    if (more >= dot(end - first, way)) {
+        return SeenEdge(end, way, -size, 0.0);
+    }
+    vec2 nearest = point_between(a, dx, dy, sum_of(t, more / size));
+    return SeenEdge(nearest, way, min(dot(start - nearest, way), 0.0),
+                    max(dot(end - nearest, way), 0.0));
 }
 
 SeenEdge edge_seen_from(FieldTileData tile, Shape shape, uint slot, vec2 place) {

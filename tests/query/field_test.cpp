@@ -55,6 +55,26 @@ protected:
         }
     }
 
+    /// Expects features that are as near as the nearest one, within what is promised.
+    static void check_features(const oracle::ShapeOracle& b, const DistanceFieldResult& result) {
+        Report report("features");
+        const double allowed = result.tolerance / 1000.0 + 4.0 * b.rounding();
+        for (std::size_t i = 0; i < result.features.size(); ++i) {
+            const auto column = static_cast<double>(i % result.width);
+            const auto row = static_cast<double>(i / result.width);
+            const Vector2 centre{result.origin.x + (column + 0.5) * result.cell,
+                                 result.origin.y + (row + 0.5) * result.cell};
+            const Feature feature = result.features[i];
+            const Vector2 vertex = b.vertex(feature.index);
+            const double distance = feature.kind == Feature::Kind::vertex
+                                        ? std::hypot(centre.x - vertex.x, centre.y - vertex.y)
+                                        : b.nearest_on_edge(feature.index, centre).distance;
+            const double truth = b.nearest(centre).distance;
+            report.require(distance <= truth + allowed, "cell ", i, ": the feature is ", distance,
+                           " away, the boundary ", truth);
+        }
+    }
+
     /// Expects a grid that starts at the rectangle's low corner, covers it and has no superfluous
     /// cells.
     static void check_covers(const DistanceFieldResult& result, const Rectangle& rectangle) {
@@ -151,6 +171,39 @@ TEST_F(Field, TinyAndHugeTolerancesHold) {
         check(scaled_and_moved(shape, factor, {}), {}, 0.01 * factor,
               {{-factor, -factor}, {factor, factor}});
     }
+}
+
+/// Beside edges of millions of cells, at their vertices and in between.
+TEST_F(Field, HoldsBesideLongEdges) {
+    for_each_case(seed + 700, 4, [&](Random& random) {
+        const Rings rings = star(random, 5, 0.5);
+        const Expected<ShapeHandle> shape = context().add_shape(rings);
+        ASSERT_TRUE(shape.has_value()) << shape.error().text();
+        const oracle::ShapeOracle truth(rings);
+        for (const double d : {1e-5, 1e-7, 1e-9, 1e-11}) {
+            const auto edge = static_cast<std::uint32_t>(random.whole(0, 4));
+            const Vector2 from = truth.vertex(edge);
+            const Vector2 to = truth.vertex(truth.next(edge));
+            const double t = random.between(0.0, 1.0) < 0.5 ? 1.0 : random.between(0.0, 1.0);
+            const Vector2 p{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+            DistanceFieldQuery query{.b = {*shape, {}},
+                                     .tolerance = d,
+                                     .rectangle = Rectangle{{p.x - 40.0 * d, p.y - 30.0 * d},
+                                                            {p.x + 50.0 * d, p.y + 60.0 * d}}};
+            for (const Technique technique :
+                 {Technique::raster, Technique::compute, Technique::cpu}) {
+                SCOPED_TRACE(to_text(rings) + " by " + to_string(technique));
+                query.technique = technique;
+                query.features = false;
+                check_field(truth, d, run_alone(context(), query));
+                query.features = true;
+                const DistanceFieldResult result = run_alone(context(), query);
+                check_field(truth, d, result);
+                check_features(truth, result);
+            }
+        }
+        EXPECT_TRUE(context().remove_shape(*shape).ok());
+    });
 }
 
 /// The CPU's answer does not depend on the query's options: with features it measures to the
