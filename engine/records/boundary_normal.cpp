@@ -10,6 +10,21 @@ using narrowphase::Boundary;
 // At this parameter from an end of an edge, its sides are the edge's own, not a neighbour's.
 constexpr double just_inside = 1.0 / 1024.0;
 
+/// Where the rounding of vertices in the world has made one point of a whole ring: a normal of an
+/// edge in its own frame, on either side.
+AskedNormal normal_of_collapsed(const geometry::TransformedPolygon& placed, std::uint32_t edge) {
+    const geometry::Polygon& polygon = placed.polygon();
+    const auto way_of = [&](std::uint32_t i) -> Vector {
+        return polygon.vertices()[polygon.next(i)] - polygon.vertices()[i];
+    };
+    std::uint32_t other = edge;
+    while (way_of(other).isZero(0.0) && polygon.next(other) != edge) {
+        other = polygon.next(other);
+    }
+    const Vector way = placed.rotation() * way_of(other).normalized();
+    return {.left = {-way.y(), way.x()}};
+}
+
 AskedNormal ask_normal(Boundary& boundary, std::uint32_t edge, double parameter) {
     const geometry::Polygon& polygon = boundary.polygon().polygon();
     AskedNormal asked = boundary.ask_outward_normal(edge, parameter);
@@ -17,7 +32,7 @@ AskedNormal ask_normal(Boundary& boundary, std::uint32_t edge, double parameter)
          other = polygon.next(other)) {
         asked = boundary.ask_outward_normal(other, just_inside);
     }
-    return asked;
+    return asked.left.isZero() ? normal_of_collapsed(boundary.polygon(), edge) : asked;
 }
 
 }  // namespace
