@@ -39,7 +39,7 @@ uint contacts_of(uint direction, uvec2 found) {
     vec4 lengths = uintBitsToFloat(direction_unit(direction, 2u));
     // That of the point's place, and roundings of the distance.
     float certain = lengths.x - 1.5 * lengths.y;
-    if (found.y > max_compared_depths) {
+    if (found.y > max_compared_contacts) {
         return row_to_resolve;
     }
     uint count = 0u;

@@ -94,6 +94,7 @@ void main() {
     data.first_item = list.first_item + rank * chunks;
     bool left_to_cpu = (first.left_to_cpu | second.left_to_cpu) != 0u;
     float touching = left_to_cpu ? -1.0 : pair_query().touching / second.unit;
+    data.reach = left_to_cpu ? -1e30 : data.reach;  // no edge comes near
     write_direction(list.first + rank, data, touching, a, b);
     write_blocks(list.first + rank, data.first_item, chunks);
     scratch[push.verdicts + list.first + rank] = left_to_cpu ? pair_left_to_cpu : 0u;

@@ -12,9 +12,6 @@
 
 layout(local_size_x = group_size) in;
 
-// In place of a number that is too large: there is never room for as many.
-const uint too_many = 1u << 24;
-
 uint overlaps(uint unit, bool exists, vec4 own, uint bit) {
     if (!exists) {
         return 0u;
@@ -83,12 +80,12 @@ uint find_pairs(uint a, vec4 own, bool lists, uint target) {
             ++count;
         }
     }
-    return too_many;
+    return max_pairs;
 }
 
 uint items_of(uint a, uint count) {
     uint chunks = unit_at(instance_unit(a, 2u).x).x;
-    return float(count) * float(chunks) < float(too_many) ? count * chunks : too_many;
+    return float(count) * float(chunks) < float(max_pairs) ? count * chunks : max_pairs;
 }
 
 void main() {

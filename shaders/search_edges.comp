@@ -146,6 +146,9 @@ Points points_of(uint direction_index, uint slot) {
     Shape b = shape_at(direction.shape_b);
     vec4 edge = floats_at(a.edges + slot);
     uint parts = parts_of(direction, number_of(a, slot));
+    if (parts == 0u) {
+        return Points(0u, 0u, 0u, 0u);
+    }
     vec2 from = placed(direction, edge.xy);
     vec2 end = placed(direction, edge.zw);
     vec2 to = parts == 1u ? from : from + (end - from) * (float(parts - 1u) / float(parts));

@@ -31,6 +31,8 @@ uint edges_of(uint item, uint direction_index) {
     if (!overlap(transformed(direction, floats_at(word_at(a.first_boxes) + chunk)), near)) {
         return 0u;
     }
+    // Of pairs of contacts, the edges without samples may cross B's too.
+    bool crosses = finds_pairs && direction.outside != 0.0;
     uint info = word_at(a.infos + chunk);
     uint mask = 0u;
     for (uint i = 0u; i < (info & 15u); ++i) {
@@ -38,7 +40,7 @@ uint edges_of(uint item, uint direction_index) {
         vec2 from = placed(direction, edge.xy);
         vec2 to = placed(direction, edge.zw);
         if (overlap(vec4(min(from, to), max(from, to)), near) &&
-            parts_of(direction, (info >> 4) + i) > 0u) {
+            (crosses || parts_of(direction, (info >> 4) + i) > 0u)) {
             mask |= 1u << i;
         }
     }

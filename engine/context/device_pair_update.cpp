@@ -7,8 +7,10 @@
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
 #include <engine/localize/hierarchy.hpp>
+#include <engine/plan/boundary_points.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/error_budget.hpp>
+#include <engine/plan/point_search.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,6 +36,15 @@ constexpr std::size_t poses_at_once = 16;
 /// Ratios and squares of lengths between these stay within the range of floats.
 constexpr double smallest_unit = 0x1p-30;
 constexpr double largest_unit = 0x1p+30;
+
+/// Half of the places are on either side of it, however far away some are.
+double median(std::vector<Vector2>& places, double Vector2::*coordinate) {
+    const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+    std::nth_element(places.begin(), middle, places.end(), [=](const Vector2& a, const Vector2& b) {
+        return a.*coordinate < b.*coordinate;
+    });
+    return (*middle).*coordinate;
+}
 
 }  // namespace
 
@@ -160,7 +171,8 @@ void DevicePairTableBase::State::place_moved(const world::Instances& instances) 
 }
 
 /// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
-/// tolerance, or it is so small or large that floats do not hold what is computed.
+/// tolerance, it has more samples than are searched, or it is so small or large that floats do not
+/// hold what is computed.
 bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) const {
     const double unit = plan::unit_length_of(polygon);
     if (unit < smallest_unit || unit > largest_unit) {
@@ -168,6 +180,10 @@ bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) co
     }
     if (question_.goal == plan::PairGoal::tests) {
         return false;
+    }
+    if (question_.samples &&
+        plan::max_samples(polygon, question_.cell) > plan::max_searched_points) {
+        return true;
     }
     const plan::Deviations both{polygon.deviation(), polygon.deviation()};
     return !plan::check_deviations(question_.tolerance, both, plan::pair_budget(query_, both).bound)
@@ -178,7 +194,7 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
     const double cell = question_.cell;
     context_->shapes().release(held_);
     shapes_.begin_batch();
-    Vector sum = Vector::Zero();
+    places_.clear();
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
         checkpoint();
         PairInstance& entry = instances_[number];
@@ -186,14 +202,16 @@ void DevicePairTableBase::State::place_all(const world::Instances& instances) {
         entry.handle = instances.handle(indices_[number]);
         entry.instance.shape = instance.shape;
         entry.polygon = context_->shapes().hold(instance.shape, held_);
-        entry.data.shape = shapes_.place(*entry.polygon);
-        entry.data.parts =
-            question_.samples ? shapes_.place_parts(*entry.polygon, cell) : plan::no_parts;
-        plan::set_shape(*entry.polygon, entry.data);
         entry.is_left_to_cpu = is_for_cpu(*entry.polygon);
-        sum += Vector(instance.pose.translation.x, instance.pose.translation.y);
+        entry.data.shape = shapes_.place(*entry.polygon);
+        entry.data.parts = question_.samples && !entry.is_left_to_cpu
+                               ? shapes_.place_parts(*entry.polygon, cell)
+                               : plan::no_parts;
+        plan::set_shape(*entry.polygon, entry.data);
+        places_.push_back(
+            geometry::to_public(TransformedPolygon(*entry.polygon, instance.pose).translation()));
     }
-    origin_ = sum / static_cast<double>(std::max<std::size_t>(instances_.size(), 1));
+    origin_ = {median(places_, &Vector2::x), median(places_, &Vector2::y)};
     place_moved(instances);
     plan::PairQueryData all;
     all.cell = static_cast<float>(cell);
@@ -235,7 +253,9 @@ bool DevicePairTableBase::State::boxes_meet(const plan::PairRowData& data) const
         const PairInstance& entry = instances_[number];
         return TransformedPolygon(*entry.polygon, entry.instance.pose).box();
     };
-    return localize::boxes_meet(box_of(data.a), box_of(data.b), question_.reach);
+    // In the same order for both rows of a pair: the sums are rounded.
+    return localize::boxes_meet(box_of(std::min(data.a, data.b)), box_of(std::max(data.a, data.b)),
+                                question_.reach);
 }
 
 /// Whether a pair with this answer of the CPU has a row.
@@ -253,7 +273,7 @@ bool DevicePairTableBase::State::is_hit(const AnyResult& answer,
             return is_answer || !result.status.ok();
         },
         answer);
-    return has_answer && (question_.goal != plan::PairGoal::tests || boxes_meet(data));
+    return has_answer && boxes_meet(data);
 }
 
 /// Answers what single precision could not decide, and drops the rows without points.
@@ -314,9 +334,9 @@ void DevicePairTableBase::State::update(Context::Implementation& with,
     }
     const bool is_same =
         membership_ == instances.membership() && shapes_revision_ == context_->shapes().revision();
-    if (is_same) {
+    if (is_same && instances_.size() > 1) {
         place_moved(instances);
-    } else {
+    } else if (!is_same) {
         membership_ = 0;
         list_instances(instances);
         if (instances_.size() > 1) {

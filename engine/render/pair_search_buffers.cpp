@@ -21,6 +21,8 @@ constexpr std::array<const char*, passes::PairSearch::set_count> names_of_pair_s
 constexpr PairCounts first_capacities{16384, 16384, 4096, 4096, 1024, 1024};
 constexpr PairCounts first_of_tests{16384, 0, 0, 4096, 4096, 1024};
 
+/// Of each stage, where there is no memory for the usual ones.
+constexpr std::uint32_t least_capacity = 64;
 /// Sums end at 2^30 (shaders/search_scan.comp), and a thread has a number of 32 bits.
 constexpr std::uint32_t max_counted = 1U << 29U;
 
@@ -58,7 +60,7 @@ PairSearchBuffers::PairSearchBuffers(const gpu::Device& device, const passes::Co
       sets_(device, layout, names_of_pair_sets) {
     arguments_.reserve(argument_bytes(plan::stages_of_pairs));
     item_.capacities = question.goal == plan::PairGoal::tests ? first_of_tests : first_capacities;
-    needed_ = item_.capacities;
+    needed_.fill(least_capacity);
     for (std::size_t i = 0; i < item_.sets.size(); ++i) {
         item_.sets[i] = sets_[i];
     }
@@ -245,6 +247,12 @@ void PairSearchBuffers::read_undecided() {
 /// Makes room for what the device has counted, and a little more if that fits. Later stages have
 /// counted nothing of what earlier ones had no room for, so they grow when their turn comes.
 void PairSearchBuffers::grow() {
+    if (counts_[plan::pair_total] >= plan::max_pairs) {
+        throw StatusException(
+            {StatusCode::too_large,
+             "the world has 2^24 pairs or more, or an instance whose box overlaps "
+             "with those of some 50,000 others"});
+    }
     for (std::size_t i = 0; i < counts_.size(); ++i) {
         if (counts_[i] > max_counted) {
             throw StatusException({StatusCode::too_large,

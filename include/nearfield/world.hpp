@@ -300,7 +300,8 @@ public:
 
     /// Brings a table of pairs (world_pairs.hpp) up to date. Fails with invalid_query if its reach
     /// or query is invalid, if `limits` end the call, and as Context::run(); the table is empty
-    /// then. Errors of single pairs are the status of their rows.
+    /// then, unless the limits themselves are refused. Errors of single pairs are the status of
+    /// their rows.
     Status update(PairTable<PenetrationQuery>& table, const Limits& limits = {});
     /// Likewise.
     Status update(PairTable<ContactQuery>& table, const Limits& limits = {});
@@ -325,11 +326,11 @@ public:
                   std::span<const Pose> ends, const Limits& limits = {});
 
     /// Brings a table that the device fills (world_device.hpp) up to date and waits for the device.
-    /// Fails with invalid_query if the query or reach is invalid, or if the context has no
-    /// pipelines of Technique::compute; with too_large if there are more than 2^18 instances, or
-    /// more pairs or points than the device has memory for; if `limits` end the call; and as
-    /// Context::run(). The table is empty then. Errors of single pairs are the status of their
-    /// rows.
+    /// Fails with invalid_query if the query or reach is invalid; with unsupported_technique if the
+    /// context has no pipelines of Technique::compute; with too_large if there are more than 2^18
+    /// instances, or more pairs or points than the device has memory for; if `limits` end the call;
+    /// and as Context::run(). The table is empty then, unless the limits themselves are refused.
+    /// Errors of single pairs are the status of their rows.
     Status update(DevicePairTable<PenetrationQuery>& table, const Limits& limits = {});
     /// Likewise.
     Status update(DevicePairTable<ContactQuery>& table, const Limits& limits = {});

@@ -98,6 +98,10 @@ concept HasDistance = requires(const typename Query::Result& result) {
 /// instance added first as `a`, of closest points two. The device finds the pairs; a row that is
 /// read is answered by the CPU.
 ///
+/// Limits: 2^18 instances, 2^24 pairs, and some 50,000 instances whose boxes overlap with that of a
+/// single one; World::update() fails (too_large) beyond these, and where the pairs need more memory
+/// than Settings::memory_limit, or more of one buffer than the device's shaders reach.
+///
 /// Used with one world at a time; a table that comes to another world starts anew. It keeps its
 /// memory, on the device too, from update to update, and holds the world's shapes as they were at
 /// the last update.

@@ -196,6 +196,55 @@ TEST_F(DevicePairContacts, FarFromTheOrigin) {
     });
 }
 
+/// Edges shorter than a cell have no sample: shapes intersect without a contact, by their
+/// crossings.
+TEST_F(DevicePairContacts, OfBoundariesWithoutSamples) {
+    const ShapeHandle circle = add_shape(regular(64));
+    for (int i = 0; i < 24; ++i) {
+        const double angle = 0.1 * i;
+        add(circle, {.translation = {10.0 * i, 0.0}});
+        add(circle, {.translation = {10.0 * i + 1.95 * std::cos(angle), 1.95 * std::sin(angle)}});
+    }
+    Tables tables({.tolerance = 0.5, .contact_distance = 0.01, .records = false});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 48U);
+}
+
+/// More points than the loops of a shader may take turns, in both directions together.
+TEST_F(DevicePairContacts, OfManyPoints) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.001, 0.001}});  // 40,000 samples each, all of them contacts
+    for (int i = 0; i < 6; ++i) {
+        add(square, {.translation = {0.999, -0.9 + 0.3 * i}});
+    }
+    Tables tables({.tolerance = 7e-5, .contact_distance = 0.005, .records = false});
+    compare(tables);
+    EXPECT_GT(tables.device.size(), 10U);
+}
+
+/// Some drivers add up the loops of neighbouring threads: one compares many points, another follows
+/// rays from many rings.
+TEST_F(DevicePairContacts, OfManyPointsBesideManyRings) {
+    const auto dots = [](double offset) {
+        Rings rings;
+        for (int i = 0; i < 38 * 38; ++i) {
+            const Vector2 low{i % 38 / 38.0 + offset, i / 38 / 38.0 + offset};
+            rings.push_back(rectangle(low, {low.x + 0.005, low.y + 0.005}).front());
+        }
+        return rings;
+    };
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(square, {});
+    add(square, {.translation = {0.0005, 0.0005}});  // 19,000 samples each
+    add(add_shape(dots(0.0)), {.translation = {5.0, 5.0}});
+    add(add_shape(dots(0.012)), {.translation = {5.0, 5.0}});
+    add(square, {.translation = {5.5, 5.5}});
+    Tables tables({.tolerance = 1.5e-4, .contact_distance = 0.002, .records = false});
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 6U);
+}
+
 TEST_F(DevicePairContacts, DoNotShowTheirHistory) {
     Random random(seed + 2000);
     Tables tables({.tolerance = 0.05, .contact_distance = 0.1});

@@ -82,6 +82,19 @@ TEST_F(DevicePairDistances, AtTheReach) {
     EXPECT_GT(table.left_to_cpu(), 0U);
 }
 
+/// Where the sums of coordinates and reach are rounded, both rows of a pair are there, or none.
+TEST_F(DevicePairDistances, AtTheReachOfBoxesThatAreRounded) {
+    const ShapeHandle bar = add_shape(rectangle({0.0, -1.0}, {2.0, 1.0}));
+    const double quarter = 1.5707963267948966;
+    for (const double first : {0.0, -3.0}) {
+        const std::vector<InstanceHandle> added{
+            add(bar, {.translation = {first, 0.0}, .angle = quarter}),
+            add(bar, {.translation = {-3.0 - first, 0.0}, .angle = quarter})};
+        compare(1.0);
+        remove(added);
+    }
+}
+
 /// A shape in a hole is as far as the hole's boundary; one that is deep inside intersects.
 TEST_F(DevicePairDistances, InHoles) {
     const ShapeHandle frame = add_shape(

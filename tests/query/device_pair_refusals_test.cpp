@@ -51,6 +51,26 @@ TEST_F(DevicePairRefusals, OfContextsThatDoNotCompute) {
     expect_refused(*without_device, IntersectionTestQuery{}, StatusCode::unsupported_technique);
 }
 
+/// The walk that finds them would take more turns than a loop of a shader may.
+TEST_F(DevicePairRefusals, OfOneAmongTooManyOthers) {
+    const Expected<ShapeHandle> shape = context().add_shape(rectangle({0, 0}, {1, 1}));
+    ASSERT_TRUE(shape.has_value()) << shape.error().text();
+    const Expected<ShapeHandle> floor = context().add_shape(rectangle({0, 0}, {600, 600}));
+    ASSERT_TRUE(floor.has_value()) << floor.error().text();
+    Expected<World> world = World::create(context());
+    ASSERT_TRUE(world.has_value()) << world.error().text();
+    ASSERT_TRUE(world->add({.shape = *floor}).has_value());
+    for (int i = 0; i < 62000; ++i) {
+        const Pose pose{{2.0 * (i % 250), 2.0 * (i / 250)}, 0.0};
+        ASSERT_TRUE(world->add({.shape = *shape, .pose = pose}).has_value());
+    }
+    DevicePairTable table(IntersectionTestQuery{});
+    const Status status = world->update(table);
+    EXPECT_EQ(status.code(), StatusCode::too_large) << status.text();
+    EXPECT_NE(status.message().find("overlaps with those of some 50,000 others"), std::string::npos)
+        << status.text();
+}
+
 TEST_F(DevicePairRefusals, OfQueriesThatAreNotForTheDeviceToCompute) {
     for (const Technique technique : {Technique::cpu, Technique::raster}) {
         expect_refused(context(), PenetrationQuery{.tolerance = 0.1, .technique = technique},

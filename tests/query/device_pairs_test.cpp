@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -192,6 +193,35 @@ TEST_F(DevicePairs, OfTheSmallestAndLargestShapes) {
     }
 }
 
+/// An error is the row of a pair that is asked about: boxes apart by less than the device tells are
+/// none.
+TEST_F(DevicePairs, OfBoxesThatAreApartHaveNoErrors) {
+    const Expected<ShapeHandle> coarse =
+        context().add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}), 0.02);
+    ASSERT_TRUE(coarse.has_value()) << coarse.error().text();
+    add(*coarse, {});
+    const InstanceHandle other = add(*coarse, {.translation = {1.0 + 5e-7, 0.0}});
+    Tables tables({.tolerance = 0.1});
+    compare(tables);
+    EXPECT_EQ(tables.device.left_to_cpu(), 2U);
+    EXPECT_EQ(tables.device.size(), 0U);
+    ASSERT_TRUE(world().move(other, {{0.5, 0.0}, 0.0}).ok());
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 2U);
+    EXPECT_TRUE(context().remove_shape(*coarse).ok());
+}
+
+/// Edges with more samples than a number of 32 bits counts are refused, as by the CPU.
+TEST_F(DevicePairs, OfMoreSamplesThanTheDeviceCounts) {
+    add(add_shape(rectangle({0.0, 0.0}, {1.0, 1.0})), {});
+    add(add_shape(scaled_and_moved(regular(16), 40.0, {0.56, 0.0})), {});
+    const double cell = 1.0 / (4294967296.0 + 7.5);
+    Tables tables({.tolerance = cell / std::numbers::sqrt2, .records = false});
+    EXPECT_EQ(world().update(tables.device).code(), StatusCode::too_large);
+    EXPECT_EQ(tables.device.size(), 0U);
+    EXPECT_EQ(world().update(tables.cpu).code(), StatusCode::too_large);
+}
+
 /// A tolerance that the coordinates of one instance do not resolve is an error of its pairs alone.
 TEST_F(DevicePairs, StateTheErrorsOfTheirPairs) {
     const ShapeHandle small = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
@@ -199,6 +229,19 @@ TEST_F(DevicePairs, StateTheErrorsOfTheirPairs) {
     add(small, {.translation = {0.5, 0.5}});
     add(add_shape(rectangle({-1e9, -1.0}, {1e9, 1.0})), {});
     Tables tables({.tolerance = 1e-6, .points = PenetrationPoints::vertices});
+    compare(tables);
+    EXPECT_GT(tables.device.left_to_cpu(), 0U);
+}
+
+/// Likewise of pairs with more samples than any buffer holds.
+TEST_F(DevicePairs, StateTheErrorsOfPairsWithManySamples) {
+    const ShapeHandle small = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    add(small, {});
+    add(small, {.translation = {0.5, 0.25}, .angle = 0.1});
+    const ShapeHandle land = add_shape(rectangle({-1e9, -1e9}, {1e9, 1e9}));
+    add(land, {});
+    add(land, {.translation = {1e8, 0.0}, .angle = 1.0});
+    Tables tables({.tolerance = 3e-4, .records = false});
     compare(tables);
     EXPECT_GT(tables.device.left_to_cpu(), 0U);
 }
@@ -283,10 +326,32 @@ TEST_F(DevicePairs, BeyondTheMemoryLimitAreRefused) {
     EXPECT_TRUE(world->update(table).ok());
 }
 
+/// Buffers start small where the usual ones do not fit.
+TEST_F(DevicePairs, WithinALimitBelowTheUsualRoom) {
+    Settings settings;
+    settings.memory_limit = 1U << 17U;
+    Expected<Context> limited = Context::create(host_device(), settings);
+    ASSERT_TRUE(limited.has_value()) << limited.error().text();
+    const auto shape = limited->add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    ASSERT_TRUE(shape.has_value());
+    Expected<World> world = World::create(*limited);
+    ASSERT_TRUE(world.has_value());
+    for (const double x : {0.0, 0.5}) {
+        ASSERT_TRUE(world->add({.shape = *shape, .pose = {{x, x}, 0.0}}).has_value());
+    }
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.01});
+    const Status status = world->update(table);
+    EXPECT_TRUE(status.ok()) << status.text();
+    EXPECT_EQ(table.size(), 2U);
+}
+
 TEST_F(DevicePairs, OfAnEmptyWorldAreNone) {
     Tables tables({.tolerance = 0.1});
     compare(tables);
-    add(add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0})), {});
+    const InstanceHandle only = add(add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0})), {});
+    compare(tables);
+    compare(tables);
+    ASSERT_TRUE(world().move(only, {{1.0, 2.0}, 0.5}).ok());
     compare(tables);
     EXPECT_EQ(tables.device.size(), 0U);
     EXPECT_FALSE(tables.device.row(0).has_value());
