@@ -75,7 +75,7 @@ private:
     void place_moved(const world::Instances& instances);
     [[nodiscard]] bool is_for_cpu(const geometry::Polygon& polygon) const;
     void place_all(const world::Instances& instances);
-    void order_instances();
+    void order_instances(const world::Instances& instances);
     void search();
     [[nodiscard]] bool boxes_meet(const plan::PairRowData& data) const;
     [[nodiscard]] bool is_hit(const AnyResult& answer, const plan::PairRowData& data) const;

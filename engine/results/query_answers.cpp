@@ -1,4 +1,5 @@
 #include <engine/base/interruption.hpp>
+#include <engine/cpu/transformed_pair.hpp>
 #include <engine/localize/overlap.hpp>
 #include <engine/plan/empty_result.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -30,6 +31,7 @@ void QueryAnswers::begin_batch() {
     instances_.begin_batch();
     simplified_.clear();
     penetration_.begin_batch();
+    searched_ = nullptr;
 }
 
 void QueryAnswers::find_points(const Asked& asked) {
@@ -50,25 +52,44 @@ void QueryAnswers::answer(const Asked& asked, PenetrationResult& result) {
         penetration_.answer(planned, instances_, result);
         return;
     }
-    const bool keep = std::get<PenetrationQuery>(*planned.query).records;
     resolver_.begin(asked.plan, planned, asked.words);
-    if (planned.has_points_of(plan::PointSource::device) && !keep) {
+    if (planned.has_points_of(plan::PointSource::device)) {
+        answer_by_search(asked, result);
+        return;
+    }
+    collect_penetrations(asked, result);
+    result.intersects = result.count > 0 || shapes_intersect(asked, result);
+}
+
+/// From the points that the device has found.
+void QueryAnswers::answer_by_search(const Asked& asked, PenetrationResult& result) {
+    const PlannedQuery& planned = asked.planned();
+    if (std::get<PenetrationQuery>(*planned.query).records) {
+        collect_penetrations(asked, result);
+    } else {
         const records::PenetrationSummary summary =
             resolver_.summarize_penetration(result.tolerance);
         result.count = summary.count;
         result.deepest = summary.deepest;
-    } else {
-        resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
-            if (result.count == 0 || record.depth > result.deepest.depth) {
-                result.deepest = record;
-            }
-            ++result.count;
-            if (keep) {
-                result.records.push_back(record);
-            }
-        });
     }
-    result.intersects = result.count > 0 || shapes_intersect(asked, result);
+    const bool is_known = searched_ != nullptr && cpu::is_reverse(*searched_, planned);
+    result.intersects =
+        result.count > 0 || (is_known ? searched_intersect_ : shapes_intersect(asked, result));
+    searched_ = &planned;
+    searched_intersect_ = result.intersects;
+}
+
+void QueryAnswers::collect_penetrations(const Asked& asked, PenetrationResult& result) {
+    const bool keep = std::get<PenetrationQuery>(*asked.planned().query).records;
+    resolver_.for_each_penetration(result.tolerance, [&](const PenetrationRecord& record) {
+        if (result.count == 0 || record.depth > result.deepest.depth) {
+            result.deepest = record;
+        }
+        ++result.count;
+        if (keep) {
+            result.records.push_back(record);
+        }
+    });
 }
 
 void QueryAnswers::answer(const Asked& asked, IntersectionResult& result) {

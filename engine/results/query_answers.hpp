@@ -58,6 +58,8 @@ private:
     [[nodiscard]] bool shapes_intersect(const Asked& asked, ResultSummary& result);
     void find_points(const Asked& asked);
     void answer(const Asked& asked, PenetrationResult& result);
+    void answer_by_search(const Asked& asked, PenetrationResult& result);
+    void collect_penetrations(const Asked& asked, PenetrationResult& result);
     void answer(const Asked& asked, IntersectionResult& result);
     void answer(const Asked& asked, DistanceFieldResult& result);
     void answer(const Asked& asked, ContactResult& result);
@@ -83,6 +85,10 @@ private:
     cpu::Containment containment_;
     cpu::PointPenetration penetration_;
     cpu::ClosestDecoder closest_;
+    // The last penetration query of the batch whose points the device has found, and whether its
+    // shapes intersect: so do they the other way round.
+    const plan::PlannedQuery* searched_ = nullptr;
+    bool searched_intersect_ = false;
 };
 
 }  // namespace nearfield::results

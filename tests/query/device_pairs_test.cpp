@@ -133,6 +133,31 @@ TEST_F(DevicePairs, FarFromTheOrigin) {
     });
 }
 
+/// Boxes are as tight as near the origin where all move far away, and beside one that does.
+TEST_F(DevicePairs, AreFewWhereverTheInstancesGo) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    std::vector<InstanceHandle> added;
+    std::vector<Pose> poses;
+    for (int i = 0; i < 30; ++i) {
+        poses.push_back({{0.75 * i, 0.25 * i}, 0.1 * i});
+        added.push_back(add(square, poses.back()));
+    }
+    add(square, {.translation = {1e12, 0.0}});
+    Tables tables({.tolerance = 0.01, .points = PenetrationPoints::vertices, .records = false});
+    compare(tables);
+    const std::uint32_t few = tables.device.candidates();
+    EXPECT_LT(few, 150U);
+    for (int update = 0; update < 70; ++update) {
+        for (Pose& pose : poses) {
+            pose.translation.x += update == 0 ? 1e8 : 1.0;
+        }
+        ASSERT_TRUE(world().move(added, poses).ok());
+        ASSERT_TRUE(world().update(tables.device).ok());
+    }
+    compare(tables);
+    EXPECT_NEAR(tables.device.candidates(), few, 2.0);
+}
+
 /// Single precision cannot tell on which side of each other's boundary their corners lie.
 TEST_F(DevicePairs, OfSquaresThatTouchAreNone) {
     const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));

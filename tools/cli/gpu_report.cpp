@@ -40,15 +40,22 @@ void write_table(std::ostream& stream, std::span<const GpuRow> rows, bool of_pai
         if (!of_kind(row)) {
             continue;
         }
-        stream << "| " << row.name << " | " << row.size;
+        // Of a row that was answered in no way nothing was counted.
+        stream << "| " << row.name << " | " << (row.size > 0 ? std::to_string(row.size) : "-");
         if (of_pairs) {
-            stream << " | " << row.found;
+            stream << " | " << (row.size > 0 ? std::to_string(row.found) : "-");
         }
         for (const GpuTime& time : row.times) {
             stream << " | " << cell(time);
         }
         stream << " |\n";
     }
+}
+
+bool is_measured(std::span<const GpuRow> rows, bool of_pairs, std::size_t way) {
+    return std::any_of(rows.begin(), rows.end(), [&](const GpuRow& row) {
+        return row.has_pairs == of_pairs && row.times[way].frames > 0;
+    });
 }
 
 /// The first row from which on a way takes less time than `cpu` in each; null if it does in none.
@@ -73,6 +80,9 @@ void write_crossovers(std::ostream& stream, std::span<const GpuRow> rows, bool o
     }
     stream << '\n';
     for (std::size_t way = 1; way < first->times.size(); ++way) {
+        if (!is_measured(rows, of_pairs, way)) {
+            continue;
+        }
         const GpuRow* const from = crossover(rows, of_pairs, way);
         stream << "* " << first->times[way].way << ": "
                << (from != nullptr ? "faster than cpu from " + from->name + " on"

@@ -1,0 +1,193 @@
+// The instances of a table of pairs that the device finds: what is uploaded of them.
+
+#include <engine/base/interruption.hpp>
+#include <engine/context/device_pair_state.hpp>
+#include <engine/plan/boundary_points.hpp>
+#include <engine/plan/check_query.hpp>
+#include <engine/plan/error_budget.hpp>
+#include <engine/plan/point_search.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace nearfield {
+namespace {
+
+using geometry::TransformedPolygon;
+using geometry::Vector;
+
+/// After so many updates the instances are ordered anew: boxes that hold what has moved apart only
+/// cost time.
+constexpr std::uint32_t max_updates_in_order = 64;
+/// Sines and cosines of several poses are computed at the same time; those of one alone would have
+/// to be waited for.
+constexpr std::size_t poses_at_once = 16;
+/// Ratios and squares of lengths between these stay within the range of floats.
+constexpr double smallest_unit = 0x1p-30;
+constexpr double largest_unit = 0x1p+30;
+
+/// Instances farther from the origin, in radii of an average one, get another one: boxes are
+/// rounded by 2^-20 of the distance.
+constexpr double max_radii_from_origin = 1024.0;
+
+/// Half of the places are on either side of it, however far away some are.
+double median(std::vector<Vector2>& places, double Vector2::*coordinate) {
+    const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+    std::nth_element(places.begin(), middle, places.end(), [=](const Vector2& a, const Vector2& b) {
+        return a.*coordinate < b.*coordinate;
+    });
+    return (*middle).*coordinate;
+}
+
+}  // namespace
+
+/// Lists the instances whose shapes exist in the order in which they were added.
+void DevicePairTableBase::State::list_instances(const world::Instances& instances) {
+    indices_.clear();
+    for (std::uint32_t index = 0; index < instances.size(); ++index) {
+        if (instances.is_present(index) &&
+            context_->shapes().find(instances[index].shape) != nullptr) {
+            indices_.push_back(index);
+        }
+    }
+    if (indices_.size() > plan::max_instances) {
+        throw StatusException(
+            {StatusCode::too_large, "update: the world has " + std::to_string(indices_.size()) +
+                                        " instances, of which the device takes at most " +
+                                        std::to_string(plan::max_instances)});
+    }
+    std::sort(indices_.begin(), indices_.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return instances.number(i) < instances.number(j);
+    });
+    instances_.assign(indices_.size(), {});
+}
+
+/// Writes instances whose poses may have changed.
+void DevicePairTableBase::State::place(const world::Instances& instances,
+                                       std::span<const std::uint32_t> numbers) {
+    const bool has_tolerance = question_.tolerance > 0.0;
+    std::array<std::optional<TransformedPolygon>, poses_at_once> placed;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        PairInstance& entry = instances_[numbers[i]];
+        const std::uint32_t index = indices_[numbers[i]];
+        entry.instance.pose = instances[index].pose;
+        entry.moves = instances.moves(index);
+        entry.data.category = instances[index].category;
+        entry.data.mask = instances[index].mask;
+        placed[i].emplace(*entry.polygon, entry.instance.pose);
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        PairInstance& entry = instances_[numbers[i]];
+        const Pose& pose = entry.instance.pose;
+        plan::set_place(*placed[i], origin_, entry.data);
+        const double magnitude =
+            std::max({placed[i]->translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
+                      entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
+                      std::abs(pose.translation.y)});
+        const bool is_resolved =
+            has_tolerance ? plan::check_resolution(question_.tolerance, magnitude).ok() : true;
+        entry.data.rounding = has_tolerance ? 0.0F : plan::rounding_at(magnitude);
+        entry.data.left_to_cpu = entry.is_left_to_cpu || !is_resolved ? 1 : 0;
+        buffers_->set_instance(numbers[i], entry.data);
+    }
+}
+
+void DevicePairTableBase::State::place_moved(const world::Instances& instances) {
+    std::array<std::uint32_t, poses_at_once> numbers{};
+    std::size_t count = 0;
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        if (instances.moves(indices_[number]) != instances_[number].moves) {
+            numbers[count++] = number;
+            if (count == poses_at_once) {
+                place(instances, numbers);
+                count = 0;
+            }
+        }
+    }
+    place(instances, std::span(numbers).first(count));
+}
+
+/// Whether the CPU answers the pairs of a shape, whatever its poses: its deviation is large for the
+/// tolerance, it has more samples than are searched, or it is so small or large that floats do not
+/// hold what is computed.
+bool DevicePairTableBase::State::is_for_cpu(const geometry::Polygon& polygon) const {
+    const double unit = plan::unit_length_of(polygon);
+    if (unit < smallest_unit || unit > largest_unit) {
+        return true;
+    }
+    if (question_.goal == plan::PairGoal::tests) {
+        return false;
+    }
+    if (question_.samples &&
+        plan::max_samples(polygon, question_.cell) > plan::max_searched_points) {
+        return true;
+    }
+    const plan::Deviations both{polygon.deviation(), polygon.deviation()};
+    return !plan::check_deviations(question_.tolerance, both, plan::pair_budget(query_, both).bound)
+                .ok();
+}
+
+void DevicePairTableBase::State::place_all(const world::Instances& instances) {
+    const double cell = question_.cell;
+    context_->shapes().release(held_);
+    shapes_.begin_batch();
+    places_.clear();
+    for (std::uint32_t number = 0; number < instances_.size(); ++number) {
+        checkpoint();
+        PairInstance& entry = instances_[number];
+        const WorldInstance& instance = instances[indices_[number]];
+        entry.handle = instances.handle(indices_[number]);
+        entry.instance.shape = instance.shape;
+        entry.polygon = context_->shapes().hold(instance.shape, held_);
+        entry.is_left_to_cpu = is_for_cpu(*entry.polygon);
+        entry.data.shape = shapes_.place(*entry.polygon);
+        entry.data.parts = question_.samples && !entry.is_left_to_cpu
+                               ? shapes_.place_parts(*entry.polygon, cell)
+                               : plan::no_parts;
+        plan::set_shape(*entry.polygon, entry.data);
+        places_.push_back(
+            geometry::to_public(TransformedPolygon(*entry.polygon, instance.pose).translation()));
+    }
+    origin_ = {median(places_, &Vector2::x), median(places_, &Vector2::y)};
+    place_moved(instances);
+    plan::PairQueryData all;
+    all.cell = static_cast<float>(cell);
+    all.rival = static_cast<float>(cell / std::numbers::sqrt2 * plan::uniqueness_margin);
+    all.touching =
+        static_cast<float>(question_.tolerance * static_cast<double>(plan::touching_depth));
+    all.reach = plan::rounded_up(question_.reach);
+    all.is_test = question_.goal == plan::PairGoal::tests ? 1 : 0;
+    all.is_once = question_.is_once ? 1 : 0;
+    buffers_->set_query(all);
+    updates_in_order_ = max_updates_in_order;
+}
+
+void DevicePairTableBase::State::order_instances(const world::Instances& instances) {
+    if (updates_in_order_++ < max_updates_in_order) {
+        return;
+    }
+    updates_in_order_ = 1;
+    places_.clear();
+    double radii = 0.0;
+    for (const PairInstance& entry : instances_) {
+        places_.push_back(
+            {static_cast<double>(entry.data.high.x), static_cast<double>(entry.data.high.y)});
+        radii += static_cast<double>(entry.data.radius);
+    }
+    buffers_->set_order(hilbert_order_.sort(
+        places_.size(), [this](std::size_t i) -> const Vector2& { return places_[i]; }));
+    const Vector middle{median(places_, &Vector2::x), median(places_, &Vector2::y)};
+    if (middle.norm() > max_radii_from_origin * radii / static_cast<double>(instances_.size())) {
+        origin_ += middle;
+        for (PairInstance& entry : instances_) {
+            entry.moves = not_placed;
+        }
+        place_moved(instances);
+    }
+}
+
+}  // namespace nearfield
