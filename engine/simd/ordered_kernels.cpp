@@ -208,7 +208,7 @@ void ForEdgesNear(const AabbTree& tree, double x, double y, double bound,
 }
 
 double ForClosestToFew(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                       const VertexAndEdgeSink& sink) {
+                       const NearPairSink& sink) {
     NearFew aim(few, tree, most, margin, sink);
     OrderedSearch<NearFew>(tree, aim).Run();
     return aim.least();
@@ -265,7 +265,7 @@ void for_edges_near(const AabbTree& tree, double x, double y, double bound,
 }
 
 double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                          const VertexAndEdgeSink& sink) {
+                          const NearPairSink& sink) {
     return HWY_DYNAMIC_DISPATCH(ForClosestToFew)(few, tree, most, margin, sink);
 }
 

@@ -36,6 +36,17 @@ struct FewEdges {
     double direction[2];
 };
 
+/// As VertexAndEdge, with the squared distance that geometry::nearest_on_segment() computes.
+struct NearPair : VertexAndEdge {
+    double exact = 0.0;
+};
+
+/// Receives the results of a search.
+struct NearPairSink {
+    void (*use)(void* user, const NearPair& found) = nullptr;
+    void* user = nullptr;
+};
+
 /// One number for each of eight boxes.
 using BoxKeys = std::array<double, AabbTree::fan_out>;
 
@@ -54,7 +65,7 @@ void for_edges_near(const AabbTree& tree, double x, double y, double bound,
 /// As for_closest(), for a shape of few edges instead of a first tree. The order is from the
 /// nearest box on, so the bound falls quickly. `margin`: covers the rounding of all vertices, too.
 double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                          const VertexAndEdgeSink& sink);
+                          const NearPairSink& sink);
 
 /// Writes the squared distances of eight boxes from a box.
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
