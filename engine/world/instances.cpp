@@ -41,6 +41,8 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
         if (changes_.capacity() <= entries_.size()) {
             changes_.reserve(2 * entries_.size() + 8);  // for all, so that changes never fail
         }
+        numbers_.resize(entries_.size() + 1);
+        changed_.resize(entries_.size() + 1);
         entries_.emplace_back();
         free_.push_back(static_cast<std::uint32_t>(entries_.size() - 1));
     }
@@ -50,7 +52,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     Entry& entry = entries_[index];
     entry.instance = instance;
     entry.present = true;
-    entry.number = next_number_++;
+    numbers_[index] = next_number_++;
     entry.polygon = nullptr;
     ++count_;
     ++membership_;
@@ -109,7 +111,7 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
         Entry& entry = entries_[i];
         if (entry.present) {
             entry.polygon = find_shape(entry.instance.shape);
-            entry.changed = last_change_;
+            changed_[i] = last_change_;
             place(i);
         }
     }
@@ -150,7 +152,8 @@ void Instances::keep(const Entry& entry) const {
 
 std::size_t Instances::bytes() const {
     std::size_t bytes = sizeof(Entry) * entries_.size() + boxes_.bytes() +
-                        sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity());
+                        sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity()) +
+                        sizeof(std::uint64_t) * (numbers_.capacity() + changed_.capacity());
     for (const Entry& entry : entries_) {
         bytes += entry.edges.bytes();
     }

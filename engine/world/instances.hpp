@@ -82,11 +82,9 @@ public:
         return entries_[index].present && entries_[index].polygon != nullptr;
     }
     /// The order in which instances were added.
-    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return entries_[index].number; }
+    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return numbers_[index]; }
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
-    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const {
-        return entries_[index].changed;
-    }
+    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
     [[nodiscard]] const geometry::Box& box(std::uint32_t index) const {
         return entries_[index].box;
@@ -118,10 +116,8 @@ private:
         WorldInstance instance;
         std::uint32_t generation = 0;
         bool present = false;
-        bool is_changed = false;   // listed in changes_
-        std::uint64_t number = 0;  // in the order of adding
+        bool is_changed = false;  // listed in changes_
         std::uint64_t moves = 0;
-        std::uint64_t changed = 0;
         const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
         std::uint64_t revision = 0;                  // of the polygon
         geometry::Box box;
@@ -146,6 +142,9 @@ private:
 
     std::uint32_t world_ = next_owner_number();
     std::deque<Entry> entries_;  // which stay where they are
+    // By index. In one piece each, since tables of pairs look at all of them.
+    std::vector<std::uint64_t> numbers_;
+    std::vector<std::uint64_t> changed_;
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> changes_;
     BoxHierarchy boxes_;
