@@ -13,8 +13,10 @@ namespace {
 using geometry::number;
 using geometry::TransformedPolygon;
 
-/// The number of poses, points or segments that a job takes at a time: neighbours help each other.
+/// The number of poses that a job takes at a time: neighbours help each other.
 constexpr std::size_t part = 128;
+/// The same of points or segments, which are in order along a curve.
+constexpr std::size_t part_of_places = 1024;
 /// Places are sorted this many at a time: the more, the nearer are neighbours to each other, and
 /// the farther from each other in memory. Rays hit edges anywhere, so they gain less.
 constexpr std::size_t points_at_a_time = std::size_t{1} << 18U;
@@ -160,28 +162,19 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
                  });
 }
 
-template <class Place, class Result, class Begin, class Answer>
+template <class Place, class Answer>
 void World::Implementation::divide_places(std::size_t count, std::size_t at_a_time,
-                                          const Place& place, const Result& result,
-                                          const Begin& begin, const Answer& answer) {
-    constexpr std::size_t ahead = 8;
+                                          const Place& place, const Answer& answer) {
     expect_answers(count);
     for (std::size_t block = 0; block < count; block += at_a_time) {
         const std::size_t size = std::min(at_a_time, count - block);
         const auto order = hilbert_order_.sort(
             size, [&](std::size_t i) -> const Vector2& { return place(block + i); });
-        jobs_.divide(size, part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-            begin(scratch_[job]);
-            for (std::size_t i = first; i < end; ++i) {
-                checkpoint();
-                // Places that are close are not close in memory.
-                const std::size_t later = block + order[std::min(i + ahead, size - 1)];
-                prefetch(&place(later));
-                prefetch(&result(later));
-                answer(scratch_[job], block + order[i]);
-            }
-            finish_answers(end - first);
-        });
+        jobs_.divide(size, part_of_places,
+                     [&](std::uint32_t job, std::size_t first, std::size_t end) {
+                         answer(scratch_[job], block, order.subspan(first, end - first));
+                         finish_answers(end - first);
+                     });
     }
 }
 
@@ -196,10 +189,18 @@ void World::Implementation::find_nearest(const NearestQuery& query, std::span<co
     prepare(query.filter, "find_nearest");
     divide_places(
         points.size(), points_at_a_time, [&](std::size_t i) -> const Vector2& { return points[i]; },
-        [&](std::size_t i) -> const NearestHit& { return hits[i * query.count]; },
-        [&](Job& job) { job.nearest.begin(instances_, query); },
-        [&](Job& job, std::size_t i) {
-            job.nearest.find(points[i], hits.subspan(i * query.count, query.count));
+        [&](Job& job, std::size_t block, std::span<const std::uint32_t> numbers) {
+            constexpr std::size_t ahead = 8;
+            job.nearest.begin(instances_, query);
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                checkpoint();
+                // Points that are close are not close in memory.
+                const std::size_t later = block + numbers[std::min(i + ahead, numbers.size() - 1)];
+                prefetch(&points[later]);
+                prefetch(&hits[later * query.count]);
+                const std::size_t point = block + numbers[i];
+                job.nearest.find(points[point], hits.subspan(point * query.count, query.count));
+            }
         });
 }
 
@@ -226,9 +227,10 @@ void World::Implementation::cast_rays(std::span<const Segment> segments, std::sp
     divide_places(
         segments.size(), rays_at_a_time,
         [&](std::size_t i) -> const Vector2& { return segments[i].from; },
-        [&](std::size_t i) -> const RayHit& { return hits[i]; },
-        [&](Job& job) { job.rays.begin(instances_, filter); },
-        [&](Job& job, std::size_t i) { hits[i] = job.rays.first(segments[i]); });
+        [&](Job& job, std::size_t block, std::span<const std::uint32_t> numbers) {
+            job.rays.begin(instances_, filter);
+            job.rays.find_first(segments.subspan(block), numbers, hits.subspan(block));
+        });
 }
 
 std::uint64_t World::Implementation::bytes() const {

@@ -102,11 +102,11 @@ private:
     void prepare(const WorldFilter& filter, const char* call);
     [[nodiscard]] const geometry::Polygon& shape(ShapeHandle handle, const char* call) const;
     /// Answers each of `count` questions about places in an order in which neighbours need the same
-    /// boxes, sorting `at_a_time` of them: calls begin(job), and answer(job, i) for question i.
-    /// `place(i)` is where it is, and `result(i)` what the answer overwrites.
-    template <class Place, class Result, class Begin, class Answer>
+    /// boxes, sorting `at_a_time` of them: calls answer(job, first, numbers) for the questions
+    /// first + numbers[0], first + numbers[1], ... `place(i)` is where question i is.
+    template <class Place, class Answer>
     void divide_places(std::size_t count, std::size_t at_a_time, const Place& place,
-                       const Result& result, const Begin& begin, const Answer& answer);
+                       const Answer& answer);
     /// Divides poses of a shape among the jobs: calls answer(queries, placed, i) with the shape at
     /// pose i.
     template <class Answer>

@@ -1,6 +1,5 @@
 #include <engine/geometry/segment.hpp>
 #include <engine/narrowphase/closest_pair.hpp>
-#include <engine/simd/ordered_search.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,14 +90,24 @@ ClosestPair ClosestPairFinder::find_of_few(const simd::TransformedEdges& a,
                                            const Vector& direction) {
     a_ = &a;
     b_ = &b;
-    const auto keep = [](void* user, const simd::VertexAndEdge& found) {
-        static_cast<std::vector<simd::VertexAndEdge>*>(user)->push_back(found);
-        return true;
+    const auto keep = [](void* user, const simd::NearPair& found) {
+        static_cast<std::vector<simd::NearPair>*>(user)->push_back(found);
     };
-    near_.clear();
+    near_few_.clear();
     const simd::FewEdges few{a, geometry::extent_of(a.box), {direction.x(), direction.y()}};
-    return pick(simd::kernels::for_closest_to_few(few, tree_b, at_most * at_most,
-                                                  2.0 * (a.rounding + b.rounding), {keep, &near_}));
+    const double least = simd::kernels::for_closest_to_few(
+        few, tree_b, at_most * at_most, 2.0 * (a.rounding + b.rounding), {keep, &near_few_});
+    // As pick().
+    const double close = square_longer(least, a.rounding + b.rounding);
+    const simd::NearPair* best = nullptr;
+    for (const simd::NearPair& found : near_few_) {
+        if (found.squared <= close &&
+            (best == nullptr || found.exact < best->exact ||
+             (found.exact == best->exact && order_of(found) < order_of(*best)))) {
+            best = &found;
+        }
+    }
+    return best == nullptr ? ClosestPair() : pair_of(*best, nearest_of(*best));
 }
 
 ClosestPair ClosestPairFinder::pick(double least) const {

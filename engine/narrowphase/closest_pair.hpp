@@ -1,6 +1,7 @@
 #pragma once
 
 #include <engine/geometry/segment.hpp>
+#include <engine/simd/ordered_search.hpp>
 #include <engine/simd/transformed_edges.hpp>
 
 #include <cstddef>
@@ -73,6 +74,7 @@ private:
     std::vector<simd::VertexAndEdge>
         near_;               // candidates for the closest, and those as close up to the margin
     bool keeps_all_ = true;  // near_ has all of the latter
+    std::vector<simd::NearPair> near_few_;
 };
 
 }  // namespace nearfield::narrowphase

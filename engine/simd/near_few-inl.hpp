@@ -50,13 +50,40 @@ HWY_INLINE Lanes squared_positive(Lanes length) {
     return hn::Mul(left, left);
 }
 
+/// The squared distances of a point from edges, bit for bit those of
+/// geometry::nearest_on_segment().
+HWY_INLINE Lanes exact_squared(const EdgeLanes& edges, Lanes x, Lanes y) {
+    const Tag tag;
+    const Lanes zero = hn::Zero(tag);
+    const Lanes one = hn::Set(tag, 1.0);
+    const Lanes along_x = hn::Sub(edges.end_x, edges.start_x);
+    const Lanes along_y = hn::Sub(edges.end_y, edges.start_y);
+    const Lanes along_of_point = hn::Add(hn::Mul(along_x, hn::Sub(x, edges.start_x)),
+                                         hn::Mul(along_y, hn::Sub(y, edges.start_y)));
+    const Lanes squared_length = hn::Add(hn::Mul(along_x, along_x), hn::Mul(along_y, along_y));
+    const Lanes parameter = hn::Div(along_of_point, squared_length);
+    const LaneMask after_start =
+        hn::And(hn::Gt(along_of_point, zero), hn::Ne(squared_length, zero));
+    const LaneMask before_end = hn::Lt(along_of_point, squared_length);
+    const LaneMask in_first_half = hn::Lt(parameter, hn::Set(tag, 0.5));
+    const auto nearest = [&](Lanes start, Lanes end, Lanes along) HWY_ATTR {
+        const Lanes between =
+            hn::IfThenElse(in_first_half, hn::Add(start, hn::Mul(parameter, along)),
+                           hn::Sub(end, hn::Mul(hn::Sub(one, parameter), along)));
+        return hn::IfThenElse(after_start, hn::IfThenElse(before_end, between, end), start);
+    };
+    const Lanes off_x = hn::Sub(x, nearest(edges.start_x, edges.end_x, along_x));
+    const Lanes off_y = hn::Sub(y, nearest(edges.start_y, edges.end_y, along_y));
+    return hn::Add(hn::Mul(off_x, off_x), hn::Mul(off_y, off_y));
+}
+
 /// Vertices and edges near a shape of few edges, which is tested as a whole against each box.
 class NearFew {
     static_assert(max_few_edges <= 32, "one bit per vertex");
 
 public:
     HWY_INLINE NearFew(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                       const VertexAndEdgeSink& sink)
+                       const NearPairSink& sink)
         : few_(few.edges),
           box_(lanes_of(few.box)),
           ahead_(few.direction),
@@ -81,7 +108,7 @@ public:
         // Not the maximum: boxes that hold nothing may be neither ahead nor behind.
         return hn::IfThenElse(hn::Gt(other, squared), other, squared);
     }
-    [[nodiscard]] HWY_INLINE double bound() const { return go_on_ ? bound_.squared() : -1.0; }
+    [[nodiscard]] HWY_INLINE double bound() const { return bound_.squared(); }
     [[nodiscard]] HWY_INLINE double least() const { return bound_.least(); }
     HWY_INLINE void Use(std::uint32_t box) {
         const Tag tag;
@@ -122,9 +149,10 @@ private:
             const EdgesAlong along = edges_along(tree_.edges(), i);
             for (std::uint32_t left = near; left != 0; left &= left - 1) {
                 const auto vertex = static_cast<std::uint32_t>(std::countr_zero(left));
-                Take(squared_distances(along, hn::Set(tag, few_.start_x[vertex]),
-                                       hn::Set(tag, few_.start_y[vertex])),
-                     static_cast<std::uint32_t>(i), range.end, vertex, true);
+                const Lanes x = hn::Set(tag, few_.start_x[vertex]);
+                const Lanes y = hn::Set(tag, few_.start_y[vertex]);
+                Take(squared_distances(along, x, y), x, y, tree_.edges(),
+                     {static_cast<std::uint32_t>(i), range.end}, vertex, true);
             }
         }
     }
@@ -148,28 +176,32 @@ private:
             for (std::size_t i = 0; i < few_.count; i += hn::Lanes(tag)) {
                 EdgesAlong along(few_, i);
                 along.inverse_length = hn::LoadU(tag, few_.inverse_length + i);
-                Take(squared_distances(along, x, y), static_cast<std::uint32_t>(i), few_.count,
-                     vertex, false);
+                Take(squared_distances(along, x, y), x, y, few_,
+                     {static_cast<std::uint32_t>(i), few_.count}, vertex, false);
             }
         }
     }
 
-    /// Passes on the edges of those from `first` on, and before `end`, that are near a vertex.
-    HWY_INLINE void Take(Lanes squared, std::uint32_t first, std::uint32_t end,
-                         std::uint32_t vertex, bool vertex_of_first) {
+    /// Passes on those of a vector of edges, as far as they are in the range, that are near a
+    /// vertex, which is at x and y.
+    HWY_INLINE void Take(Lanes squared, Lanes x, Lanes y, const EdgeArrays& edges,
+                         const EdgeRange& range, std::uint32_t vertex, bool vertex_of_first) {
         const Tag tag;
         std::uint32_t found = bits_of(hn::Le(squared, hn::Set(tag, bound())));
         if (found == 0) {
             return;
         }
         double distances[max_lanes];
+        double exact[max_lanes];
         hn::StoreU(squared, tag, distances);
+        hn::StoreU(exact_squared(EdgeLanes(edges, range.first), x, y), tag, exact);
         for (; found != 0; found &= found - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
-            if (first + lane < end && distances[lane] <= bound()) {
+            if (range.first + lane < range.end && distances[lane] <= bound()) {
                 bound_.Take(distances[lane]);
-                go_on_ =
-                    sink_.use(sink_.user, {vertex, first + lane, vertex_of_first, distances[lane]});
+                sink_.use(
+                    sink_.user,
+                    {{vertex, range.first + lane, vertex_of_first, distances[lane]}, exact[lane]});
             }
         }
     }
@@ -182,8 +214,7 @@ private:
     double few_ahead_[max_few_edges];
     const AabbTree& tree_;
     LeastBound bound_;
-    const VertexAndEdgeSink& sink_;
-    bool go_on_ = true;
+    const NearPairSink& sink_;
 };
 
 }  // namespace nearfield::simd::kernels::HWY_NAMESPACE

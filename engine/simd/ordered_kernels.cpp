@@ -19,21 +19,14 @@ namespace nearfield::simd::kernels::HWY_NAMESPACE {
 struct PathLanes {
     Lanes from_x;
     Lanes from_y;
-    Lanes inverse_x;  ///< 1 / extent along x; large but finite if there is none
+    Lanes inverse_x;
     Lanes inverse_y;
 
-    explicit HWY_INLINE PathLanes(const Path& path)
+    HWY_INLINE PathLanes(const Path& path, const PathInverse& inverse)
         : from_x(hn::Set(Tag(), path.from_x)),
           from_y(hn::Set(Tag(), path.from_y)),
-          inverse_x(hn::Set(Tag(), Inverse(path.to_x - path.from_x))),
-          inverse_y(hn::Set(Tag(), Inverse(path.to_y - path.from_y))) {}
-
-private:
-    /// Finite, so that its product with zero is zero.
-    static HWY_INLINE double Inverse(double extent) {
-        constexpr double smallest = 1e-300;
-        return extent > smallest || extent < -smallest ? 1.0 / extent : 1.0 / smallest;
-    }
+          inverse_x(hn::Set(Tag(), inverse.x)),
+          inverse_y(hn::Set(Tag(), inverse.y)) {}
 };
 
 /// The parameters, from 0 to 1, at which a path enters boxes grown by a margin; infinity if it does
@@ -130,7 +123,7 @@ public:
     HWY_INLINE AlongPath(const AabbTree& tree, const Path& path, double margin, double bound,
                          const BoundedEdgeSink& sink)
         : tree_(tree),
-          lanes_(path),
+          lanes_(path, PathInverse(path)),
           // Twice the margin, because the values that boxes are compared by are rounded too.
           margin_(hn::Set(Tag(), 2.0 * margin)),
           path_{1, &path.from_x, &path.from_y, &path.to_x, &path.to_y, nullptr},
@@ -208,7 +201,7 @@ void ForEdgesNear(const AabbTree& tree, double x, double y, double bound,
 }
 
 double ForClosestToFew(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                       const VertexAndEdgeSink& sink) {
+                       const NearPairSink& sink) {
     NearFew aim(few, tree, most, margin, sink);
     OrderedSearch<NearFew>(tree, aim).Run();
     return aim.least();
@@ -222,12 +215,44 @@ void MeasureBoxes(const BoxArrays& boxes, std::uint32_t first, const Extent& fro
     }
 }
 
-void EnterBoxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
-                BoxKeys& parameters) {
-    const PathLanes lanes(path);
-    const Lanes grow = hn::Set(Tag(), margin);
-    for (std::size_t i = 0; i < fan_out; i += hn::Lanes(Tag())) {
-        hn::StoreU(entries(boxes_at(boxes, first + i), lanes, grow), Tag(), parameters.data() + i);
+HWY_INLINE void enter_boxes(PathStep& step) {
+    const Tag tag;
+    const PathLanes path(step.path, step.inverse);
+    // Twice the margin, because the values that boxes are compared by are rounded too.
+    const Lanes margin = hn::Set(tag, 2.0 * step.margin);
+    const Lanes bound = hn::Set(tag, step.bound);
+    const BoxArrays boxes{fan_out, step.low_x, step.low_x + step.stride,
+                          step.low_x + 2 * step.stride, step.low_x + 3 * step.stride};
+    Lanes least = hn::Set(tag, std::numeric_limits<double>::infinity());
+    step.met = bits_of_eight([&](std::size_t i) HWY_ATTR {
+        const Lanes keys = entries(boxes_at(boxes, i), path, margin);
+        hn::StoreU(keys, tag, step.keys.data() + i);
+        least = hn::Min(least, keys);
+        return hn::Le(keys, bound);
+    });
+    const Lanes nearest = hn::Set(tag, min_lane(least));
+    step.nearest =
+        static_cast<std::uint32_t>(std::countr_zero(bits_of_eight([&](std::size_t i) HWY_ATTR {
+            return hn::Eq(hn::LoadU(tag, step.keys.data() + i), nearest);
+        })));
+}
+
+HWY_INLINE void meet_edges(PathStep& step) {
+    const EdgeArrays path{
+        1, &step.path.from_x, &step.path.from_y, &step.path.to_x, &step.path.to_y, nullptr};
+    step.met =
+        bits_of_range(step.range) & bits_of_eight([&](std::size_t i) HWY_ATTR {
+            return may_meet(path, 0, EdgeLanes(*step.edges, step.range.first + i), step.margin);
+        });
+}
+
+void TakeSteps(std::span<PathStep> steps) {
+    for (PathStep& step : steps) {
+        if (step.edges == nullptr) {
+            enter_boxes(step);
+        } else {
+            meet_edges(step);
+        }
     }
 }
 
@@ -251,7 +276,7 @@ HWY_EXPORT(ForEdgesAlong);
 HWY_EXPORT(ForEdgesNear);
 HWY_EXPORT(ForClosestToFew);
 HWY_EXPORT(MeasureBoxes);
-HWY_EXPORT(EnterBoxes);
+HWY_EXPORT(TakeSteps);
 HWY_EXPORT(JoinBoxes);
 
 void for_edges_along(const AabbTree& tree, const Path& path, double margin, double bound,
@@ -265,7 +290,7 @@ void for_edges_near(const AabbTree& tree, double x, double y, double bound,
 }
 
 double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                          const VertexAndEdgeSink& sink) {
+                          const NearPairSink& sink) {
     return HWY_DYNAMIC_DISPATCH(ForClosestToFew)(few, tree, most, margin, sink);
 }
 
@@ -274,9 +299,8 @@ void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& fr
     HWY_DYNAMIC_DISPATCH(MeasureBoxes)(boxes, first, from, squared);
 }
 
-void enter_boxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
-                 BoxKeys& parameters) {
-    HWY_DYNAMIC_DISPATCH(EnterBoxes)(boxes, first, path, margin, parameters);
+void take_steps(std::span<PathStep> steps) {
+    HWY_DYNAMIC_DISPATCH(TakeSteps)(steps);
 }
 
 Extent join_boxes(const BoxArrays& boxes, std::uint32_t first) {

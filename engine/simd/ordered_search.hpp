@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 /// \file
 /// Searches of trees from the nearest box on, with a bound that falls as something is found.
@@ -36,8 +37,51 @@ struct FewEdges {
     double direction[2];
 };
 
+/// As VertexAndEdge, with the squared distance that geometry::nearest_on_segment() computes.
+struct NearPair : VertexAndEdge {
+    double exact = 0.0;
+};
+
+/// Receives the results of a search.
+struct NearPairSink {
+    void (*use)(void* user, const NearPair& found) = nullptr;
+    void* user = nullptr;
+};
+
 /// One number for each of eight boxes.
 using BoxKeys = std::array<double, AabbTree::fan_out>;
+
+/// 1 / the extent of a path along each axis; large where there is none.
+struct PathInverse {
+    double x;
+    double y;
+
+    explicit PathInverse(const Path& path)
+        : x(of(path.to_x - path.from_x)), y(of(path.to_y - path.from_y)) {}
+
+private:
+    /// Finite, so that its product with zero is zero.
+    static double of(double extent) {
+        constexpr double smallest = 1e-300;
+        return extent > smallest || extent < -smallest ? 1.0 / extent : 1.0 / smallest;
+    }
+};
+
+/// What a path comes to next: eight boxes, or the edges of a lowest box.
+struct PathStep {
+    Path path;
+    PathInverse inverse{path};
+    double margin = 0.0;
+    double bound = 1.0;                 ///< largest parameter of interest; at most 1
+    const EdgeArrays* edges = nullptr;  ///< null: boxes are tested
+    EdgeRange range;                    ///< of the edges
+    const double* low_x = nullptr;      ///< of the boxes; their low y, high x and high y follow ...
+    std::size_t stride = 0;             ///< ... at this distance from each other
+    // Found:
+    std::uint32_t met = 0;      ///< one bit per box, or edge, that the path may meet
+    std::uint32_t nearest = 0;  ///< of the boxes met, the one that the path enters first
+    BoxKeys keys = {};          ///< the parameters at which it enters the boxes
+};
 
 namespace kernels {
 
@@ -54,16 +98,15 @@ void for_edges_near(const AabbTree& tree, double x, double y, double bound,
 /// As for_closest(), for a shape of few edges instead of a first tree. The order is from the
 /// nearest box on, so the bound falls quickly. `margin`: covers the rounding of all vertices, too.
 double for_closest_to_few(const FewEdges& few, const AabbTree& tree, double most, double margin,
-                          const VertexAndEdgeSink& sink);
+                          const NearPairSink& sink);
 
 /// Writes the squared distances of eight boxes from a box.
 void measure_boxes(const BoxArrays& boxes, std::uint32_t first, const Extent& from,
                    BoxKeys& squared);
 
-/// Writes the parameters at which a path comes within `margin` of eight boxes; infinity if it does
-/// not.
-void enter_boxes(const BoxArrays& boxes, std::uint32_t first, const Path& path, double margin,
-                 BoxKeys& parameters);
+/// Takes one step of each of several paths: finds the boxes that it comes within twice the margin
+/// of at a parameter of at most the bound, or the edges that it may come within the margin of.
+void take_steps(std::span<PathStep> steps);
 
 /// Returns the bounding box of eight boxes.
 [[nodiscard]] Extent join_boxes(const BoxArrays& boxes, std::uint32_t first);

@@ -42,25 +42,23 @@ public:
     /// from a box, as long as that is at most `bound()`, which may fall.
     template <class Bound, class Use>
     void for_near(const geometry::Box& box, const Bound& bound, const Use& use) const {
-        const simd::Extent extent = geometry::extent_of(box);
-        search(
-            [&](const Node& node, simd::BoxKeys& keys) {
-                simd::kernels::measure_boxes(node.boxes(), 0, extent, keys);
-            },
-            bound, use);
+        if (!levels_.empty()) {
+            visit_near(top_level(), 0, geometry::extent_of(box), bound, use);
+        }
     }
 
-    /// Calls `use(name, parameter)` for boxes that a path comes within `margin` of, in roughly
-    /// ascending order of the parameter, as long as that is at most `bound()`, which may fall.
-    template <class Bound, class Use>
-    void for_along(const simd::Path& path, double margin, const Bound& bound,
-                   const Use& use) const {
-        search(
-            [&](const Node& node, simd::BoxKeys& keys) {
-                simd::kernels::enter_boxes(node.boxes(), 0, path, margin, keys);
-            },
-            bound, use);
+    // For searches of many paths at the same time. Precondition: it has boxes.
+
+    [[nodiscard]] bool has_boxes() const { return !levels_.empty(); }
+    [[nodiscard]] std::uint32_t top_level() const {
+        return static_cast<std::uint32_t>(levels_.size()) - 1;
     }
+    /// Eight boxes of a level; those under its box i are number i of the level below.
+    [[nodiscard]] simd::BoxArrays boxes(std::uint32_t level, std::uint32_t number) const {
+        return levels_[level][number].boxes();
+    }
+    /// The name of a box of level 0, or `nowhere`.
+    [[nodiscard]] std::uint32_t name(std::uint32_t box) const { return names_[box]; }
 
     [[nodiscard]] std::size_t bytes() const;
 
@@ -83,17 +81,6 @@ private:
     };
     using Level = std::vector<Node>;
 
-    template <class Measure, class Bound, class Use>
-    void search(const Measure& measure, const Bound& bound, const Use& use) const {
-        if (!levels_.empty()) {
-            visit(top_level(), 0, measure, bound, use);
-        }
-    }
-
-    [[nodiscard]] std::uint32_t top_level() const {
-        return static_cast<std::uint32_t>(levels_.size()) - 1;
-    }
-
     template <class Use>
     void visit_meeting(std::uint32_t level, std::uint32_t number, const simd::Extent& extent,
                        const Use& use) const {
@@ -111,11 +98,11 @@ private:
         }
     }
 
-    template <class Measure, class Bound, class Use>
-    void visit(std::uint32_t level, std::uint32_t number, const Measure& measure,
-               const Bound& bound, const Use& use) const {
+    template <class Bound, class Use>
+    void visit_near(std::uint32_t level, std::uint32_t number, const simd::Extent& extent,
+                    const Bound& bound, const Use& use) const {
         simd::BoxKeys keys;
-        measure(levels_[level][number], keys);
+        simd::kernels::measure_boxes(levels_[level][number].boxes(), 0, extent, keys);
         const double most = std::min(bound(), largest_key);
         std::uint32_t left = 0;
         for (std::uint32_t i = 0; i < fan_out; ++i) {
@@ -132,7 +119,7 @@ private:
             }
             left &= ~(1U << nearest);
             if (level > 0) {
-                visit(level - 1, fan_out * number + nearest, measure, bound, use);
+                visit_near(level - 1, fan_out * number + nearest, extent, bound, use);
             } else if (names_[fan_out * number + nearest] != nowhere) {
                 use(names_[fan_out * number + nearest], keys[nearest]);
             }

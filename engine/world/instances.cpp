@@ -44,6 +44,8 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
         if (kept_.size() == entries_.size()) {
             kept_.emplace_back();
         }
+        numbers_.resize(kept_.size());
+        changed_.resize(kept_.size());
         entries_.emplace_back();
         free_.push_back(static_cast<std::uint32_t>(entries_.size() - 1));
     }
@@ -53,7 +55,7 @@ InstanceHandle Instances::add(const WorldInstance& instance) {
     Entry& entry = entries_[index];
     entry.instance = instance;
     entry.present = true;
-    kept_[index].number = next_number_++;
+    numbers_[index] = next_number_++;
     kept_[index].polygon = nullptr;
     ++count_;
     ++membership_;
@@ -113,7 +115,7 @@ void Instances::prepare(const FindShape& find_shape, std::uint64_t shapes_revisi
         const Entry& entry = entries_[i];
         if (entry.present) {
             kept_[i].polygon = find_shape(entry.instance.shape);
-            kept_[i].changed = last_change_;
+            changed_[i] = last_change_;
             place(i);
         }
     }
@@ -156,7 +158,8 @@ void Instances::make_edges(std::uint32_t index) const {
 std::size_t Instances::bytes() const {
     std::size_t bytes = sizeof(Entry) * entries_.capacity() + sizeof(Kept) * kept_.size() +
                         boxes_.bytes() +
-                        sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity());
+                        sizeof(std::uint32_t) * (free_.capacity() + changes_.capacity()) +
+                        sizeof(std::uint64_t) * (numbers_.capacity() + changed_.capacity());
     for (const Kept& kept : kept_) {
         bytes += kept.edges.bytes();
     }

@@ -82,9 +82,9 @@ public:
         return entries_[index].present && kept_[index].polygon != nullptr;
     }
     /// The order in which instances were added.
-    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return kept_[index].number; }
+    [[nodiscard]] std::uint64_t number(std::uint32_t index) const { return numbers_[index]; }
     /// Changes with the pose, the shape's rings and the filter: larger than at any earlier time.
-    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return kept_[index].changed; }
+    [[nodiscard]] std::uint64_t changed(std::uint32_t index) const { return changed_[index]; }
     [[nodiscard]] std::uint64_t last_change() const { return last_change_; }
     [[nodiscard]] const geometry::Box& box(std::uint32_t index) const { return kept_[index].box; }
     /// Of its transformed vertices: localize::placement_rounding.
@@ -120,8 +120,6 @@ private:
     };
     // What is kept of an instance.
     struct Kept {
-        std::uint64_t number = 0;  // in the order of adding
-        std::uint64_t changed = 0;
         const geometry::Polygon* polygon = nullptr;  // null: its shape was removed
         std::uint64_t revision = 0;                  // of the polygon
         geometry::Box box;
@@ -147,6 +145,10 @@ private:
     std::uint32_t world_ = next_owner_number();
     std::vector<Entry> entries_;
     std::deque<Kept> kept_;  // which stay where they are
+    // In one piece each, since tables of pairs look at all of them: the order in which instances
+    // were added, and their last change.
+    std::vector<std::uint64_t> numbers_;
+    std::vector<std::uint64_t> changed_;
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> changes_;
     BoxHierarchy boxes_;

@@ -7,6 +7,7 @@ namespace nearfield::world {
 
 void PairList::clear() {
     last_change_ = 0;
+    membership_ = 0;
     pairs_.clear();
     new_pairs_.clear();
     generations_.clear();
@@ -14,17 +15,24 @@ void PairList::clear() {
 
 void PairList::find_changed(const Instances& instances) {
     const std::uint32_t size = instances.size();
-    has_changed_.assign(std::max<std::size_t>(size, generations_.size()), 0);
+    has_changed_.resize(size);
     for (std::uint32_t i = 0; i < size; ++i) {
-        const bool is_new =
-            i >= generations_.size() || generations_[i] != instances.handle(i).generation;
-        has_changed_[i] = is_new || instances.changed(i) > last_change_ ? 1 : 0;
-    }
-    generations_.resize(size);
-    for (std::uint32_t i = 0; i < size; ++i) {
-        generations_[i] = instances.handle(i).generation;
+        has_changed_[i] = instances.changed(i) > last_change_ ? 1 : 0;
     }
     last_change_ = instances.last_change();
+    if (membership_ == instances.membership()) {
+        return;
+    }
+    const std::size_t known = generations_.size();
+    generations_.resize(size);
+    for (std::uint32_t i = 0; i < size; ++i) {
+        const std::uint32_t generation = instances.handle(i).generation;
+        if (i >= known || generations_[i] != generation) {
+            has_changed_[i] = 1;
+        }
+        generations_[i] = generation;
+    }
+    membership_ = instances.membership();
 }
 
 template <class Boxes>

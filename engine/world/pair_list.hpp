@@ -45,7 +45,9 @@ private:
     template <class Boxes>
     void find_pairs(const Instances& instances, const Boxes& boxes, double reach, bool both_ways);
 
-    std::uint64_t last_change_ = 0;  // of the instances, at the last update
+    // Of the instances, at the last update.
+    std::uint64_t last_change_ = 0;
+    std::uint64_t membership_ = 0;
     std::vector<Pair> pairs_;
     std::vector<Pair> pairs_before_;
     std::vector<Pair> found_;  // of instances that changed

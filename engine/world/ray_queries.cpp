@@ -1,15 +1,23 @@
+#include <engine/base/interruption.hpp>
+#include <engine/base/prefetch.hpp>
 #include <engine/geometry/segment.hpp>
 #include <engine/world/ray_queries.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace nearfield::world {
 
 using geometry::Vector;
 
 namespace {
+
+/// The number of segments that are followed at the same time.
+constexpr std::size_t slots = 16;
+constexpr std::uint32_t fan_out = simd::AabbTree::fan_out;
 
 /// True if an edge joins two vertices at the same place. It has no normal, and the edges beside it
 /// are hit wherever it would be.
@@ -22,6 +30,37 @@ bool is_repeated_vertex(const simd::TransformedEdges& edges, std::uint32_t edge)
     return polygon.vertices()[edge] == polygon.vertices()[polygon.next(edge)];
 }
 
+void test_boxes(simd::PathStep& step, const double* low_x, std::size_t stride) {
+    step.edges = nullptr;
+    step.low_x = low_x;
+    step.stride = stride;
+    prefetch(low_x);
+    prefetch(low_x + stride);
+    prefetch(low_x + 2 * stride);
+    prefetch(low_x + 3 * stride);
+}
+
+void test_edges(simd::PathStep& step, const simd::EdgeArrays& edges, const simd::EdgeRange& range) {
+    step.edges = &edges;
+    step.range = range;
+    prefetch(edges.start_x + range.first);
+    prefetch(edges.start_y + range.first);
+    prefetch(edges.end_x + range.first);
+    prefetch(edges.end_y + range.first);
+}
+
+Vector start_of(const simd::Path& path) {
+    return {path.from_x, path.from_y};
+}
+
+Vector end_of(const simd::Path& path) {
+    return {path.to_x, path.to_y};
+}
+
+std::uint32_t first_of(std::uint32_t bits) {
+    return static_cast<std::uint32_t>(std::countr_zero(bits));
+}
+
 }  // namespace
 
 void RayQueries::begin(const Instances& instances, const WorldFilter& filter) {
@@ -29,61 +68,146 @@ void RayQueries::begin(const Instances& instances, const WorldFilter& filter) {
     filter_ = filter;
 }
 
-void RayQueries::take(const Found& found) {
-    if (all_ || found_.empty()) {
-        found_.push_back(found);
-    } else if (found < found_.front()) {
-        found_.front() = found;
+void RayQueries::reserve(std::size_t count) {
+    if (searches_.size() < count) {
+        later_.resize(count);
+        steps_.resize(count);
+        searches_.resize(count);  // last: if memory runs out before, all is done again
+        for (std::size_t i = 0; i < count; ++i) {
+            searches_[i].later = later_[i].data();
+        }
     }
 }
 
-void RayQueries::search_edges_of(std::uint32_t index) {
-    const simd::TransformedEdges& edges = instances_->edges(index);
-    struct Search {
-        RayQueries& all;
-        const simd::TransformedEdges& edges;
-        std::uint32_t index;
-
-        [[nodiscard]] double bound() const {
-            return all.all_ || all.found_.empty() ? 1.0 : all.found_.front().parameter;
-        }
-    } search{*this, edges, index};
-    const auto use = [](void* user, std::uint32_t edge) {
-        const Search& of = *static_cast<Search*>(user);
-        const std::optional<double> parameter =
-            geometry::first_meeting(of.all.from_, of.all.to_, of.edges.start(edge),
-                                    of.edges.end(edge), of.edges.rounding + of.all.rounding_);
-        if (parameter && !is_repeated_vertex(of.edges, edge)) {
-            of.all.take({*parameter, of.all.instances_->number(of.index), of.index, edge});
-        }
-        return of.bound();
-    };
-    simd::kernels::for_edges_along(instances_->tree(index), path_, edges.rounding + rounding_,
-                                   search.bound(), {use, &search});
-}
-
-void RayQueries::search(const Segment& segment, bool all) {
-    path_ = {segment.from.x, segment.from.y, segment.to.x, segment.to.y};
-    from_ = geometry::to_vector(segment.from);
-    to_ = geometry::to_vector(segment.to);
+void RayQueries::start(Search& search, simd::PathStep& step, const Segment& segment,
+                       std::uint32_t number) {
+    step.path = {segment.from.x, segment.from.y, segment.to.x, segment.to.y};
+    step.inverse = simd::PathInverse(step.path);
     // Of positions along the path.
-    rounding_ = 4.0 * std::numeric_limits<double>::epsilon() *
-                (from_.lpNorm<Eigen::Infinity>() + to_.lpNorm<Eigen::Infinity>());
-    all_ = all;
-    found_.clear();
-    instances_->boxes().for_along(
-        path_, 2.0 * (instances_->max_rounding() + rounding_),
-        [this] { return all_ || found_.empty() ? 1.0 : found_.front().parameter; },
-        [this](std::uint32_t index, double) {
-            if (instances_->passes(index, filter_)) {
-                search_edges_of(index);
-            }
-        });
+    search.rounding = 4.0 * std::numeric_limits<double>::epsilon() *
+                      (start_of(step.path).lpNorm<Eigen::Infinity>() +
+                       end_of(step.path).lpNorm<Eigen::Infinity>());
+    search.number = number;
+    search.edges = nullptr;
+    search.later_count = 0;
+    search.has_found = false;
+    search.level = instances_->boxes().top_level();
+    search.first = 0;
+    step.margin = instances_->max_rounding() + search.rounding;
+    step.bound = 1.0;
+    test_boxes(step, instances_->boxes().boxes(search.level, 0).low_x, fan_out);
 }
 
-RayHit RayQueries::hit_of(const Found& found) const {
+inline bool RayQueries::enter(Search& search, simd::PathStep& step, std::uint32_t box) const {
+    if (search.edges != nullptr) {
+        if (search.level == 0) {
+            test_edges(step, *search.edges, search.tree->edges_of(box));
+            return true;
+        }
+        const simd::BoxArrays& below = search.tree->level(--search.level);
+        search.first = fan_out * box;
+        test_boxes(step, below.low_x + search.first, simd::padded(below.count));
+        return true;
+    }
+    if (search.level > 0) {
+        search.first = fan_out * box;
+        test_boxes(step, instances_->boxes().boxes(--search.level, box).low_x, fan_out);
+        return true;
+    }
+    search.instance = instances_->boxes().name(box);
+    if (search.instance == BoxHierarchy::nowhere || !instances_->passes(search.instance, filter_)) {
+        return false;
+    }
+    search.edges = &instances_->edges(search.instance);
+    search.tree = &instances_->tree(search.instance);
+    search.level = search.tree->top_level();
+    search.first = 0;
+    step.margin = search.edges->rounding + search.rounding;
+    const simd::BoxArrays& top = search.tree->level(search.level);
+    test_boxes(step, top.low_x, simd::padded(top.count));
+    return true;
+}
+
+inline std::uint32_t RayQueries::take_later(Search& search, simd::PathStep& step) const {
+    while (search.later_count > 0) {
+        Later& later = search.later[search.later_count - 1];
+        std::uint32_t nearest = first_of(later.left);
+        for (std::uint32_t others = later.left & (later.left - 1); others != 0;
+             others &= others - 1) {
+            const std::uint32_t other = first_of(others);
+            nearest = later.keys[other] < later.keys[nearest] ? other : nearest;
+        }
+        const bool is_near = later.keys[nearest] <= step.bound;
+        later.left &= ~(1U << nearest);
+        search.later_count -= later.left == 0 || !is_near ? 1 : 0;
+        if (is_near) {
+            search.level = later.level;
+            if (later.are_instances) {
+                search.edges = nullptr;
+                step.margin = instances_->max_rounding() + search.rounding;
+            }
+            return later.first + nearest;
+        }
+    }
+    return BoxHierarchy::nowhere;
+}
+
+void RayQueries::take(Search& search, const Found& found) {
+    if (all_) {
+        all_found_.push_back(found);
+    } else if (!search.has_found || found < search.found) {
+        search.has_found = true;
+        search.found = found;
+    }
+}
+
+inline void RayQueries::use_edges(Search& search, simd::PathStep& step) {
+    const simd::TransformedEdges& edges = *search.edges;
+    for (std::uint32_t met = step.met; met != 0; met &= met - 1) {
+        const std::uint32_t edge = step.range.first + first_of(met);
+        const std::optional<double> parameter =
+            geometry::first_meeting(start_of(step.path), end_of(step.path), edges.start(edge),
+                                    edges.end(edge), edges.rounding + search.rounding);
+        if (parameter && !is_repeated_vertex(edges, edge)) {
+            take(search, {*parameter, instances_->number(search.instance), search.instance, edge});
+            step.bound = all_ ? 1.0 : search.found.parameter;
+        }
+    }
+}
+
+inline bool RayQueries::advance(Search& search, simd::PathStep& step) {
+    std::uint32_t box = BoxHierarchy::nowhere;
+    if (step.edges != nullptr) {
+        use_edges(search, step);
+    } else if (step.met != 0) {
+        box = search.first + step.nearest;
+        const std::uint32_t others = step.met & ~(1U << step.nearest);
+        if (others != 0) {
+            Later& later = search.later[search.later_count++];
+            later.keys = step.keys;
+            later.left = others;
+            later.first = search.first;
+            later.level = search.level;
+            later.are_instances = search.edges == nullptr;
+        }
+    }
+    for (;;) {
+        if (box == BoxHierarchy::nowhere) {
+            box = take_later(search, step);
+            if (box == BoxHierarchy::nowhere) {
+                return false;
+            }
+        }
+        if (enter(search, step, box)) {
+            return true;
+        }
+        box = BoxHierarchy::nowhere;
+    }
+}
+
+RayHit RayQueries::hit_of(const Search& search, const simd::Path& path, const Found& found) const {
     const simd::TransformedEdges& edges = instances_->edges(found.instance);
-    const Vector way = to_ - from_;
+    const Vector way = end_of(path) - start_of(path);
     const Vector along = edges.end(found.edge) - edges.start(found.edge);
     // Far from the origin an edge may be shorter than what rounding leaves of it.
     const bool has_length = along != Vector::Zero();
@@ -94,22 +218,75 @@ RayHit RayQueries::hit_of(const Found& found) const {
     // What is as close as rounding allows is hit; the edge and the point are rounded once more.
     return {instances_->handle(found.instance),
             found.parameter,
-            2.0 * (edges.rounding + rounding_) + instances_->deviation(found.instance),
-            geometry::to_public(from_ + found.parameter * way),
+            2.0 * (edges.rounding + search.rounding) + instances_->deviation(found.instance),
+            geometry::to_public(start_of(path) + found.parameter * way),
             geometry::to_public(normal),
             found.edge};
 }
 
-RayHit RayQueries::first(const Segment& segment) {
-    search(segment, false);
-    return found_.empty() ? RayHit{} : hit_of(found_.front());
+void RayQueries::find_first(std::span<const Segment> segments,
+                            std::span<const std::uint32_t> numbers, std::span<RayHit> hits) {
+    all_ = false;
+    reserve(slots);
+    if (!instances_->boxes().has_boxes()) {
+        for (const std::uint32_t number : numbers) {
+            checkpoint();
+            hits[number] = {};
+        }
+        return;
+    }
+    std::size_t started = 0;
+    const auto start_next = [&](std::size_t slot) {
+        checkpoint();
+        const std::uint32_t number = numbers[started++];
+        // Segments that are close are not close in memory.
+        const std::uint32_t later = numbers[std::min(started + slots / 2, numbers.size() - 1)];
+        prefetch(&segments[later].from);
+        prefetch(&segments[later].to);
+        prefetch(&hits[number].instance);
+        prefetch(&hits[number].edge);
+        start(searches_[slot], steps_[slot], segments[number], number);
+    };
+    std::size_t active = std::min(slots, numbers.size());
+    for (std::size_t slot = 0; slot < active; ++slot) {
+        start_next(slot);
+    }
+    while (active > 0) {
+        simd::kernels::take_steps(std::span(steps_).first(active));
+        for (std::size_t slot = 0; slot < active; ++slot) {
+            Search& search = searches_[slot];
+            if (advance(search, steps_[slot])) {
+                continue;
+            }
+            hits[search.number] =
+                search.has_found ? hit_of(search, steps_[slot].path, search.found) : RayHit{};
+            if (started < numbers.size()) {
+                start_next(slot);
+            } else {
+                --active;
+                std::swap(search, searches_[active]);
+                std::swap(steps_[slot--], steps_[active]);
+            }
+        }
+    }
 }
 
 void RayQueries::find_all(const Segment& segment, std::vector<RayHit>& hits) {
-    search(segment, true);
-    std::sort(found_.begin(), found_.end());
-    for (const Found& found : found_) {
-        hits.push_back(hit_of(found));
+    if (!instances_->boxes().has_boxes()) {
+        return;
+    }
+    all_ = true;
+    reserve(1);
+    all_found_.clear();
+    Search& search = searches_.front();
+    simd::PathStep& step = steps_.front();
+    start(search, step, segment, 0);
+    do {
+        simd::kernels::take_steps({&step, 1});
+    } while (advance(search, step));
+    std::sort(all_found_.begin(), all_found_.end());
+    for (const Found& found : all_found_) {
+        hits.push_back(hit_of(search, step.path, found));
     }
 }
 

@@ -3,19 +3,27 @@
 #include <engine/world/instances.hpp>
 #include <nearfield/world.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nearfield::world {
 
-/// Finds what one segment after the other hits. For one thread; several objects may work on one
-/// world at the same time. Keeps its memory.
+/// Finds what segments hit. For one thread; several objects may work on one world at the same time.
+/// Keeps its memory.
+///
+/// Several segments are followed at the same time, one step of each in turn: while one waits for
+/// memory, or for what its last step found, the processor works for the others.
 class RayQueries {
 public:
     /// The instances have to be prepared.
     void begin(const Instances& instances, const WorldFilter& filter);
 
-    [[nodiscard]] RayHit first(const Segment& segment);
+    /// Writes the first hit of each segment whose number is listed to hits[number].
+    void find_first(std::span<const Segment> segments, std::span<const std::uint32_t> numbers,
+                    std::span<RayHit> hits);
     /// Appends all hits, in order along the segment.
     void find_all(const Segment& segment, std::vector<RayHit>& hits);
 
@@ -34,19 +42,55 @@ private:
         }
     };
 
-    void search(const Segment& segment, bool all);
-    void search_edges_of(std::uint32_t index);
-    void take(const Found& found);
-    [[nodiscard]] RayHit hit_of(const Found& found) const;
+    /// Boxes that a segment enters later.
+    struct Later {
+        simd::BoxKeys keys;
+        std::uint32_t left;   // one bit per box
+        std::uint32_t first;  // of the boxes
+        std::uint32_t level;
+        bool are_instances;  // of the world's hierarchy, not of an instance's tree
+    };
+    /// Levels of a world's hierarchy and of an instance's tree.
+    static constexpr std::size_t max_levels = 24;
+
+    /// A segment that is being followed.
+    struct Search {
+        // Where it is now: a level of an instance's tree, or of the world's hierarchy.
+        const simd::TransformedEdges* edges = nullptr;  // null: in the hierarchy
+        const simd::AabbTree* tree = nullptr;
+        std::uint32_t instance = 0;
+        std::uint32_t level = 0;
+        std::uint32_t first = 0;  // of the boxes looked at
+        std::uint32_t later_count = 0;
+        std::uint32_t number = 0;
+        bool has_found = false;
+        Found found = {};  // the first
+        double rounding = 0.0;
+        Later* later = nullptr;  // later_count of them
+    };
+
+    /// Begins to follow a segment.
+    void start(Search& search, simd::PathStep& step, const Segment& segment, std::uint32_t number);
+    /// Looks at what the last step found, and prepares the next one; returns false at the end.
+    [[nodiscard]] bool advance(Search& search, simd::PathStep& step);
+    /// Prepares the step into a box; returns false if there is nothing in it.
+    [[nodiscard]] bool enter(Search& search, simd::PathStep& step, std::uint32_t box) const;
+    /// Returns the next box to enter, or `nowhere`.
+    [[nodiscard]] std::uint32_t take_later(Search& search, simd::PathStep& step) const;
+    void use_edges(Search& search, simd::PathStep& step);
+    void take(Search& search, const Found& found);
+    [[nodiscard]] RayHit hit_of(const Search& search, const simd::Path& path,
+                                const Found& found) const;
+    /// Makes room for that many segments at the same time.
+    void reserve(std::size_t count);
 
     const Instances* instances_ = nullptr;
     WorldFilter filter_;
-    simd::Path path_;
-    geometry::Vector from_ = geometry::Vector::Zero();
-    geometry::Vector to_ = geometry::Vector::Zero();
-    double rounding_ = 0.0;
     bool all_ = false;
-    std::vector<Found> found_;  // the first alone, unless all are wanted
+    std::vector<Search> searches_;
+    std::vector<simd::PathStep> steps_;                 // of the searches
+    std::vector<std::array<Later, max_levels>> later_;  // of the searches, in any order
+    std::vector<Found> all_found_;
 };
 
 }  // namespace nearfield::world
