@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 
 namespace nearfield::test {
 namespace {
@@ -127,6 +128,10 @@ TEST_F(FieldOptions, WithoutMeaningAreRefused) {
     expect_refused(
         with({"--features", folder_.path("a.npy"), "--gradient-field", folder_.path("a.npy")}),
         {"a.npy", "another output"});
+    // Of two names of one file, neither of which is there yet.
+    const std::string here = std::filesystem::relative(folder_.path("a.npy")).string();
+    expect_refused(with({"--features", here, "--gradient-field", "./" + here}),
+                   {"a.npy", "another output"});
     const Arguments other = squares("penetration") + Arguments{"-d", "0.05"};
     for (const std::string option :
          {"--sign", "--gradient", "--gradient-field", "--features", "--show", "--at"}) {

@@ -90,16 +90,26 @@ void OutputFile::commit() {
     temporary_.clear();
 }
 
+namespace {
+
+/// The same for all names of a file, which need not be there yet.
+std::filesystem::path only_name(const std::string& file) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, ignored), ignored);
+}
+
+}  // namespace
+
 void require_different_files(const std::vector<std::string>& inputs,
                              const std::vector<std::string>& outputs) {
     std::vector<std::filesystem::path> taken;
     taken.reserve(inputs.size() + outputs.size());
     std::error_code ignored;
     for (const std::string& input : inputs) {
-        taken.push_back(std::filesystem::weakly_canonical(input, ignored));
+        taken.push_back(only_name(input));
     }
     for (const std::string& output : outputs) {
-        const std::filesystem::path path = std::filesystem::weakly_canonical(output, ignored);
+        const std::filesystem::path path = only_name(output);
         if (std::filesystem::exists(path, ignored) &&
             !std::filesystem::is_regular_file(path, ignored)) {
             continue;

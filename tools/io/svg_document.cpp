@@ -34,6 +34,10 @@ SvgDocument::SvgDocument(const std::string& text, const std::string& file)
         fail(offset_of(root().name()),
              "the outermost element is \"" + std::string(root().name()) + "\", not svg");
     }
+    const pugi::xml_node second = root().next_sibling();
+    if (second) {
+        fail(offset_of(second.name()), "not XML: a second outermost element");
+    }
     index();
 }
 

@@ -242,6 +242,8 @@ TEST(ToolsSvg, ErrorsNameFileLineAndColumn) {
     EXPECT_NE(svg_error("<g>").find("not XML"), std::string::npos);
     EXPECT_EQ(input_error([] { return parse("<html/>", "a.svg"); }),
               "a.svg:1:2: the outermost element is \"html\", not svg");
+    EXPECT_EQ(input_error([] { return parse("<svg/>\n<svg/>", "a.svg"); }),
+              "a.svg:2:2: not XML: a second outermost element");
 }
 
 TEST(ToolsSvg, DeepNestingIsNoTrouble) {
