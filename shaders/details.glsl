@@ -4,14 +4,21 @@
 // Offset, in cells, at which the two sides of an edge are tested.
 const float step_aside = 1.0 / 4096.0;
 
-// The outward normal of the nearest edge; zero if there is none or it has no length.
-vec2 normal_of_wall(Nearest nearest, vec2 way, EdgeListData crossing) {
-    float size = length(way);
+// The outward normal of the nearest edge; zero if there is none or it has no length. Beside a vertex
+// another edge may be in between: sides are tested a part of a cell away from it.
+vec2 normal_of_wall(Nearest nearest, OnEdge place, EdgeListData crossing) {
+    float size = length(place.way);
     if (!(size > 0.0)) {
         return vec2(0.0);
     }
-    vec2 normal = vec2(-way.y, way.x) / size;
-    return inside_by_crossings(nearest.point + step_aside * normal, crossing) ? -normal : normal;
+    vec2 along = place.way / size;
+    float step_along = min(0.25, 0.5 * size);
+    float shift = place.along * size < step_along
+                      ? step_along
+                      : ((1.0 - place.along) * size < step_along ? -step_along : 0.0);
+    vec2 normal = vec2(-along.y, along.x);
+    vec2 beside = nearest.point + shift * along + step_aside * normal;
+    return inside_by_crossings(beside, crossing) ? -normal : normal;
 }
 
 void write_details(uint index, vec2 p, Nearest nearest, TileData tile) {
@@ -22,7 +29,7 @@ void write_details(uint index, vec2 p, Nearest nearest, TileData tile) {
     // At a distance this small the direction of the offset is meaningless.
     bool touches = nearest.distance <= 2.0 * touching;
     OnEdge place = on_edge(p, tile.nearest, nearest);
-    vec2 normal = touches ? normal_of_wall(nearest, place.way, tile.crossing) : vec2(0.0);
+    vec2 normal = touches ? normal_of_wall(nearest, place, tile.crossing) : vec2(0.0);
     uint word = push.details + words_of_details * index;
     results[word] = floatBitsToUint(offset.x);
     results[word + 1u] = floatBitsToUint(offset.y);

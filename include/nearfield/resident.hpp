@@ -266,7 +266,7 @@ namespace resident_flags {
 /// A contact of B's boundary, whose nearest point and feature are on A.
 inline constexpr std::uint32_t on_b = 1;
 /// Too close to the boundary for single precision to tell inside from outside: the normal is that
-/// of the edge.
+/// of the edge, or (0, 0) if the edge has no length (repeated vertices).
 inline constexpr std::uint32_t touching = 2;
 }  // namespace resident_flags
 

@@ -210,6 +210,46 @@ TEST_F(Resident, ContactRecordsAreTheCpusWithinTheBound) {
     EXPECT_GT(of_b, 100U);
 }
 
+/// The normal of a contact that touches a corner is that of one of its edges, whichever way round.
+TEST_F(Resident, NormalsAtCornersPointOut) {
+    struct Corner {
+        Ring a;
+        Ring b;
+        Vector2 normals[2];
+    };
+    const Vector2 lower{-1.0 / std::sqrt(5.0), -2.0 / std::sqrt(5.0)};
+    const Corner corners[] = {
+        {{{-2, -2}, {0, -2}, {0, 0}, {-2, 0}},
+         {{0, 0}, {3, 0}, {3, 3}, {0, 3}},
+         {{0, -1}, {-1, 0}}},
+        {{{-2, -1}, {0, 0}, {-2, 1}}, {{0, 0}, {2, -1}, {2, 1}}, {lower, {lower.x, -lower.y}}}};
+    for (Corner corner : corners) {
+        for (int turn = 0; turn < 2; ++turn) {
+            std::reverse(corner.b.begin(), corner.b.end());
+            for (const Technique technique : on_device) {
+                const PlacedPair pair(
+                    context(), {{"A", {corner.a}}, {"B", {corner.b}}, {}, {}, 0.05}, technique);
+                ContactQuery query = pair.contacts(0.1);
+                query.resident = true;
+                RecordsContents contents;
+                ask(context(), query,
+                    [&](const ResidentRecords& records) { contents = contents_of(records); });
+                const auto at_corner = std::find_if(
+                    contents.records.begin(), contents.records.end(), [](const auto& record) {
+                        return record.on == Side::a && record.distance < 1e-5 &&
+                               std::hypot(record.point.x, record.point.y) < 1e-3;
+                    });
+                ASSERT_NE(at_corner, contents.records.end()) << to_string(technique);
+                EXPECT_LT(std::min(distance_between(at_corner->normal, corner.normals[0]),
+                                   distance_between(at_corner->normal, corner.normals[1])),
+                          1e-3)
+                    << to_string(technique) << ", turn " << turn << ": (" << at_corner->normal.x
+                    << ", " << at_corner->normal.y << ")";
+            }
+        }
+    }
+}
+
 TEST_F(Resident, RecordsOfManyRoundsSayWhereTheyBelong) {
     Settings settings;
     settings.memory_limit = std::uint64_t{32} << 20U;  // small atlas images
