@@ -4,6 +4,7 @@ import dataclasses
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import time
@@ -147,15 +148,18 @@ def verdict(output, status):
 
 
 class Process:
-    """A suite that is running."""
+    """A suite that is running. Its limit counts processor time, so that other work on the machine does
+    not end it; one that waits for ever is ended after ten times as long."""
 
     def __init__(self, suite, log, limit):
-        self.suite, self.limit = suite, limit
+        self.suite, self.limit = suite, 10.0 * limit
+        seconds = int(limit) * os.cpu_count()
         self.log = open(log, "w+", errors="replace")
         self.begun = time.monotonic()
         self.process = subprocess.Popen(
             suite.command, stdout=self.log, stderr=subprocess.STDOUT, start_new_session=True,
             env=os.environ | suite.environment | {"GTEST_FAIL_FAST": "1"}, cwd=log.parent,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)),
         )
 
     def ended(self):
