@@ -86,7 +86,9 @@ AskedNormal Boundary::ask_outward_normal(std::uint32_t edge, double parameter) {
     const Vector left(-direction.y() / length, direction.x() / length);
     // The ray leaves the edge across its longer extent; the side just off the edge decides.
     const bool upwards = std::abs(direction.y()) < std::abs(direction.x());
-    const Vector point = start + parameter * direction;
+    // At an end, a neighbour is as near: the side is tested a little beside it.
+    const double margin = std::clamp(16.0 * edges_->rounding / length, 0x1p-20, 0.25);
+    const Vector point = start + std::clamp(parameter, margin, 1.0 - margin) * direction;
     return {left, left[upwards ? 1 : 0] > 0.0,
             parities_.ask({point.x(), point.y(), upwards},
                           {direction.x(), direction.y(), edges_->rounding})};

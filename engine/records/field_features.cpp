@@ -3,6 +3,7 @@
 
 #include <shaders/layout.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nearfield::records {
@@ -11,15 +12,20 @@ namespace {
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-/// The outward unit normal of an edge at a point on it; zero for a zero-length edge.
-Vector outward_normal(const TransformedPolygon& b, std::uint32_t edge, const Vector& place,
+/// The outward unit normal of an edge at a place on it; zero for a zero-length edge. The side is
+/// tested a step aside, and some steps away from the ends, where a neighbour is as near.
+Vector outward_normal(const TransformedPolygon& b, std::uint32_t edge, double parameter,
                       double step) {
-    const Vector along = b.vertex(b.polygon().next(edge)) - b.vertex(edge);
+    constexpr double steps_from_ends = 64.0;
+    const Vector start = b.vertex(edge);
+    const Vector along = b.vertex(b.polygon().next(edge)) - start;
     const double length = along.norm();
     if (length == 0.0) {
         return Vector::Zero();
     }
     const Vector normal(-along.y() / length, along.x() / length);
+    const double margin = std::min(steps_from_ends * step / length, 0.25);
+    const Vector place = start + std::clamp(parameter, margin, 1.0 - margin) * along;
     return geometry::contains(b, place + step * normal) ? Vector(-normal) : normal;
 }
 
@@ -40,7 +46,7 @@ FieldFeature field_feature(const TransformedPolygon& b, double touching, const V
     } else {
         // On the boundary the direction from the nearest point is undefined, but the edge's normal
         // is not.
-        result.gradient = outward_normal(b, edge, nearest.point, 2.0 * touching);
+        result.gradient = outward_normal(b, edge, nearest.parameter, 2.0 * touching);
         result.unique = result.unique && !result.gradient.isZero();
     }
     return result;

@@ -1,6 +1,7 @@
 #include <tests/query/check.hpp>
 #include <tests/query/query_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -204,6 +205,36 @@ TEST_F(Field, HoldsBesideLongEdges) {
         }
         EXPECT_TRUE(context().remove_shape(*shape).ok());
     });
+}
+
+/// At a corner the gradient is the outward normal of one of its edges, whichever way round.
+TEST_F(Field, GradientsAtCornersPointOut) {
+    for (Ring ring : {Ring{{0, 0}, {3, 0}, {3, 3}, {0, 3}}, Ring{{0, 1}, {2, 0}, {2, 2}}}) {
+        const Vector2 middle = ring.size() == 4 ? Vector2{1.5, 1.5} : Vector2{4.0 / 3.0, 1.0};
+        for (int turn = 0; turn < 2; ++turn) {
+            std::reverse(ring.begin(), ring.end());
+            const Expected<ShapeHandle> shape = context().add_shape(ring);
+            ASSERT_TRUE(shape.has_value()) << shape.error().text();
+            DistanceFieldQuery query{.b = {*shape, {}},
+                                     .tolerance = 0.1,
+                                     .rectangle = Rectangle{{-1.0, -1.0}, {4.0, 4.0}},
+                                     .gradients = true};
+            query.points = ring;
+            for (const Technique technique :
+                 {Technique::raster, Technique::compute, Technique::cpu}) {
+                query.technique = technique;
+                const DistanceFieldResult result = run_alone(context(), query);
+                ASSERT_EQ(result.points.size(), ring.size());
+                for (const FieldPoint& corner : result.points) {
+                    const Vector2 out{corner.point.x - middle.x, corner.point.y - middle.y};
+                    EXPECT_GT(corner.gradient.x * out.x + corner.gradient.y * out.y, 0.1)
+                        << to_string(technique) << ", turn " << turn << ", corner ("
+                        << corner.point.x << ", " << corner.point.y << ")";
+                }
+            }
+            EXPECT_TRUE(context().remove_shape(*shape).ok());
+        }
+    }
 }
 
 /// The CPU's answer does not depend on the query's options: with features it measures to the

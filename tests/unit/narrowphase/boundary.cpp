@@ -106,6 +106,27 @@ TEST(ExactBoundary, NormalsLeadOut) {
     EXPECT_GT(checked, 1000U);
 }
 
+/// A place within rounding of an edge's end has the edge's normal, not its opposite.
+TEST(ExactBoundary, NormalsLeadOutAtTheEndsOfEdges) {
+    const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 1.0, 1.0)});
+    for (int i = 0; i < 300; ++i) {
+        const TransformedPolygon placed(polygon, {{0.25 * i, -3.0}, 0.02 * i});
+        Boundary boundary;
+        boundary.set(placed);
+        for (std::uint32_t edge = 0; edge < polygon.size(); ++edge) {
+            for (const double parameter : {0.0, 1e-17, 1e-15, 1.0 - 1e-15, 1.0}) {
+                const AskedNormal asked = boundary.ask_outward_normal(edge, parameter);
+                boundary.answer_asked();
+                const Vector normal = boundary.outward_normal(asked);
+                const Vector middle =
+                    0.5 * (placed.vertex(edge) + placed.vertex(polygon.next(edge)));
+                EXPECT_GT(normal.dot(middle - placed.to_world({0.0, 0.0})), 0.4)
+                    << "edge " << edge << " at " << parameter << ", pose " << i;
+            }
+        }
+    }
+}
+
 TEST(ExactBoundary, UniqueUnlessTwoWallsAreAsNear) {
     const Polygon polygon = samples::polygon({samples::rectangle(0.0, 0.0, 2.0, 10.0)});
     const TransformedPolygon placed(polygon, {});
