@@ -12,20 +12,28 @@ namespace {
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
-/// The outward unit normal of an edge at a place on it; zero for a zero-length edge. The side is
-/// tested a step aside, and some steps away from the ends, where a neighbour is as near.
+/// The outward unit normal of an edge at a place on it; zero if no edge of its ring has a length.
+/// The side is tested a step aside, and some steps away from the ends, where a neighbour is as
+/// near.
 Vector outward_normal(const TransformedPolygon& b, std::uint32_t edge, double parameter,
                       double step) {
-    constexpr double steps_from_ends = 64.0;
-    const Vector start = b.vertex(edge);
-    const Vector along = b.vertex(b.polygon().next(edge)) - start;
+    constexpr double steps_from_ends = 4096.0;
+    const auto way_along = [&](std::uint32_t i) -> Vector {
+        return b.vertex(b.polygon().next(i)) - b.vertex(i);
+    };
+    std::uint32_t own = edge;
+    while (way_along(own).isZero(0.0) && b.polygon().next(own) != edge) {
+        own = b.polygon().next(own);
+        parameter = 0.0;
+    }
+    const Vector along = way_along(own);
     const double length = along.norm();
     if (length == 0.0) {
         return Vector::Zero();
     }
     const Vector normal(-along.y() / length, along.x() / length);
     const double margin = std::min(steps_from_ends * step / length, 0.25);
-    const Vector place = start + std::clamp(parameter, margin, 1.0 - margin) * along;
+    const Vector place = b.vertex(own) + std::clamp(parameter, margin, 1.0 - margin) * along;
     return geometry::contains(b, place + step * normal) ? Vector(-normal) : normal;
 }
 

@@ -55,7 +55,9 @@ enum class Technique {
     raster,
     /// Runs on the device without rasterisation: bit masks for fills, lists of near edges for
     /// distances. Answers every query that raster answers, except GradientMethod::blended, which is
-    /// drawn (invalid_query). IntersectionStrategy and SignEncoding, which are ways of drawing with
+    /// drawn (invalid_query), and fields of which more than 12,000 edges are about equally near to
+    /// a cell (too_large in the result). IntersectionStrategy and SignEncoding, which are ways of
+    /// drawing with
     /// identical results, are ignored here and need nothing of the device.
     compute,
     /// Runs entirely on the CPU, and its answers have the same bits on every machine. Points are

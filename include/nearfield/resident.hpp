@@ -289,8 +289,8 @@ static_assert(sizeof(SummaryData) == 32 && offsetof(SummaryData, deepest) == 8 &
 struct RecordData {
     float point[2]{};    ///< on the boundary of A, or of B (resident_flags::on_b)
     float nearest[2]{};  ///< the nearest point of the other shape's boundary
-    /// Unit vector that points out of B, towards increasing signed distance. For a penetrating
-    /// point, the direction out of B.
+    /// Unit vector that points out of B, towards increasing signed distance; see
+    /// resident_flags::touching. For a penetrating point, the direction out of B.
     float normal[2]{};
     float distance = 0.0F;      ///< from `point` to `nearest`, world units, >= 0
     std::uint32_t feature = 0;  ///< id of the feature that `nearest` lies on (resident_feature)

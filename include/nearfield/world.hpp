@@ -142,8 +142,10 @@ struct RayHit {
     double parameter = 1.0;        ///< 0 at the start of the segment, 1 at its end
     double error_bound = 0.0;      ///< of `point`: rounding plus the shape's deviation
     Vector2 point = {};            ///< where it hits
-    Vector2 normal = {};           ///< unit normal of the edge, against the segment's direction
-    std::uint32_t edge = 0;        ///< of the instance's shape, among the edges of all its rings
+    /// Unit normal of the edge, from its vertices in the world, which are rounded; against the
+    /// segment's direction.
+    Vector2 normal = {};
+    std::uint32_t edge = 0;  ///< of the instance's shape, among the edges of all its rings
 };
 
 /// The hits of many segments: those of segment i are hits[offsets[i]] to hits[offsets[i + 1] - 1].

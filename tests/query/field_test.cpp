@@ -213,7 +213,7 @@ TEST_F(Field, GradientsAtCornersPointOut) {
         const Vector2 middle = ring.size() == 4 ? Vector2{1.5, 1.5} : Vector2{4.0 / 3.0, 1.0};
         for (int turn = 0; turn < 2; ++turn) {
             std::reverse(ring.begin(), ring.end());
-            const Expected<ShapeHandle> shape = context().add_shape(ring);
+            const Expected<ShapeHandle> shape = context().add_shape(Rings{ring});
             ASSERT_TRUE(shape.has_value()) << shape.error().text();
             DistanceFieldQuery query{.b = {*shape, {}},
                                      .tolerance = 0.1,
