@@ -78,7 +78,7 @@ TEST_F(ChosenTechnique, AutomaticFieldsAreNotRefused) {
     ASSERT_TRUE(shape.has_value());
     DistanceFieldQuery field{.b = {*shape, {}},
                              .tolerance = 0.05,
-                             .rectangle = Rectangle{{-1.0, -1.0}, {1.0, 1.0}},
+                             .rectangle = Rectangle{{0.35, 0.35}, {0.6, 0.6}},
                              .features = true};
     EXPECT_TRUE(run_alone(*made, field).status.ok());
     field.technique = Technique::compute;
