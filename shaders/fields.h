@@ -54,8 +54,8 @@ NEARFIELD_CHECK(sizeof(FieldTileData) == 16 * units_of_field_tile)
 
 // Turns of the loops of one walk over B's boxes. Some drivers end the loops of an invocation
 // without notice after 65,535 turns, and there are up to three walks. A walk takes a turn for each
-// edge, chunk and group that it visits, so it ends before that around shapes of at most so many
-// edges.
+// edge, chunk and group that it visits: around a shape of at most max_certain_edges, whatever its
+// rings, it always comes to its end.
 const uint max_walk_turns = 20000u;
 const uint max_certain_edges = 12000u;
 

@@ -30,8 +30,8 @@ constexpr std::size_t poses_at_once = 16;
 constexpr double smallest_unit = 0x1p-30;
 constexpr double largest_unit = 0x1p+30;
 
-/// Instances farther from the origin, in radii of an average one, get another one: boxes are
-/// rounded by 2^-20 of the distance.
+/// Where the middle of the instances is farther from the origin than this, in radii of an average
+/// one, the origin moves there: boxes are rounded by 2^-20 of their distance from it.
 constexpr double max_radii_from_origin = 1024.0;
 
 /// Half of the places are on either side of it, however far away some are.

@@ -265,7 +265,8 @@ void RayQueries::find_first(std::span<const Segment> segments,
             } else {
                 --active;
                 std::swap(search, searches_[active]);
-                std::swap(steps_[slot--], steps_[active]);
+                std::swap(steps_[slot], steps_[active]);
+                --slot;  // the last one has taken this place
             }
         }
     }

@@ -195,9 +195,8 @@ struct ClosestPointValues {
     Vector2 direction;      ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
     Feature feature_a;      ///< where `point` lies on A's boundary; meaningful if distance > 0
     Feature feature_b;      ///< where `nearest` lies on B's boundary; likewise
-    /// False if the closest point is one of several: another pair of points of the boundaries, of
-    /// which one is a vertex, is as close up to d/1000, and its point of A farther from `point`
-    /// than d. Edges that are nearly parallel count by their ends.
+    /// False if the closest point is one of several: another pair, of which one is a vertex, is as
+    /// close up to d/1000, and its point of A farther from `point` than d.
     bool unique = true;
     /// The minimum distance at the points of A that were rendered, at most a cell more than
     /// `distance`. 0 if the shapes intersect; equal to `distance` if nothing was rendered.
