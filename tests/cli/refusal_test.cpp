@@ -39,6 +39,14 @@ TEST_F(Refused, FilesThatCannotBeRead) {
     expect_bad_outline("empty.wkt", "", {"is empty"});
 }
 
+TEST_F(Refused, PicturesOfOtherFormats) {
+    const Arguments query = squares("penetration") + Arguments{"-d", "0.1"};
+    expect_refused(query + Arguments{"--image", folder_.path("out.jpg")}, {"out.jpg", "PNG"});
+    expect_refused({"simulate", "wavy", "--frames", "2", "--image", folder_.path("%d.svg")},
+                   {"%d.svg", "PNG"});
+    expect_refused({"bench", "--paper", "--curves", folder_.path("c.pdf")}, {"c.pdf", "PNG"});
+}
+
 TEST_F(Refused, BrokenJsonByLineAndColumn) {
     expect_bad_outline("broken.geojson",
                        "{\n \"type\": \"Polygon\",\n \"coordinates\": [[[0, 0], [1, 0], [1, 1]]\n}",

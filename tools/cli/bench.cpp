@@ -135,9 +135,8 @@ CLI::App* add_bench_command(CLI::App& program, BenchArguments& arguments) {
                    "device is the CPU")
         ->excludes(scene)
         ->excludes(paper);
-    command
-        ->add_option("--curves", arguments.curves,
-                     "Of --paper: draw how times grow with lines and tolerance; default none")
+    add_parsed_option(*command, "--curves", arguments.curves, parse_png_name,
+                      "Of --paper: draw how times grow with lines and tolerance; default none")
         ->type_name("FILE.png")
         ->needs(paper);
     command

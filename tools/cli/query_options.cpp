@@ -245,9 +245,10 @@ void add_output_options(CLI::App& kind, QueryArguments& arguments, QueryType typ
                     "Write the answer as JSON; - for the standard output, the summary then goes to "
                     "the standard error; default none")
         ->type_name("FILE|-");
-    CLI::Option* const image = kind.add_option("--image", arguments.image,
-                                               "Draw the answer, 1600 x 1200 pixels; default none")
-                                   ->type_name("FILE.png");
+    CLI::Option* const image =
+        add_parsed_option(kind, "--image", arguments.image, parse_png_name,
+                          "Draw the answer, 1600 x 1200 pixels; default none")
+            ->type_name("FILE.png");
     if (type == QueryType::distance_field) {
         add_parsed_option(kind, "--show", arguments.request.picture, parse_picture,
                           "What the picture shows: field, voronoi (the nearest features in false "

@@ -94,12 +94,11 @@ CLI::App* add_simulate_command(CLI::App& program, SimulateArguments& arguments) 
                      "raster, compute, cpu or automatic; default automatic")
         ->type_name("NAME");
     add_settings_options(*command, arguments.settings);
-    command
-        ->add_option("--image", arguments.image,
-                     "Draw frames into these files: %d, or %04d with the number of digits, stands "
-                     "for the frame's number; default none")
-        ->type_name("PATTERN.png");
-    CLI::Option* const image = command->get_option("--image");
+    CLI::Option* const image =
+        add_parsed_option(*command, "--image", arguments.image, parse_png_name,
+                          "Draw frames into these files: %d, or %04d with the number of digits, "
+                          "stands for the frame's number; default none")
+            ->type_name("PATTERN.png");
     add_count_option(*command, "--every", arguments.every, {1, 10'000'000},
                      "Draw frames whose number this divides, and the last one; default 1")
         ->type_name("COUNT")

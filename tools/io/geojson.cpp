@@ -90,9 +90,21 @@ private:
     }
 
     void read_polygon(const JsonPlace& coordinates) {
-        if (const std::size_t count = count_of(coordinates); count > 0) {
-            append_rings(coordinates, rings_);
-            part_sizes_.push_back(static_cast<std::uint32_t>(count));
+        const std::size_t first = rings_.size();
+        bool has_outer_ring = true;
+        for (std::size_t index = 0, count = count_of(coordinates); index < count; ++index) {
+            const JsonPlace ring = coordinates.element(index);
+            const bool any = count_of(ring) > 0;
+            if (any && !has_outer_ring) {
+                ring.fail("an inner ring whose outer ring is empty");
+            }
+            if (any) {
+                rings_.push_back(parse_ring(ring));
+            }
+            has_outer_ring = has_outer_ring && (any || index > 0);
+        }
+        if (rings_.size() > first) {
+            part_sizes_.push_back(static_cast<std::uint32_t>(rings_.size() - first));
         }
     }
 

@@ -16,8 +16,8 @@ public:
 
     [[nodiscard]] CurvePath read(std::string_view name) const {
         if (name == "path") {
-            SvgText data = required("d");
-            return parse_path_data(data);
+            std::optional<SvgText> data = text("d");
+            return data ? parse_path_data(*data) : CurvePath();
         }
         if (name == "polygon" || name == "polyline") {
             return read_points();
@@ -32,48 +32,55 @@ public:
             const double radius = size("r", SvgAxis::other);
             return radius > 0.0 ? path.circle(centre, radius) : path;
         }
-        const double rx = size("rx", SvgAxis::x);
-        const double ry = size("ry", SvgAxis::y);
+        const std::optional<double> given_x = given_size("rx", SvgAxis::x);
+        const std::optional<double> given_y = given_size("ry", SvgAxis::y);
+        // A single radius applies to both axes.
+        const double rx = given_x ? *given_x : given_y.value_or(0.0);
+        const double ry = given_y ? *given_y : rx;
         return rx > 0.0 && ry > 0.0 ? path.ellipse(centre, rx, ry) : path;
     }
 
 private:
-    [[nodiscard]] SvgText required(const char* name) const {
-        const std::optional<SvgText> text = document_.attribute(node_, name);
-        if (!text || text->peek() == '\0') {
-            document_.fail(node_, std::string("needs the attribute ") + name);
+    /// An attribute without which nothing is drawn.
+    [[nodiscard]] std::optional<SvgText> text(const char* name) const {
+        std::optional<SvgText> text = document_.attribute(node_, name);
+        if (text) {
+            text->skip_space();
         }
-        return *text;
+        return text && text->peek() != '\0' ? text : std::nullopt;
     }
 
     [[nodiscard]] std::optional<double> length(const char* name, SvgAxis axis) const {
         return svg_length(document_, node_, name, axis, viewport_);
     }
 
-    /// A length that has to be there and not below 0.
-    [[nodiscard]] double size(const char* name, SvgAxis axis) const {
+    [[nodiscard]] std::optional<double> given_size(const char* name, SvgAxis axis) const {
         const std::optional<double> number = length(name, axis);
-        if (!number || !(*number >= 0.0)) {
-            document_.fail(node_, std::string(name) + (number ? " is below 0" : " is missing"));
+        if (number && !(*number >= 0.0)) {
+            document_.fail(node_, std::string(name) + " is below 0");
         }
-        return *number;
+        return number;
+    }
+
+    /// A length that is not below 0; without it, nothing is drawn.
+    [[nodiscard]] double size(const char* name, SvgAxis axis) const {
+        return given_size(name, axis).value_or(0.0);
     }
 
     [[nodiscard]] CurvePath read_points() const {
-        SvgText text = required("points");
+        std::optional<SvgText> points = text("points");
         CurvePath path;
-        text.skip_space();
-        while (text.peek() != '\0') {
-            const double x = text.number();
-            const Vector2 point{x, text.next_number()};
+        while (points && points->peek() != '\0') {
+            const double x = points->number();
+            const Vector2 point{x, points->next_number()};
             if (path.contours().empty()) {
                 path.move_to(point);
             } else {
                 path.line_to(point);
             }
-            text.skip_separator();
+            points->skip_separator();
         }
-        return path.close();
+        return points ? path.close() : path;
     }
 
     [[nodiscard]] CurvePath read_rectangle() const {

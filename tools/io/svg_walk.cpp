@@ -231,6 +231,7 @@ void SvgWalk::draw_inside(const pugi::xml_node& node, const SvgState& state, Svg
         count_work(node, contour.segments.size());
     }
     if (part.contours == 0) {
+        skipped_.add(empty_part);
         return;
     }
     outline.transform(state.map);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <span>
 #include <system_error>
@@ -74,6 +75,14 @@ double parse_nonzero(std::string_view text, const std::string& option) {
         fail(option, text, "expected a finite number other than 0");
     }
     return number;
+}
+
+std::string parse_png_name(const std::string& text, const std::string& option) {
+    const std::string extension = std::filesystem::path(text).extension().string();
+    if (!extension.empty() && extension != ".png" && extension != ".PNG") {
+        fail(option, text, "pictures are written as PNG files, whose names end in .png");
+    }
+    return text;
 }
 
 std::uint32_t parse_count(std::string_view text, const std::string& option, CountRange range) {

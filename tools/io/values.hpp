@@ -34,6 +34,9 @@ struct CountRange {
 [[nodiscard]] std::uint32_t parse_count(std::string_view text, const std::string& option,
                                         CountRange range);
 
+/// The name of a picture: it ends in .png or has no extension (a pipe, a terminal).
+[[nodiscard]] std::string parse_png_name(const std::string& text, const std::string& option);
+
 /// A pose in the units of the command line and of scenes.
 struct DegreesPose {
     double x = 0.0;

@@ -43,12 +43,16 @@ public:
     WktParser(std::string_view text, const std::string& file, SkippedParts& skipped)
         : text_(text), file_(file), skipped_(skipped) {}
 
+    /// One geometry, or several, one after the other.
     std::vector<Ring> parse() {
-        skip_reference_system();
-        const std::size_t start = (skip_space(), position_);
-        parse_geometry(0);
-        accept(';');
-        skip_space();
+        std::size_t start = text_.size();
+        do {
+            skip_reference_system();
+            start = std::min(start, (skip_space(), position_));
+            parse_geometry(0);
+            accept(';');
+            skip_space();
+        } while (position_ < text_.size() && is_letter(text_[position_]));
         if (position_ < text_.size()) {
             fail(position_, "text after the end of the geometry");
         }

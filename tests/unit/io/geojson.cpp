@@ -60,6 +60,9 @@ TEST(ToolsGeojson, PartsThatHoldNoAreaAreSkippedAndCounted) {
     EXPECT_EQ(rings, (std::vector<Ring>{{{0, 0}, {4, 0}, {0, 3}, {0, 0}}}));
     EXPECT_EQ(skipped.text(),
               "Point (2), feature without geometry (2), LineString (1), empty part (1)");
+    SkippedParts inner;
+    EXPECT_EQ(parse_geojson(polygon("[[[0, 0], [4, 0], [0, 3]], []]"), "f", inner).size(), 1U);
+    EXPECT_EQ(inner.text(), "empty part (1)");
 }
 
 TEST(ToolsGeojson, WithoutAPolygonTheDocumentIsRefused) {
@@ -106,8 +109,9 @@ TEST(ToolsGeojson, StructureErrorsNameTheFileAndThePlace) {
               "a.geojson: coordinates[0][0]: not an array but a number");
     EXPECT_EQ(error_of(polygon("[[[[0, 0], [1, 0], [0, 1]]]]")),
               "a.geojson: coordinates[0][0][0]: not a number but an array");
-    EXPECT_EQ(error_of(polygon("[[[0, 0], [1, 0], [0, 1]], []]")),
-              "a.geojson: coordinates[1]: an empty ring");
+    EXPECT_EQ(error_of(polygon("[[], [[0, 0], [1, 0], [0, 1]]]")),
+              "a.geojson: coordinates[1]: an inner ring whose outer ring is empty");
+    EXPECT_EQ(error_of(polygon("[[]]")), "a.geojson: holds no polygon, only empty part (1)");
     EXPECT_EQ(error_of(polygon("{}")), "a.geojson: coordinates: not an array but an object");
     EXPECT_EQ(error_of(R"({"type": "Polygon"})"), "a.geojson: has no \"coordinates\"");
     EXPECT_EQ(error_of(R"({"type": 3})"), "a.geojson: type: not a string but a number");

@@ -163,6 +163,8 @@ TEST(ToolsSvg, EveryElementWithYTurnedAround) {
                 "circle");
     expect_same(svg("<ellipse cx='1' rx='3' ry='2'/>"),
                 CurvePath().ellipse({1, 0}, 3, 2).transform(flip), "ellipse");
+    expect_same(svg("<ellipse ry='2'/>"), CurvePath().ellipse({}, 2, 2).transform(flip),
+                "ellipse of one radius");
     // Rounded corners: a quarter circle each, in the usual order; radii are limited to half a side.
     const CurvePath rounded = CurvePath()
                                   .move_to({2, 0})
@@ -232,8 +234,9 @@ TEST(ToolsSvg, ErrorsNameFileLineAndColumn) {
     EXPECT_EQ(svg_error("<rect width='5 5' height='1'/>"),
               "a.svg:2:15: expected a length: one number and its unit");
     EXPECT_EQ(svg_error("<rect width='-5' height='1'/>"), "a.svg:2:2: rect: width is below 0");
-    EXPECT_EQ(svg_error("<circle cx='1'/>"), "a.svg:2:2: circle: r is missing");
-    EXPECT_EQ(svg_error("<path/>"), "a.svg:2:2: path: needs the attribute d");
+    EXPECT_EQ(svg_error("<ellipse rx='1' ry='-1'/>"), "a.svg:2:2: ellipse: ry is below 0");
+    EXPECT_EQ(svg_error("<circle cx='1'/><path d=' '/><polygon/><rect width='2'/>"),
+              "a.svg:1:2: svg: has no outline, only empty part (4)");
     EXPECT_EQ(svg_error("<polygon points='1 1 2'/>"),
               "a.svg:2:23: the value ends where a number is expected");
     EXPECT_EQ(svg_error("<g clip-path='url(#c)'/>"), "a.svg:2:2: g: clip-path is not read");

@@ -93,6 +93,16 @@ TEST(ToolsWkt, WithoutAPolygonTheTextIsRefused) {
     EXPECT_EQ(error_of(nested), "a.wkt:1:1217: collections nested too deep");
 }
 
+TEST(ToolsWkt, GeometriesThatFollowEachOtherAreTheParts) {
+    EXPECT_EQ(rings_of("POLYGON((0 0,4 0,0 3))\nSRID=3;POLYGON Z((5 5 1,6 5 1,6 6 1));\n"),
+              rings_of("MULTIPOLYGON(((0 0,4 0,0 3)),((5 5,6 5,6 6)))"));
+    EXPECT_EQ(skipped_of("POINT(1 2);\nPOLYGON((0 0,4 0,0 3))"), "POINT (1)");
+    EXPECT_EQ(error_of("POLYGON EMPTY\nPOINT(1 2)"),
+              "a.wkt:1:1: holds no polygon, only empty part (1), POINT (1)");
+    EXPECT_EQ(error_of("POLYGON((0 0,4 0,0 3))\nPOLIGON((0 0,4 0,0 3))"),
+              "a.wkt:2:1: \"POLIGON\" is none of POLYGON, MULTIPOLYGON, GEOMETRYCOLLECTION");
+}
+
 TEST(ToolsWkt, ErrorsNameFileLineAndColumn) {
     EXPECT_EQ(error_of("CURVEPOLYGON((0 0,1 1))"),
               "a.wkt:1:1: \"CURVEPOLYGON\" is none of POLYGON, MULTIPOLYGON, GEOMETRYCOLLECTION");
