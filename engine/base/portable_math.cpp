@@ -1,3 +1,4 @@
+#include <engine/base/sine_series.hpp>
 #include <nearfield/portable_math.hpp>
 
 #include <algorithm>
@@ -14,8 +15,9 @@
 namespace nearfield {
 namespace {
 
-constexpr double half_pi = 0x1.921fb54442d18p+0;
-constexpr double half_pi_rest = 0x1.1a62633145c07p-54;
+using trigonometry::half_pi;
+using trigonometry::half_pi_rest;
+
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// An unevaluated sum.
@@ -36,15 +38,9 @@ struct Reduced {
     std::uint32_t quarters = 0;  ///< the multiple, modulo 4
 };
 
-constexpr double many_quarters = 0x1p20;
-
-/// For fewer than `many_quarters`. Half of pi is the sum of four parts; the first three have 33
-/// bits, so their products with the number of quarters are exact.
+/// For fewer than `many_quarters`.
 Reduced reduce_small(double angle) {
-    constexpr double first = 0x1.921fb544p+0;
-    constexpr double second = 0x1.0b4611a6p-34;
-    constexpr double third = 0x1.3198a2ep-69;
-    constexpr double fourth = 0x1.b839a252049c1p-104;
+    const auto& [first, second, third, fourth] = trigonometry::half_pi_parts;
     const double quarters = std::floor(angle / half_pi + 0.5);
     const TwoParts less_two = sum(angle - quarters * first, -(quarters * second));
     const TwoParts less_three = sum(less_two.high, -(quarters * third));
@@ -119,7 +115,7 @@ Reduced reduce(double angle) {
     if (std::abs(angle) <= half_pi / 2) {
         return {{angle, 0.0}, 0};
     }
-    if (std::abs(angle) < many_quarters) {
+    if (std::abs(angle) < trigonometry::many_quarters) {
         return reduce_small(angle);
     }
     Reduced reduced = reduce_large(std::abs(angle));
@@ -130,30 +126,27 @@ Reduced reduce(double angle) {
     return reduced;
 }
 
-// Taylor series up to the 17th power: what is left out is below 2^-60 of the result.
+/// A series in powers of z.
+template <std::size_t count>
+double value_of(const std::array<double, count>& series, double z) {
+    double value = series.front();
+    for (std::size_t i = 1; i < count; ++i) {
+        value = series[i] + z * value;
+    }
+    return value;
+}
 
 double sine_of(const TwoParts& angle) {
     const double x = angle.high;
     const double z = x * x;
-    const double series =
-        -1.0 / 6 +
-        z * (1.0 / 120 + z * (-1.0 / 5040 +
-                              z * (1.0 / 362880 + z * (-1.0 / 39916800 +
-                                                       z * (1.0 / 6227020800 +
-                                                            z * (-1.0 / 1307674368000 +
-                                                                 z * (1.0 / 355687428096000)))))));
+    const double series = value_of(trigonometry::sine_series, z);
     return x + (x * z * series + angle.low * (1.0 - 0.5 * z));
 }
 
 double cosine_of(const TwoParts& angle) {
     const double x = angle.high;
     const double z = x * x;
-    const double series =
-        1.0 / 24 +
-        z * (-1.0 / 720 +
-             z * (1.0 / 40320 +
-                  z * (-1.0 / 3628800 + z * (1.0 / 479001600 + z * (-1.0 / 87178291200 +
-                                                                    z * (1.0 / 20922789888000))))));
+    const double series = value_of(trigonometry::cosine_series, z);
     const double leading = 1.0 - 0.5 * z;
     const double rounding = (1.0 - leading) - 0.5 * z;
     return leading + (rounding + (z * z * series - x * angle.low));

@@ -2,6 +2,7 @@
 
 #include <engine/base/interruption.hpp>
 #include <engine/context/device_pair_state.hpp>
+#include <engine/geometry/angle_kernels.hpp>
 #include <engine/plan/boundary_points.hpp>
 #include <engine/plan/check_query.hpp>
 #include <engine/plan/error_budget.hpp>
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 
 namespace nearfield {
@@ -19,13 +19,11 @@ namespace {
 
 using geometry::TransformedPolygon;
 using geometry::Vector;
+using geometry::kernels::angles_at_once;
 
 /// After so many updates the instances are ordered anew: boxes that hold what has moved apart only
 /// cost time.
 constexpr std::uint32_t max_updates_in_order = 64;
-/// Sines and cosines of several poses are computed at the same time; those of one alone would have
-/// to be waited for.
-constexpr std::size_t poses_at_once = 16;
 /// Ratios and squares of lengths between these stay within the range of floats.
 constexpr double smallest_unit = 0x1p-30;
 constexpr double largest_unit = 0x1p+30;
@@ -70,7 +68,8 @@ void DevicePairTableBase::State::list_instances(const world::Instances& instance
 void DevicePairTableBase::State::place(const world::Instances& instances,
                                        std::span<const std::uint32_t> numbers) {
     const bool has_tolerance = question_.tolerance > 0.0;
-    std::array<std::optional<TransformedPolygon>, poses_at_once> placed;
+    std::array<double, angles_at_once> angles{};
+    std::array<SineCosine, angles_at_once> turns;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         PairInstance& entry = instances_[numbers[i]];
         const std::uint32_t index = indices_[numbers[i]];
@@ -78,14 +77,16 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
         entry.moves = instances.moves(index);
         entry.data.category = instances[index].category;
         entry.data.mask = instances[index].mask;
-        placed[i].emplace(*entry.polygon, entry.instance.pose);
+        angles[i] = entry.instance.pose.angle;
     }
+    geometry::kernels::find_sines_cosines(std::span(angles).first(numbers.size()), turns);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         PairInstance& entry = instances_[numbers[i]];
         const Pose& pose = entry.instance.pose;
-        plan::set_place(*placed[i], origin_, entry.data);
+        const TransformedPolygon placed(*entry.polygon, pose, turns[i]);
+        plan::set_place(placed, origin_, entry.data);
         const double magnitude =
-            std::max({placed[i]->translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
+            std::max({placed.translation().cwiseAbs().maxCoeff() + entry.polygon->radius(),
                       entry.polygon->centre().cwiseAbs().maxCoeff(), std::abs(pose.translation.x),
                       std::abs(pose.translation.y)});
         const bool is_resolved =
@@ -97,12 +98,12 @@ void DevicePairTableBase::State::place(const world::Instances& instances,
 }
 
 void DevicePairTableBase::State::place_moved(const world::Instances& instances) {
-    std::array<std::uint32_t, poses_at_once> numbers{};
+    std::array<std::uint32_t, angles_at_once> numbers{};
     std::size_t count = 0;
     for (std::uint32_t number = 0; number < instances_.size(); ++number) {
         if (instances.moves(indices_[number]) != instances_[number].moves) {
             numbers[count++] = number;
-            if (count == poses_at_once) {
+            if (count == angles_at_once) {
                 place(instances, numbers);
                 count = 0;
             }

@@ -3,8 +3,10 @@
 #include <engine/base/unknown_shape.hpp>
 #include <engine/context/world_checks.hpp>
 #include <engine/context/world_implementation.hpp>
+#include <engine/geometry/angle_kernels.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace nearfield {
@@ -12,6 +14,7 @@ namespace {
 
 using geometry::number;
 using geometry::TransformedPolygon;
+using geometry::kernels::angles_at_once;
 
 /// The number of poses that a job takes at a time: neighbours help each other.
 constexpr std::size_t part = 128;
@@ -41,6 +44,20 @@ void require_reach_of_nearest(double max_distance) {
 
 const geometry::Polygon* find_shape(void* store, ShapeHandle shape) {
     return static_cast<batch::ShapeStore*>(store)->find(shape);
+}
+
+/// Places a shape at each of at most `angles_at_once` poses.
+void place_at(const geometry::Polygon& shape, std::span<const Pose> poses,
+              std::vector<TransformedPolygon>& placed) {
+    std::array<double, angles_at_once> angles{};
+    std::array<SineCosine, angles_at_once> turns;
+    std::transform(poses.begin(), poses.end(), angles.begin(),
+                   [](const Pose& pose) { return pose.angle; });
+    geometry::kernels::find_sines_cosines(std::span(angles).first(poses.size()), turns);
+    placed.clear();
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        placed.emplace_back(shape, poses[i], turns[i]);
+    }
 }
 
 }  // namespace
@@ -110,9 +127,6 @@ const geometry::Polygon& World::Implementation::shape(ShapeHandle handle, const 
 template <class Answer>
 void World::Implementation::divide_poses(const geometry::Polygon& shape, const WorldFilter& filter,
                                          std::span<const Pose> poses, const Answer& answer) {
-    // Sines and cosines of several poses are computed at the same time; those of one alone would
-    // have to be waited for.
-    constexpr std::size_t together = 16;
     expect_answers(poses.size());
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
         world::PoseQueries& queries = scratch_[job].poses;
@@ -120,13 +134,11 @@ void World::Implementation::divide_poses(const geometry::Polygon& shape, const W
         queries.begin(instances_, shape, filter);
         for (std::size_t i = first; i < end; ++i) {
             checkpoint();
-            if ((i - first) % together == 0) {
-                placed.clear();
-                for (const Pose& pose : poses.subspan(i, std::min(together, end - i))) {
-                    placed.emplace_back(shape, pose);
-                }
+            const std::size_t number = (i - first) % angles_at_once;
+            if (number == 0) {
+                place_at(shape, poses.subspan(i, std::min(angles_at_once, end - i)), placed);
             }
-            answer(queries, placed[(i - first) % together], i);
+            answer(queries, placed[number], i);
         }
         finish_answers(end - first);
     });

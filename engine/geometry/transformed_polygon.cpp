@@ -1,5 +1,4 @@
 #include <engine/geometry/transformed_polygon.hpp>
-#include <nearfield/portable_math.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -8,9 +7,12 @@
 namespace nearfield::geometry {
 
 TransformedPolygon::TransformedPolygon(const Polygon& polygon, const Pose& pose)
+    : TransformedPolygon(polygon, pose, sine_cosine(pose.angle)) {}
+
+TransformedPolygon::TransformedPolygon(const Polygon& polygon, const Pose& pose,
+                                       const SineCosine& turn)
     : polygon_(&polygon) {
-    const auto [sine, cosine] = sine_cosine(pose.angle);
-    rotation_ << cosine, -sine, sine, cosine;
+    rotation_ << turn.cosine, -turn.sine, turn.sine, turn.cosine;
     translation_ = rotation_ * polygon.centre() + to_vector(pose.translation);
 }
 

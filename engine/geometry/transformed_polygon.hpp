@@ -3,6 +3,7 @@
 #include <engine/geometry/polygon.hpp>
 #include <engine/geometry/vector.hpp>
 #include <engine/geometry/vertex_kernels.hpp>
+#include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
 #include <cstdint>
@@ -15,6 +16,8 @@ namespace nearfield::geometry {
 class TransformedPolygon {
 public:
     TransformedPolygon(const Polygon& polygon, const Pose& pose);
+    /// The same, with the sine and cosine of the pose's angle.
+    TransformedPolygon(const Polygon& polygon, const Pose& pose, const SineCosine& turn);
 
     [[nodiscard]] const Polygon& polygon() const { return *polygon_; }
 
