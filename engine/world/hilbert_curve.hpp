@@ -15,7 +15,7 @@ namespace nearfield::world {
 /// A Hilbert curve through the cells of a box: places that are close on it are close in the plane.
 class HilbertCurve {
 public:
-    /// The box is divided `halvings` times along each axis; at most 16 times.
+    /// The box is divided `halvings` times along each axis: a multiple of 4, at most 16.
     explicit HilbertCurve(const geometry::Extent& box, std::uint32_t halvings = 16);
 
     /// The position on the curve of the cell that holds a point of the box.
@@ -23,6 +23,7 @@ public:
 
 private:
     geometry::Extent box_;
+    std::uint32_t halvings_;
     std::uint32_t cells_;
     double cells_per_x_;
     double cells_per_y_;
