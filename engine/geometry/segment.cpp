@@ -60,9 +60,6 @@ bool segments_meet(const Vector& a, const Vector& b, const Vector& c, const Vect
 
 std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
                                     const Vector& d, double margin) {
-    if (beside(a, b, c, d, margin) || beside(c, d, a, b, margin)) {
-        return std::nullopt;
-    }
     const double reach = margin * margin;
     if (may_be_near(a, c, d, margin) && nearest_on_segment(a, c, d).squared_distance <= reach) {
         return 0.0;

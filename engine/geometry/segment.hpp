@@ -58,7 +58,8 @@ struct ClosestOfSegments {
                                  double margin);
 
 /// Returns the least parameter (0 at a, 1 at b) at which segment ab is at most `margin` from
-/// segment cd, up to a distance of `margin`; nothing if it never is.
+/// segment cd, up to a distance of `margin`; nothing if it never is. Meant for segments that are on
+/// neither side of each other's line: others are not ruled out quickly.
 [[nodiscard]] std::optional<double> first_meeting(const Vector& a, const Vector& b, const Vector& c,
                                                   const Vector& d, double margin);
 

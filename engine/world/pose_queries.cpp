@@ -14,6 +14,9 @@ using geometry::to_public;
 using geometry::TransformedPolygon;
 using geometry::Vector;
 
+/// The squares of lengths above it are precise.
+constexpr double smallest_length = 1e-140;
+
 /// Slightly more than a length: so that what is exactly as far away is not left out.
 double with_slack(double length, double rounding) {
     return length + rounding + 4.0 * std::numeric_limits<double>::epsilon() * length;
@@ -186,8 +189,10 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
     if (index == guess_.instance) {
         // What was nearest at the pose before is still near, and in about the same direction.
         const Vector way = way_to_guess();
-        known = std::min(known, way.norm());
-        direction = (1.0 - 1e-12) * way.stableNormalized();
+        const double length = way.norm();
+        known = std::min(known, length);
+        // Slightly shorter than a unit vector; without it, nothing is ruled out by it.
+        direction = length > smallest_length ? Vector(way * ((1.0 - 1e-12) / length)) : direction;
     }
     const double at_most = with_slack(known, 4.0 * rounding);
     const narrowphase::ClosestPair pair =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -212,9 +213,8 @@ RayHit RayQueries::hit_of(const Search& search, const simd::Path& path, const Fo
     // Far from the origin an edge may be shorter than what rounding leaves of it.
     const bool has_length = along != Vector::Zero();
     Vector normal = (has_length ? Vector(-along.y(), along.x()) : Vector(-way)).stableNormalized();
-    if (normal.dot(way) > 0.0) {
-        normal = -normal;
-    }
+    // Against the way, without a branch, which nobody could predict.
+    normal *= std::copysign(1.0, 0.0 - normal.dot(way));
     // What is as close as rounding allows is hit; the edge and the point are rounded once more.
     return {instances_->handle(found.instance),
             found.parameter,
