@@ -75,6 +75,11 @@ Status World::find_nearest(const ShapeNearestQuery& query, std::span<const Pose>
     return catch_within(limits, [&] { implementation_->find_nearest(query, poses, nearest); });
 }
 
+Status World::find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
+                           std::span<ShapeEdgeHit> hits, const Limits& limits) {
+    return catch_within(limits, [&] { implementation_->find_nearest(query, poses, hits); });
+}
+
 Status World::cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                         const WorldFilter& filter, const Limits& limits) {
     return catch_within(limits, [&] { implementation_->cast_rays(segments, hits, filter); });

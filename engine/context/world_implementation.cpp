@@ -129,16 +129,15 @@ void World::Implementation::divide_poses(const geometry::Polygon& shape, const W
                                          std::span<const Pose> poses, const Answer& answer) {
     expect_answers(poses.size());
     jobs_.divide(poses.size(), part, [&](std::uint32_t job, std::size_t first, std::size_t end) {
-        world::PoseQueries& queries = scratch_[job].poses;
         std::vector<TransformedPolygon>& placed = scratch_[job].placed;
-        queries.begin(instances_, shape, filter);
+        scratch_[job].poses.begin(instances_, shape, filter);
         for (std::size_t i = first; i < end; ++i) {
             checkpoint();
             const std::size_t number = (i - first) % angles_at_once;
             if (number == 0) {
                 place_at(shape, poses.subspan(i, std::min(angles_at_once, end - i)), placed);
             }
-            answer(queries, placed[number], i);
+            answer(scratch_[job], placed[number], i);
         }
         finish_answers(end - first);
     });
@@ -151,8 +150,8 @@ void World::Implementation::test_poses(const PoseTestQuery& query, std::span<con
     require_poses("test_poses", poses);
     prepare(query.filter, "test_poses");
     divide_poses(polygon, query.filter, poses,
-                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
-                     intersects[i] = queries.intersects(placed) ? 1 : 0;
+                 [&](Job& job, const TransformedPolygon& placed, std::size_t i) {
+                     intersects[i] = job.poses.intersects(placed) ? 1 : 0;
                  });
 }
 
@@ -169,8 +168,8 @@ void World::Implementation::find_clearances(const ClearanceQuery& query,
     require_poses("find_clearances", poses);
     prepare(query.filter, "find_clearances");
     divide_poses(polygon, query.filter, poses,
-                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
-                     clearances[i] = queries.clearance(placed, query);
+                 [&](Job& job, const TransformedPolygon& placed, std::size_t i) {
+                     clearances[i] = job.poses.clearance(placed, query);
                  });
 }
 
@@ -225,9 +224,26 @@ void World::Implementation::find_nearest(const ShapeNearestQuery& query,
     require_poses("find_nearest", poses);
     prepare(query.filter, "find_nearest");
     divide_poses(polygon, query.filter, poses,
-                 [&](world::PoseQueries& queries, const TransformedPolygon& placed, std::size_t i) {
-                     queries.find_nearest(placed, query.max_distance,
-                                          nearest.subspan(i * query.count, query.count));
+                 [&](Job& job, const TransformedPolygon& placed, std::size_t i) {
+                     job.poses.find_nearest(placed, query.max_distance,
+                                            nearest.subspan(i * query.count, query.count));
+                 });
+}
+
+void World::Implementation::find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
+                                         std::span<ShapeEdgeHit> hits) {
+    require_room_for_nearest(query.count, "poses", poses.size(), hits.size());
+    require_reach_of_nearest(query.max_distance);
+    const geometry::Polygon& polygon = shape(query.shape, "find_nearest");
+    require_poses("find_nearest", poses);
+    prepare(query.filter, "find_nearest");
+    for (Job& job : scratch_) {
+        job.edges.begin(instances_, query.filter);
+    }
+    divide_poses(polygon, query.filter, poses,
+                 [&](Job& job, const TransformedPolygon& placed, std::size_t i) {
+                     job.edges.find(placed, query.max_distance,
+                                    hits.subspan(i * query.count, query.count));
                  });
 }
 

@@ -9,6 +9,7 @@
 #include <engine/world/overlap_queries.hpp>
 #include <engine/world/pose_queries.hpp>
 #include <engine/world/ray_queries.hpp>
+#include <engine/world/shape_edge_queries.hpp>
 #include <nearfield/world.hpp>
 #include <nearfield/world_device.hpp>
 
@@ -39,6 +40,8 @@ public:
                       std::span<NearestHit> hits);
     void find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
                       std::span<Clearance> nearest);
+    void find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
+                      std::span<ShapeEdgeHit> hits);
     void cast_rays(std::span<const Segment> segments, std::span<RayHit> hits,
                    const WorldFilter& filter);
     void cast_rays(std::span<const Segment> segments, RayHits& hits, const WorldFilter& filter);
@@ -68,6 +71,7 @@ private:
         world::PoseQueries poses;
         std::vector<geometry::TransformedPolygon> placed;
         world::NearestQueries nearest;
+        world::ShapeEdgeQueries edges;
         world::RayQueries rays;
         world::OverlapQueries overlaps;
         std::vector<std::uint32_t> found;
@@ -107,8 +111,8 @@ private:
     template <class Place, class Answer>
     void divide_places(std::size_t count, std::size_t at_a_time, const Place& place,
                        const Answer& answer);
-    /// Divides poses of a shape among the jobs: calls answer(queries, placed, i) with the shape at
-    /// pose i.
+    /// Divides poses of a shape among the jobs: calls answer(job, placed, i) with the shape at pose
+    /// i.
     template <class Answer>
     void divide_poses(const geometry::Polygon& shape, const WorldFilter& filter,
                       std::span<const Pose> poses, const Answer& answer);

@@ -130,6 +130,28 @@ struct ShapeNearestQuery {
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
+/// The nearest edges of one shape at many poses: World::find_nearest().
+struct ShapeEdgeQuery {
+    ShapeHandle shape = {};   ///< of the world's context
+    WorldFilter filter = {};  ///< the instances considered
+    std::uint32_t count = 1;  ///< the number wanted per pose, >= 1
+    /// Edges farther away than this are not considered. World units, >= 0.
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// One of the edges nearest to a shape.
+struct ShapeEdgeHit {
+    InstanceHandle instance = {};  ///< none: fewer were found than wanted
+    std::uint32_t edge = 0;        ///< of the instance's shape, among the edges of all its rings
+    /// Least distance of the edge from the shape; 0 if they share a point, also where the edge lies
+    /// inside. World units.
+    double distance = std::numeric_limits<double>::infinity();
+    double error_bound = 0.0;  ///< of `distance`: rounding plus the shapes' deviations
+    Vector2 point = {};        ///< of the shape, nearest to the edge; at distance 0 of both
+    Vector2 nearest = {};      ///< of the edge, nearest to `point`
+    Vector2 direction = {};    ///< unit vector from `point` to `nearest`; (0, 0) at distance 0
+};
+
 /// A straight path from one point to another, in world coordinates.
 struct Segment {
     Vector2 from = {};  ///< where it starts
@@ -272,6 +294,12 @@ public:
     /// poses.
     Status find_nearest(const ShapeNearestQuery& query, std::span<const Pose> poses,
                         std::span<Clearance> nearest, const Limits& limits = {});
+
+    /// For each pose, the nearest edges of all instances in ascending order of
+    /// ShapeEdgeHit::distance. Of equally near ones, the instance added first, then the edge of
+    /// lower index comes first. Otherwise as for instances.
+    Status find_nearest(const ShapeEdgeQuery& query, std::span<const Pose> poses,
+                        std::span<ShapeEdgeHit> hits, const Limits& limits = {});
 
     /// For each segment, the first hit. Of several at the same place, the one of the instance added
     /// first, at its edge of lowest index. Fails (invalid_query) if the spans differ in length.

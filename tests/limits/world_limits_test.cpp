@@ -84,6 +84,17 @@ public:
         }
         return status;
     }
+    Status find_edges_near_shape(const Limits& limits, Numbers& numbers) {
+        std::vector<ShapeEdgeHit> hits(3 * poses_.size());
+        ShapeEdgeQuery query{shape_};
+        query.count = 3;
+        Status status = world_.find_nearest(query, poses_, hits, limits);
+        for (const ShapeEdgeHit& hit : hits) {
+            numbers.push_back(hit.distance);
+            append(numbers, hit.nearest);
+        }
+        return status;
+    }
     Status cast_rays(const Limits& limits, Numbers& numbers) {
         std::vector<RayHit> hits(segments_.size());
         Status status = world_.cast_rays(segments_, hits, {}, limits);
@@ -202,6 +213,7 @@ std::vector<NamedQuery> all_queries() {
         {"find_clearances", &Stars::find_clearances},
         {"find_nearest", &Stars::find_nearest},
         {"find_nearest of a shape", &Stars::find_nearest_of_shape},
+        {"find_nearest of a shape, edges", &Stars::find_edges_near_shape},
         {"cast_rays", &Stars::cast_rays},
         {"cast_rays, all hits", &Stars::cast_all_rays},
         {"cast_shape", &Stars::cast_shape},

@@ -39,10 +39,12 @@ Questions any_questions(Random& random, const Rectangle& box, int count) {
     questions.edges.count = static_cast<std::uint32_t>(random.whole(1, 9));
     questions.edges.kind = NearestKind::edges;
     questions.nearest_of_shape.count = static_cast<std::uint32_t>(random.whole(1, 6));
+    questions.edges_of_shape.count = questions.edges.count;
     if (random.whole(0, 1) == 0) {
         questions.nearest.max_distance = random.scale(1e-2, 5.0);
         questions.edges.max_distance = random.scale(1e-2, 5.0);
         questions.nearest_of_shape.max_distance = random.scale(1e-2, 5.0);
+        questions.edges_of_shape.max_distance = questions.edges.max_distance;
     }
     questions.contact_distance = random.whole(0, 1) == 0 ? 0.0 : random.scale(1e-3, 0.5);
     return questions;
@@ -135,6 +137,25 @@ void Answers::ask_nearest(World& world, const NearestQuery& query,
     }
 }
 
+void Answers::ask_edges(World& world, ShapeHandle shape, const Questions& questions) {
+    ShapeEdgeQuery query = questions.edges_of_shape;
+    query.shape = shape;
+    query.filter = questions.filter;
+    std::vector<ShapeEdgeHit> hits(questions.poses.size() * query.count);
+    if (!note(world.find_nearest(query, questions.poses, hits), "find_nearest, edges of a shape")) {
+        return;
+    }
+    for (const ShapeEdgeHit& hit : hits) {
+        add(hit.instance);
+        add(static_cast<double>(hit.edge));
+        add(hit.distance);
+        add(hit.error_bound);
+        add(hit.point);
+        add(hit.nearest);
+        add(hit.direction);
+    }
+}
+
 void Answers::ask_rays(World& world, const Questions& questions) {
     std::vector<RayHit> first(questions.segments.size());
     RayHits all;
@@ -213,6 +234,7 @@ void Answers::ask(World& world, ShapeHandle shape, const Questions& questions) {
         query.filter = questions.filter;
         ask_nearest(world, query, questions.points);
     }
+    ask_edges(world, shape, questions);
     ask_rays(world, questions);
     ask_casts(world, shape, questions);
     ask_overlaps(world, shape, questions);

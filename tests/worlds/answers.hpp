@@ -26,6 +26,7 @@ struct Questions {
     NearestQuery nearest;
     NearestQuery edges;
     ShapeNearestQuery nearest_of_shape;
+    ShapeEdgeQuery edges_of_shape;
     double tolerance = 1e-3;
     double contact_distance = 0.0;
 };
@@ -66,6 +67,7 @@ private:
     void ask_poses(World& world, ShapeHandle shape, const Questions& questions);
     void ask_clearances(World& world, const ClearanceQuery& query, std::span<const Pose> poses);
     void ask_nearest(World& world, const NearestQuery& query, std::span<const Vector2> points);
+    void ask_edges(World& world, ShapeHandle shape, const Questions& questions);
     void ask_rays(World& world, const Questions& questions);
     void ask_casts(World& world, ShapeHandle shape, const Questions& questions);
     void ask_overlaps(World& world, ShapeHandle shape, const Questions& questions);

@@ -63,6 +63,14 @@ TEST_F(WorldDeviations, OfTheInstanceAreInTheBoundOfANearestPoint) {
     }
 }
 
+TEST_F(WorldDeviations, OfBothShapesAreInTheBoundOfAnEdgeNearAShape) {
+    const Pose pose{{6.0, 1.0}};
+    ShapeEdgeHit hit;
+    ASSERT_TRUE(scene_.world().find_nearest(ShapeEdgeQuery{item_}, {&pose, 1}, {&hit, 1}).ok());
+    EXPECT_EQ(hit.distance, 2.0);
+    EXPECT_NEAR(hit.error_bound, of_shape + of_instance, rounding);
+}
+
 TEST_F(WorldDeviations, OfTheInstanceAreInTheBoundOfARaysHit) {
     const Segment segment{{6.0, 1.0}, {2.0, 1.0}};
     RayHit hit;

@@ -133,6 +133,10 @@ TEST(WorldMemory, RunningOutInAQueryChangesNothing) {
             return c.scene.world().find_nearest({c.item, {}, 2}, c.questions.poses, out);
         },
         [](Changed& c) {
+            std::vector<ShapeEdgeHit> out(2 * c.questions.poses.size());
+            return c.scene.world().find_nearest({c.item, {}, 2}, c.questions.poses, out);
+        },
+        [](Changed& c) {
             TimeOfImpactQuery query;
             query.tolerance = 1e-3;
             PairTable out(query);
@@ -263,6 +267,7 @@ public:
         hits_.resize(questions_.segments.size());
         casts_.resize(questions_.sweeps.size());
         nearest_of_item_.resize(3 * questions_.poses.size());
+        edges_near_item_.resize(3 * questions_.poses.size());
         TimeOfImpactQuery impact;
         impact.tolerance = 1e-3;
         impacts_.emplace(impact);
@@ -301,6 +306,7 @@ private:
         ASSERT_TRUE(world.find_clearances({item_}, questions_.poses, clearances_).ok());
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, nearest_of_item_).ok());
+        ASSERT_TRUE(world.find_nearest({item_, {}, 3}, questions_.poses, edges_near_item_).ok());
         three.kind = NearestKind::edges;
         ASSERT_TRUE(world.find_nearest(three, questions_.points, nearest_).ok());
         ASSERT_TRUE(world.cast_rays(questions_.segments, hits_).ok());
@@ -324,6 +330,7 @@ private:
     std::vector<Clearance> clearances_;
     std::vector<NearestHit> nearest_;
     std::vector<Clearance> nearest_of_item_;
+    std::vector<ShapeEdgeHit> edges_near_item_;
     std::vector<RayHit> hits_;
     std::vector<ShapeCastHit> casts_;
     RayHits all_;

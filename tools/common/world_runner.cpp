@@ -189,6 +189,13 @@ Status WorldRunner::write_nearest(World& world, const Query& query, std::span<co
 
 Status WorldRunner::answer_nearest(World& world, Entry& entry, const Limits& limits) {
     const WorldRequest& request = *entry.answer.request;
+    if (request.shape && request.kind == NearestKind::edges) {
+        const ShapeEdgeQuery query{shape_of(entry), entry.filter, wanted_hits(entry),
+                                   request.max_distance};
+        return write_nearest(world, query, std::span<const Pose>(request.poses), limits,
+                             edges_near_shape_,
+                             become<NearestLists<ShapeEdgeHit>>(entry.answer.records));
+    }
     if (request.shape) {
         const ShapeNearestQuery query{shape_of(entry), entry.filter, wanted_hits(entry),
                                       request.max_distance};

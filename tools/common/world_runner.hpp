@@ -73,6 +73,7 @@ private:
     std::vector<Entry> entries_;  ///< by index into Scene::queries
     std::vector<NearestHit> nearest_;
     std::vector<Clearance> nearest_of_shape_;
+    std::vector<ShapeEdgeHit> edges_near_shape_;
 };
 
 }  // namespace nearfield::tools

@@ -92,6 +92,9 @@ public:
     }
 
     // The answers of a world.
+    void add(const ShapeEdgeHit& h) {
+        add_all(h.instance, h.edge, h.distance, h.error_bound, h.point, h.nearest, h.direction);
+    }
     void add(const Clearance& c) {
         add_all(c.distance, c.error_bound, c.instance, c.point, c.nearest, c.direction);
     }

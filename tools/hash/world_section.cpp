@@ -64,6 +64,13 @@ void ask_of_shape(World& world, ShapeHandle shape, Integers& integers, AnswerHas
     std::vector<Clearance> clearances(poses.size());
     tools::require(world.find_clearances({.shape = shape}, poses, clearances));
     hash.add(clearances);
+    std::vector<Clearance> nearest(3 * poses.size());
+    tools::require(
+        world.find_nearest(ShapeNearestQuery{.shape = shape, .count = 3}, poses, nearest));
+    hash.add(nearest);
+    std::vector<ShapeEdgeHit> edges(3 * poses.size());
+    tools::require(world.find_nearest(ShapeEdgeQuery{.shape = shape, .count = 3}, poses, edges));
+    hash.add(edges);
     std::vector<ShapeCastHit> casts(sweeps.size());
     tools::require(world.cast_shape({.shape = shape, .tolerance = 1e-4}, sweeps, casts));
     hash.add(casts);

@@ -24,14 +24,15 @@ struct NearestLists {
 
 /// What a query of a world found: one record per pose, segment or sweep, or a list of records per
 /// point, segment or other input.
-using WorldRecords = std::variant<std::vector<std::uint8_t>,  // poses: 1 if it intersects
-                                  std::vector<Clearance>,     // poses
-                                  std::vector<RayHit>,        // rays: the first hits
-                                  std::vector<ShapeCastHit>,  // cast
-                                  NearestLists<NearestHit>,   // nearest of points
-                                  NearestLists<Clearance>,    // nearest of a shape at poses
-                                  RayHits,                    // rays: all hits
-                                  InstanceLists>;             // overlap
+using WorldRecords = std::variant<std::vector<std::uint8_t>,   // poses: 1 if it intersects
+                                  std::vector<Clearance>,      // poses
+                                  std::vector<RayHit>,         // rays: the first hits
+                                  std::vector<ShapeCastHit>,   // cast
+                                  NearestLists<NearestHit>,    // nearest of points
+                                  NearestLists<Clearance>,     // nearest of a shape at poses
+                                  NearestLists<ShapeEdgeHit>,  // the same of edges
+                                  RayHits,                     // rays: all hits
+                                  InstanceLists>;              // overlap
 
 /// The answer to a query of a world. Refers to objects that the caller keeps.
 struct WorldAnswer {

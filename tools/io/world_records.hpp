@@ -42,6 +42,17 @@ void write_cells(Row& row, const Clearance& clearance) {
 }
 
 template <class Row>
+void write_cells(Row& row, const ShapeEdgeHit& hit) {
+    row.instance("instance", hit.instance);
+    row.index("edge", hit.edge, true);
+    row.number("distance", hit.distance);
+    row.number("error_bound", hit.error_bound);
+    row.point("point", hit.point, true);
+    row.point("nearest", hit.nearest, true);
+    row.point("direction", hit.direction, is_direction(hit.direction));
+}
+
+template <class Row>
 void write_cells(Row& row, const RayHit& hit) {
     const bool is_hit = is_instance(hit.instance);
     row.instance("instance", hit.instance);

@@ -136,9 +136,6 @@ private:
         read_places();
         request_.kind =
             has_choice("kind", "instances", "edges") ? NearestKind::edges : NearestKind::instances;
-        if (request_.shape && request_.kind == NearestKind::edges) {
-            place_.member("kind").fail("\"edges\" belongs to \"points\"");
-        }
         if (place_.has("count")) {
             request_.count = read_count(place_.member("count"));
         }

@@ -123,15 +123,16 @@ class Worker:
             if known.get("state") != [self.code, self.tests]:
                 print(f"{stage}: without a mistake ...", flush=True)
                 every = self.suites.of(stage)
-                if failed := self.run_suites(every, lambda _: SOUND_LIMIT):
+                # On all processors: most workers wait for this.
+                if failed := self.run_suites(every, lambda _: SOUND_LIMIT, os.cpu_count()):
                     sys.exit(f"{stage} fails without a mistake: {failed}")
                 seconds = {each.name: each.seconds for each in every}
                 known = {"state": [self.code, self.tests], "seconds": seconds}
                 self.store.add_sound(stage, known)
         self.sound[stage] = known["seconds"]
 
-    def run_suites(self, every, limit_of):
-        return suites.run(every, self.place.folder / "logs", self.jobs, limit_of, self.stopping)
+    def run_suites(self, every, limit_of, jobs):
+        return suites.run(every, self.place.folder / "logs", jobs, limit_of, self.stopping)
 
     def limit_of(self, suite):
         return 20.0 + 5.0 * self.seconds_of(suite)
@@ -167,7 +168,7 @@ class Worker:
         every = self.suites.of(stage)
         if former:
             every = [each for each in every if former.startswith(f"{each.name}: ")]
-        return self.run_suites(self.in_order(every, mutant), self.limit_of)
+        return self.run_suites(self.in_order(every, mutant), self.limit_of, self.jobs)
 
     def run(self, mutant):
         known = self.store.results.get(mutant.full_name)

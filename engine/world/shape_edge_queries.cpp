@@ -1,0 +1,165 @@
+#include <engine/geometry/segment.hpp>
+#include <engine/simd/ordered_search.hpp>
+#include <engine/world/shape_edge_queries.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace nearfield::world {
+namespace {
+
+using geometry::Vector;
+
+constexpr double unit_of_one = std::numeric_limits<double>::epsilon();
+constexpr double far_away = std::numeric_limits<double>::infinity();
+
+/// Calls `use(edge)` for the edges in all boxes whose squared distance from a box is at most
+/// `bound()`, which falls; nearer boxes come first.
+template <class Bound, class Use>
+void for_edges_near(const simd::AabbTree& tree, std::uint32_t level, std::uint32_t first,
+                    const simd::Extent& from, const Bound& bound, const Use& use) {
+    simd::BoxKeys keys;
+    simd::kernels::measure_boxes(tree.level(level), first, from, keys);
+    for (std::size_t left = keys.size(); left > 0; --left) {
+        const auto nearest = std::min_element(keys.begin(), keys.end());
+        // Boxes that hold nothing are infinitely far away.
+        if (*nearest > bound() || *nearest == far_away) {
+            return;
+        }
+        *nearest = far_away;
+        const auto box = first + static_cast<std::uint32_t>(nearest - keys.begin());
+        if (level > 0) {
+            for_edges_near(tree, level - 1, simd::AabbTree::fan_out * box, from, bound, use);
+            continue;
+        }
+        const simd::EdgeRange range = tree.edges_of(box);
+        for (std::uint32_t edge = range.first; edge < range.end; ++edge) {
+            use(edge);
+        }
+    }
+}
+
+/// The closest points of an edge and a boundary that does not hold the edge.
+struct Closest {
+    Vector on_boundary = Vector::Zero();
+    Vector on_edge = Vector::Zero();
+    double squared = far_away;
+    std::uint32_t boundary_edge = UINT32_MAX;
+};
+
+/// Returns nothing closer than `most`, the square of a distance, if there is nothing.
+Closest find_closest(const simd::TransformedEdges& boundary, const Vector& start, const Vector& end,
+                     double most) {
+    Closest closest;
+    geometry::Box box(start.cwiseMin(end), start.cwiseMax(end));
+    const simd::AabbTree tree = boundary.tree();
+    for_edges_near(
+        tree, tree.top_level(), 0, geometry::extent_of(box),
+        [&] { return std::min(most, (1.0 + 16.0 * unit_of_one) * closest.squared); },
+        [&](std::uint32_t edge) {
+            const geometry::ClosestOfSegments found =
+                geometry::closest_of_segments(boundary.start(edge), boundary.end(edge), start, end);
+            // Of equally close ones the first, in whatever order they come.
+            if (found.squared_distance < closest.squared ||
+                (found.squared_distance == closest.squared && edge < closest.boundary_edge)) {
+                closest = {found.first, found.second, found.squared_distance, edge};
+            }
+        });
+    return closest;
+}
+
+}  // namespace
+
+void ShapeEdgeQueries::begin(const Instances& instances, const WorldFilter& filter) {
+    instances_ = &instances;
+    filter_ = filter;
+}
+
+double ShapeEdgeQueries::squared_reach(double rounding) const {
+    const double farthest = nearest_.size() == wanted_ ? nearest_.back().distance : far_away;
+    const double most = std::min(farthest, max_distance_) * (1.0 + 8.0 * unit_of_one) + rounding;
+    return most * most;
+}
+
+void ShapeEdgeQueries::take(const Found& found) {
+    if (found.distance > max_distance_) {
+        return;
+    }
+    if (nearest_.size() == wanted_) {
+        if (!(found < nearest_.back())) {
+            return;
+        }
+        nearest_.pop_back();
+    }
+    nearest_.insert(std::upper_bound(nearest_.begin(), nearest_.end(), found), found);
+}
+
+void ShapeEdgeQueries::measure(std::uint32_t index, std::uint32_t edge) {
+    const simd::TransformedEdges& edges = instances_->edges(index);
+    const Vector start = edges.start(edge);
+    Found found{0.0, instances_->number(index), index, edge, start, start};
+    const bool is_inside =
+        shape().box.contains(start) && simd::kernels::contain(shape().tree(), start.x(), start.y());
+    if (!is_inside) {
+        const Closest closest = find_closest(shape(), start, edges.end(edge),
+                                             squared_reach(edges.rounding + shape().rounding));
+        if (closest.squared == far_away) {
+            return;
+        }
+        found.distance = std::sqrt(closest.squared);
+        found.point = closest.on_boundary;
+        found.nearest = closest.on_edge;
+    }
+    take(found);
+}
+
+void ShapeEdgeQueries::find_edges_of(std::uint32_t index) {
+    const simd::AabbTree& tree = instances_->tree(index);
+    const double rounding = instances_->rounding(index) + shape().rounding;
+    for_edges_near(
+        tree, tree.top_level(), 0, geometry::extent_of(shape().box),
+        [&] { return squared_reach(rounding); }, [&](std::uint32_t edge) { measure(index, edge); });
+}
+
+ShapeEdgeHit ShapeEdgeQueries::hit_of(const Found& found) const {
+    const double rounding = shape().rounding + instances_->rounding(found.instance);
+    ShapeEdgeHit hit;
+    hit.instance = instances_->handle(found.instance);
+    hit.edge = found.edge;
+    hit.distance = found.distance;
+    hit.error_bound = rounding + shape().placed.polygon().deviation() +
+                      instances_->deviation(found.instance) + 8.0 * unit_of_one * found.distance;
+    hit.point = geometry::to_public(found.point);
+    hit.nearest = geometry::to_public(found.nearest);
+    if (found.distance > 0.0) {
+        hit.direction = geometry::to_public((found.nearest - found.point) / found.distance);
+    }
+    return hit;
+}
+
+void ShapeEdgeQueries::find(const geometry::TransformedPolygon& placed, double max_distance,
+                            std::span<ShapeEdgeHit> hits) {
+    if (!shape_edges_.move(0, placed)) {
+        shape_edges_.clear();
+        static_cast<void>(shape_edges_.place(placed));
+    }
+    shape_edges_.complete(0);
+    wanted_ = hits.size();
+    max_distance_ = max_distance;
+    nearest_.clear();
+    const double rounding = shape().rounding + instances_->max_rounding();
+    instances_->boxes().for_near(
+        shape().box, [&] { return squared_reach(rounding); },
+        [&](std::uint32_t index, double) {
+            if (instances_->passes(index, filter_)) {
+                find_edges_of(index);
+            }
+        });
+    std::fill(hits.begin(), hits.end(), ShapeEdgeHit{});
+    std::transform(nearest_.begin(), nearest_.end(), hits.begin(),
+                   [this](const Found& found) { return hit_of(found); });
+}
+
+}  // namespace nearfield::world
