@@ -49,7 +49,7 @@ struct Closest {
     std::uint32_t boundary_edge = UINT32_MAX;
 };
 
-/// Returns nothing closer than `most`, the square of a distance, if there is nothing.
+/// Looks no farther than the square root of `most`.
 Closest find_closest(const simd::TransformedEdges& boundary, const Vector& start, const Vector& end,
                      double most) {
     Closest closest;
