@@ -2,6 +2,7 @@
 #include <engine/geometry/number.hpp>
 #include <engine/geometry/vector.hpp>
 #include <nearfield/fill.hpp>
+#include <nearfield/portable_math.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ public:
         : radius_(radius), most_(most) {
         const double ratio = std::min(sagitta / radius, 1.0 - std::numbers::sqrt2 / 2.0);
         // Half a step of the arc; 1 - cos(h) = 2 sin^2(h / 2), which stays exact for small ratios.
-        step_ = 4.0 * std::asin(std::sqrt(ratio / 2.0));
+        step_ = 4.0 * geometry::arc_sine(std::sqrt(ratio / 2.0));
     }
 
     void add(const Ring& ring) {
@@ -50,7 +51,7 @@ private:
     static Vector2 outward(const Vector2& a, const Vector2& b) {
         const double x = b.x - a.x;
         const double y = b.y - a.y;
-        const double length = std::hypot(x, y);
+        const double length = geometry::Vector(x, y).stableNorm();
         return {y / length, -x / length};
     }
 
@@ -70,7 +71,7 @@ private:
     void add_sector(const Vector2& at, const Vector2& first, const Vector2& last) {
         const double sine = first.x * last.y - first.y * last.x;
         const double cosine = first.x * last.x + first.y * last.y;
-        double turn = std::atan2(sine, cosine);
+        double turn = arc_tangent(sine, cosine);
         if (turn == 0.0) {
             return;  // the rectangles have a side in common
         }
@@ -86,8 +87,7 @@ private:
         Ring sector{at, beside(at, first)};
         for (std::size_t i = 1; i < steps; ++i) {
             const double angle = turn * static_cast<double>(i) / static_cast<double>(steps);
-            const double c = std::cos(angle);
-            const double s = std::sin(angle);
+            const auto [s, c] = sine_cosine(angle);
             sector.push_back(beside(at, {c * first.x - s * first.y, s * first.x + c * first.y}));
             if (sector.size() > most_) {
                 break;  // refused by add_piece

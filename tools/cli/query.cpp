@@ -1,5 +1,6 @@
 #include <nearfield/context.hpp>
 #include <nearfield/diagnostics.hpp>
+#include <nearfield/portable_math.hpp>
 
 #include <tools/cli/open_context.hpp>
 #include <tools/cli/query.hpp>
@@ -134,8 +135,7 @@ void check_files(const QueryArguments& arguments) {
 
 std::vector<Ring> rings_at(const PlacedOutline& outline, const Pose& pose) {
     std::vector<Ring> rings = outline.rings;
-    const double cosine = std::cos(pose.angle);
-    const double sine = std::sin(pose.angle);
+    const auto [sine, cosine] = sine_cosine(pose.angle);
     for (Ring& ring : rings) {
         for (Vector2& vertex : ring) {
             vertex = {cosine * vertex.x - sine * vertex.y + pose.translation.x,

@@ -1,5 +1,7 @@
 // Which pairs of instances the queries of a scene ask about.
 
+#include <nearfield/portable_math.hpp>
+
 #include <tools/common/library_error.hpp>
 #include <tools/common/scene_runner.hpp>
 #include <tools/io/query_request.hpp>
@@ -33,8 +35,7 @@ Rectangle swept_box(const SceneShape& shape, const SceneInstance& instance) {
         for (const Vector2 vertex : ring) {
             // A rotating shape stays within a circle about the origin of its coordinates.
             const double radius = std::hypot(vertex.x, vertex.y);
-            const double cosine = std::cos(start.angle);
-            const double sine = std::sin(start.angle);
+            const auto [sine, cosine] = sine_cosine(start.angle);
             const Vector2 arm{cosine * vertex.x - sine * vertex.y,
                               sine * vertex.x + cosine * vertex.y};
             const bool turns = start.angle != end.angle;

@@ -1,3 +1,4 @@
+#include <nearfield/portable_math.hpp>
 #include <nearfield/shape.hpp>
 
 #include <tools/io/arc_chain.hpp>
@@ -308,11 +309,12 @@ private:
         }
         const double way = direction(entity);
         const auto at = [&](double degrees) {
-            return Vector2{way * (centre.x + radius(entity) * std::cos(degree * degrees)),
-                           centre.y + radius(entity) * std::sin(degree * degrees)};
+            const auto [sine, cosine] = sine_cosine(degree * degrees);
+            return Vector2{way * (centre.x + radius(entity) * cosine),
+                           centre.y + radius(entity) * sine};
         };
-        chains.push_back({.points = {{at(first), way * std::tan(0.25 * degree * sweep)},
-                                     {at(first + sweep), 0.0}},
+        const auto [sine, cosine] = sine_cosine(0.25 * degree * sweep);
+        chains.push_back({.points = {{at(first), way * (sine / cosine)}, {at(first + sweep), 0.0}},
                           .offset = entity.offset});
     }
 
@@ -328,7 +330,7 @@ private:
             fail(entity, "is an arc, which is not read; convert it to a polyline");
         }
         static_cast<void>(direction(entity));  // its points are not seen from behind
-        block.path.ellipse(point(entity, 10), length, ratio * length, std::atan2(axis.y, axis.x));
+        block.path.ellipse(point(entity, 10), length, ratio * length, arc_tangent(axis.y, axis.x));
         ++block.segments;
     }
 
@@ -352,8 +354,7 @@ private:
         const Vector2& base = found->second.base;
         const Vector2 at = point(entity, 10);
         const double way = direction(entity);
-        const double cosine = std::cos(angle);
-        const double sine = std::sin(angle);
+        const auto [sine, cosine] = sine_cosine(angle);
         AffineMap map{{way * x * cosine, x * sine}, {-way * y * sine, y * cosine}, {}};
         map.origin = {way * at.x - base.x * map.x_axis.x - base.y * map.y_axis.x,
                       at.y - base.x * map.x_axis.y - base.y * map.y_axis.y};

@@ -1,3 +1,5 @@
+#include <nearfield/portable_math.hpp>
+
 #include <tools/io/svg_path.hpp>
 #include <tools/io/svg_transform.hpp>
 #include <tools/io/svg_walk.hpp>
@@ -21,7 +23,7 @@ struct Placement {
 
 /// Precondition: the x axis is not 0.
 Placement divide(const AffineMap& map) {
-    const double angle = std::atan2(map.x_axis.y, map.x_axis.x);
+    const double angle = arc_tangent(map.x_axis.y, map.x_axis.x);
     const double length = std::hypot(map.x_axis.x, map.x_axis.y);
     const double cosine = map.x_axis.x / length;
     const double sine = map.x_axis.y / length;

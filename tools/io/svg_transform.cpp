@@ -1,3 +1,5 @@
+#include <nearfield/portable_math.hpp>
+
 #include <tools/io/length_unit.hpp>
 #include <tools/io/svg_transform.hpp>
 
@@ -21,9 +23,13 @@ Vector2 mapped(const AffineMap& map, const Vector2& v) {
 }
 
 AffineMap rotation(double degrees) {
-    const double cosine = std::cos(radians(degrees));
-    const double sine = std::sin(radians(degrees));
+    const auto [sine, cosine] = sine_cosine(radians(degrees));
     return {{cosine, sine}, {-sine, cosine}, {}};
+}
+
+double tangent(double degrees) {
+    const auto [sine, cosine] = sine_cosine(radians(degrees));
+    return sine / cosine;
 }
 
 /// What a unit behind a number, as CSS has it, makes of the number: pixels and degrees are what
@@ -93,11 +99,11 @@ AffineMap one_transform(const SvgText& text, std::size_t start, const std::strin
     }
     if (name == "skewX") {
         takes({1}, "one number");
-        return {{1.0, 0.0}, {std::tan(radians(n[0])), 1.0}, {}};
+        return {{1.0, 0.0}, {tangent(n[0]), 1.0}, {}};
     }
     if (name == "skewY") {
         takes({1}, "one number");
-        return {{1.0, std::tan(radians(n[0]))}, {0.0, 1.0}, {}};
+        return {{1.0, tangent(n[0])}, {0.0, 1.0}, {}};
     }
     text.fail(start, "\"" + name + "\" is none of matrix, translate, scale, rotate, skewX, skewY");
 }
