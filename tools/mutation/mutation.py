@@ -173,7 +173,7 @@ class Worker:
     def run(self, mutant):
         known = self.store.results.get(mutant.full_name)
         former = known.noticed_by if known else ""
-        looks = [(stage, "") for stage in self.suites.stages(mutant.module)]
+        looks = [(stage, "") for stage in self.suites.stages(mutant)]
         looks = [(stage, former) for stage, _ in looks if suites.is_of(former, stage)] + looks
         noticed, seconds = SURVIVED, 0.0
         while looks and noticed == SURVIVED:

@@ -94,10 +94,15 @@ class Suites:
                 return dict(change.split("=set:", 1) for change in each["value"])
         return {}
 
-    def stages(self, module):
-        """The names of the groups of suites that use a module, its own first."""
+    def stages(self, mutant):
+        """The names of the groups of suites that use a mutant's module, its own first. Where the
+        drivers differ is in what runs at the same time, so the second one is asked for barriers."""
+        module = mutant.module
         own = [f"unit {module}"] if (self.place.source / "tests" / "unit" / module).is_dir() else []
-        return own + list(USED_BY.get(module, ANSWERS))
+        others = USED_BY.get(module, ANSWERS)
+        return own + [
+            each for each in others if mutant.kind == "barrier" or "second driver" not in each
+        ]
 
     @staticmethod
     def target(stage):
