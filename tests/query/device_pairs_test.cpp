@@ -295,6 +295,19 @@ TEST_F(DevicePairs, StayAsTheyWere) {
     EXPECT_EQ(table.size(), 0U);
 }
 
+/// The same instances at the same poses, whose shape alone is another.
+TEST_F(DevicePairs, FollowAShapeThatDeforms) {
+    const ShapeHandle shape = add_shape(rectangle({-1.0, -1.0}, {1.0, 1.0}));
+    add(shape, {});
+    add(shape, {.translation = {4.0, 0.25}});
+    DevicePairTable table(PenetrationQuery{.tolerance = 0.01});
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(table.size(), 0U);
+    ASSERT_TRUE(context().update_shape(shape, rectangle({-3.0, -3.0}, {3.0, 3.0})).ok());
+    ASSERT_TRUE(world().update(table).ok());
+    EXPECT_EQ(table.size(), 2U);
+}
+
 /// The order of the rows and every bit of them are the same in each run.
 TEST_F(DevicePairs, AreTheSameInEachRun) {
     Random random(seed + 4000);
