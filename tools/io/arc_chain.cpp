@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 
 namespace nearfield::tools {
@@ -142,6 +144,22 @@ std::optional<LooseEnd> close_chains(std::vector<ArcChain>& chains, double gap) 
     return std::nullopt;
 }
 
+std::size_t remove_repeated(std::vector<ArcChain>& chains) {
+    using Segment = std::tuple<double, double, double, double, double>;
+    std::set<Segment> seen;
+    return std::erase_if(chains, [&](const ArcChain& chain) {
+        if (chain.closed || chain.points.size() != 2) {
+            return false;
+        }
+        const auto& [from, bulge] = chain.points[0];
+        const Vector2& to = chain.points[1].at;
+        const bool is_forwards = std::pair(from.x, from.y) < std::pair(to.x, to.y);
+        return !seen.insert(is_forwards ? Segment(from.x, from.y, to.x, to.y, bulge)
+                                        : Segment(to.x, to.y, from.x, from.y, -bulge))
+                    .second;
+    });
+}
+
 void append_chain(const ArcChain& chain, CurvePath& path) {
     path.move_to(chain.points.front().at);
     for (std::size_t i = 0; i < chain.points.size(); ++i) {
@@ -154,6 +172,16 @@ void append_chain(const ArcChain& chain, CurvePath& path) {
         }
         if (bulge == 0.0) {
             path.line_to(to);
+            continue;
+        }
+        constexpr double nearly_straight = 1e-8;
+        if (bulge < nearly_straight) {
+            // The parabola has the tangents of the arc, and differs from it by less than rounding.
+            const Vector2 off{0.5 * chain.points[i].bulge * (to.y - from.y),
+                              -0.5 * chain.points[i].bulge * (to.x - from.x)};
+            path.quadratic_to({from.x + 0.5 * (to.x - from.x) + 2.0 * off.x,
+                               from.y + 0.5 * (to.y - from.y) + 2.0 * off.y},
+                              to);
             continue;
         }
         const double radius = 0.25 * chord * (1.0 / bulge + bulge);

@@ -33,6 +33,10 @@ struct LooseEnd {
 /// difference to the odd-even rule. Returns the first loose end, if there is one.
 [[nodiscard]] std::optional<LooseEnd> close_chains(std::vector<ArcChain>& chains, double gap);
 
+/// Removes all but one of the open chains of one segment that join the same points alike, in either
+/// direction; returns how many.
+std::size_t remove_repeated(std::vector<ArcChain>& chains);
+
 /// Adds a closed chain to a path as a contour. Precondition: it has a point.
 void append_chain(const ArcChain& chain, CurvePath& path);
 

@@ -34,20 +34,13 @@ bool is_annotation(std::string_view type) {
     return std::find(std::begin(types), std::end(types), type) != std::end(types);
 }
 
-/// CSS pixels in a unit of $INSUNITS; 0 for one that is not known.
-double pixels_of_insunits(double code) {
-    constexpr double millimetre = 96.0 / 25.4;
-    const std::pair<double, double> units[] = {{1.0, 96.0},
-                                               {2.0, 12.0 * 96.0},
-                                               {4.0, millimetre},
-                                               {5.0, 10.0 * millimetre},
-                                               {6.0, 1000.0 * millimetre}};
-    for (const auto& [unit, pixels] : units) {
-        if (unit == code) {
-            return pixels;
-        }
-    }
-    return 0.0;
+/// The name of the block that an entity defines or places; small letters are as capitals.
+std::string block_name(const DxfEntity& entity) {
+    std::string name(entity.text(2));
+    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    });
+    return name;
 }
 
 class DxfReader {
@@ -72,7 +65,7 @@ public:
         if (unit != LengthUnit::user) {
             const double scale = pixels_ / pixels_per(unit);
             if (scale == 0.0) {
-                groups_.fail(0, "states no unit ($INSUNITS 1, 2, 4, 5 or 6); --units needs one");
+                groups_.fail(0, "states no unit ($INSUNITS 1 to 14); --units needs one");
             }
             path.transform({{scale, 0.0}, {0.0, scale}, {}});
         }
@@ -135,7 +128,7 @@ private:
                 section = {};
                 block = nullptr;
             } else if (section == "BLOCKS" && entity.type == "BLOCK") {
-                block = &blocks_[std::string(entity.text(2))];
+                block = &blocks_[block_name(entity)];
                 *block = {.base = point(entity, 10)};
             } else if (section == "BLOCKS" && entity.type == "ENDBLK") {
                 block = nullptr;
@@ -178,7 +171,7 @@ private:
         return block.path;
     }
 
-    void close(std::vector<ArcChain>& chains) const {
+    void close(std::vector<ArcChain>& chains) {
         constexpr double part = 1e-6;
         Vector2 low{largest_coordinate, largest_coordinate};
         Vector2 high{-largest_coordinate, -largest_coordinate};
@@ -189,7 +182,12 @@ private:
             }
         }
         const double gap = part * std::max(high.x - low.x, high.y - low.y);
-        if (const std::optional<LooseEnd> end = close_chains(chains, gap)) {
+        std::optional<LooseEnd> end = close_chains(chains, gap);
+        if (const std::size_t repeated = end ? remove_repeated(chains) : 0; repeated > 0) {
+            skipped_.add("line drawn twice", repeated);
+            end = close_chains(chains, gap);
+        }
+        if (end) {
             char text[120];
             std::snprintf(text, sizeof text,
                           "the outline is open: nothing continues it at (%.17g, %.17g)", end->at.x,
@@ -208,17 +206,22 @@ private:
         if (is_annotation(type)) {
             skipped_.add(type);
         } else if (type == "LWPOLYLINE") {
-            chains.push_back(lightweight(entity));
+            add(lightweight(entity), chains);
         } else if (type == "POLYLINE") {
-            chains.push_back(polyline(block, index));
+            add(polyline(block, index), chains);
         } else if (type == "LINE") {
-            chains.push_back({.points = {{point(entity, 10), 0.0}, {point(entity, 11), 0.0}},
-                              .offset = entity.offset});
+            if (number(entity, 30, 0.0) != number(entity, 31, 0.0)) {
+                fail(entity, "does not lie in the plane of x and y");
+            }
+            add({.points = {{point(entity, 10), 0.0}, {point(entity, 11), 0.0}},
+                 .offset = entity.offset},
+                chains);
+        } else if ((type == "ARC" || type == "CIRCLE") && radius(entity) == 0.0) {
+            skipped_.add(empty_part);
         } else if (type == "ARC") {
             add_arc(block, entity, chains);
         } else if (type == "CIRCLE") {
-            block.path.circle(placed(entity, point(entity, 10)), radius(entity));
-            ++block.segments;
+            add_circle(block, entity);
         } else if (type == "ELLIPSE") {
             add_ellipse(block, entity);
         } else if (type == "INSERT") {
@@ -228,14 +231,30 @@ private:
         }
     }
 
+    /// Adds a chain that goes somewhere.
+    void add(ArcChain chain, std::vector<ArcChain>& chains) {
+        if (chain.points.size() < 2) {
+            skipped_.add(empty_part);
+        } else {
+            chains.push_back(std::move(chain));
+        }
+    }
+
+    void add_circle(DxfBlock& block, const DxfEntity& entity) const {
+        block.path.circle(placed(entity, point(entity, 10)), radius(entity));
+        ++block.segments;
+    }
+
     /// 1, or -1 for an entity that is seen from behind, whose x points the other way.
     [[nodiscard]] double direction(const DxfEntity& entity) const {
+        constexpr double rounding = 1e-9;
         const double z = number(entity, 230, 1.0);
-        if (number(entity, 210, 0.0) != 0.0 || number(entity, 220, 0.0) != 0.0 ||
-            std::abs(z) != 1.0) {
+        if (std::abs(number(entity, 210, 0.0)) > rounding ||
+            std::abs(number(entity, 220, 0.0)) > rounding ||
+            std::abs(std::abs(z) - 1.0) > rounding) {
             fail(entity, "does not lie in the plane of x and y");
         }
-        return z;
+        return z < 0.0 ? -1.0 : 1.0;
     }
 
     [[nodiscard]] Vector2 placed(const DxfEntity& entity, const Vector2& point) const {
@@ -244,8 +263,8 @@ private:
 
     [[nodiscard]] double radius(const DxfEntity& entity) const {
         const double radius = number(entity, 40);
-        if (!(radius > 0.0)) {
-            fail(entity, "its radius is not above 0");
+        if (!(radius >= 0.0)) {
+            fail(entity, "its radius is below 0");
         }
         return radius;
     }
@@ -262,7 +281,6 @@ private:
                 chain.points.back().bulge = way * number(group);
             }
         }
-        require_points(entity, chain);
         return chain;
     }
 
@@ -286,14 +304,7 @@ private:
         if (index + 1 < block.entities.size() && block.entities[index + 1].type == "SEQEND") {
             ++index;
         }
-        require_points(entity, chain);
         return chain;
-    }
-
-    void require_points(const DxfEntity& entity, const ArcChain& chain) const {
-        if (chain.points.size() < 2) {
-            fail(entity, "has fewer than two vertices");
-        }
     }
 
     void add_arc(DxfBlock& block, const DxfEntity& entity, std::vector<ArcChain>& chains) const {
@@ -303,9 +314,7 @@ private:
         double sweep = std::fmod(number(entity, 51) - first, 360.0);
         sweep += sweep <= 0.0 ? 360.0 : 0.0;
         if (sweep == 360.0) {
-            block.path.circle(placed(entity, centre), radius(entity));
-            ++block.segments;
-            return;
+            return add_circle(block, entity);
         }
         const double way = direction(entity);
         const auto at = [&](double degrees) {
@@ -326,7 +335,8 @@ private:
         if (!(length > 0.0 && ratio > 0.0)) {
             fail(entity, "its axes are not above 0");
         }
-        if (std::abs(sweep - 2.0 * std::numbers::pi) > 1e-6) {
+        constexpr double rounding = 1e-4;  // of files with few digits
+        if (std::abs(sweep - 2.0 * std::numbers::pi) > rounding) {
             fail(entity, "is an arc, which is not read; convert it to a polyline");
         }
         static_cast<void>(direction(entity));  // its points are not seen from behind
@@ -335,30 +345,40 @@ private:
     }
 
     void insert(DxfBlock& block, const DxfEntity& entity) {
-        const auto found = blocks_.find(std::string(entity.text(2)));
+        const auto found = blocks_.find(block_name(entity));
         if (found == blocks_.end()) {
             fail(entity, "there is no block \"" + std::string(entity.text(2).substr(0, 40)) + "\"");
         }
-        if (number(entity, 70, 1.0) > 1.0 || number(entity, 71, 1.0) > 1.0) {
-            fail(entity, "places rows and columns, which are not read; take it apart");
-        }
         const CurvePath& content = path_of(found->second, entity.offset);
-        block.segments += found->second.segments;
-        if (block.segments > most_segments) {
+        const double columns = std::max(number(entity, 70, 1.0), 1.0);
+        const double rows = std::max(number(entity, 71, 1.0), 1.0);
+        const double segments = columns * rows * static_cast<double>(found->second.segments);
+        if (static_cast<double>(block.segments) + segments > double{most_segments} ||
+            columns * rows > double{most_segments}) {
             fail(entity,
                  "the blocks place more than " + std::to_string(most_segments) + " segments");
         }
+        block.segments += static_cast<std::size_t>(segments);
         const double angle = std::numbers::pi / 180.0 * number(entity, 50, 0.0);
-        const double x = number(entity, 41, 1.0);
-        const double y = number(entity, 42, 1.0);
+        const Vector2 scale{number(entity, 41, 1.0), number(entity, 42, 1.0)};
         const Vector2& base = found->second.base;
         const Vector2 at = point(entity, 10);
         const double way = direction(entity);
         const auto [sine, cosine] = sine_cosine(angle);
-        AffineMap map{{way * x * cosine, x * sine}, {-way * y * sine, y * cosine}, {}};
-        map.origin = {way * at.x - base.x * map.x_axis.x - base.y * map.y_axis.x,
-                      at.y - base.x * map.x_axis.y - base.y * map.y_axis.y};
-        block.path.append(CurvePath(content).transform(map));
+        AffineMap map{{way * scale.x * cosine, scale.x * sine},
+                      {-way * scale.y * sine, scale.y * cosine},
+                      {}};
+        const Vector2 first{way * at.x - base.x * map.x_axis.x - base.y * map.y_axis.x,
+                            at.y - base.x * map.x_axis.y - base.y * map.y_axis.y};
+        const double between_columns = number(entity, 44, 0.0);
+        const double between_rows = number(entity, 45, 0.0);
+        for (double i = 0.0; i < columns * rows; i += 1.0) {
+            const double right = std::fmod(i, columns) * between_columns;
+            const double up = std::floor(i / columns) * between_rows;
+            map.origin = {first.x + way * (right * cosine - up * sine),
+                          first.y + right * sine + up * cosine};
+            block.path.append(CurvePath(content).transform(map));
+        }
     }
 
     DxfGroups groups_;

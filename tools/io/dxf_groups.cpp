@@ -22,7 +22,9 @@ std::string_view DxfGroups::take_line() {
 bool DxfGroups::next(DxfGroup& group) {
     const std::size_t start = at_;
     const std::string_view code = take_line();
-    if (code.empty() && text_.find_first_not_of(" \t\r\n", start) == std::string_view::npos) {
+    constexpr std::string_view end_mark = "\x1A";  // of DOS
+    if (code == end_mark ||
+        (code.empty() && text_.find_first_not_of(" \t\r\n", start) == std::string_view::npos)) {
         return false;
     }
     const auto [rest, error] = std::from_chars(code.data(), code.data() + code.size(), group.code);

@@ -118,11 +118,10 @@ private:
     }
 
     void read_feature(const JsonPlace& feature) {
-        const JsonPlace geometry = feature.member("geometry");
-        if (geometry.value().is_null()) {
+        if (!feature.has("geometry") || feature.member("geometry").value().is_null()) {
             skipped_.add("feature without geometry");
         } else {
-            read_geometry(geometry, 0);
+            read_geometry(feature.member("geometry"), 0);
         }
     }
 

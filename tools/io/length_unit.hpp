@@ -16,4 +16,7 @@ enum class LengthUnit { user, px, mm, cm, inch, pt, pc };
 /// CSS pixels, of which an inch has 96, in a unit; 1 for user units.
 [[nodiscard]] double pixels_per(LengthUnit unit);
 
+/// Likewise in a unit of DXF's $INSUNITS; 0 for a code that is not known.
+[[nodiscard]] double pixels_of_insunits(double code);
+
 }  // namespace nearfield::tools

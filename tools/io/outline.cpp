@@ -15,6 +15,9 @@ namespace nearfield::tools {
 namespace {
 
 bool begins_hex_wkb(std::string_view text) {
+    if (is_hex_prefix(text)) {
+        text.remove_prefix(2);
+    }
     // A byte order, 00 or 01; no well-known text begins with a digit.
     return text.size() > 1 && text[0] == '0' && (text[1] == '0' || text[1] == '1');
 }

@@ -4,13 +4,13 @@
 
 namespace nearfield::tools {
 
-void SkippedParts::add(std::string_view kind) {
+void SkippedParts::add(std::string_view kind, std::size_t count) {
     const auto found = std::find_if(counts_.begin(), counts_.end(),
-                                    [kind](const auto& count) { return count.first == kind; });
+                                    [kind](const auto& known) { return known.first == kind; });
     if (found == counts_.end()) {
-        counts_.emplace_back(kind, 1);
+        counts_.emplace_back(kind, count);
     } else {
-        ++found->second;
+        found->second += count;
     }
 }
 

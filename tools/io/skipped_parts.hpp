@@ -12,7 +12,7 @@ namespace nearfield::tools {
 /// made without it, and whoever reads the file is told.
 class SkippedParts {
 public:
-    void add(std::string_view kind);
+    void add(std::string_view kind, std::size_t count = 1);
     [[nodiscard]] bool empty() const noexcept { return counts_.empty(); }
     /// "Point (2), empty part (1)", in the order in which the kinds were first met.
     [[nodiscard]] std::string text() const;

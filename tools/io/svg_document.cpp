@@ -8,31 +8,55 @@
 
 namespace nearfield::tools {
 
+constexpr std::string_view svg_namespace = "http://www.w3.org/2000/svg";
+
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string_view local_name(const pugi::xml_node& node) {
-    std::string_view name = node.name();
-    if (name.starts_with("svg:")) {
-        name.remove_prefix(4);
+namespace {
+
+/// The namespace of a prefix, which may be empty, at an element; nothing where none is declared.
+std::optional<std::string_view> namespace_of(const pugi::xml_node& node, std::string_view prefix) {
+    const std::string name = prefix.empty() ? "xmlns" : "xmlns:" + std::string(prefix);
+    for (pugi::xml_node around = node; around; around = around.parent()) {
+        if (const pugi::xml_attribute declared = around.attribute(name.c_str())) {
+            return without_spaces(declared.value());
+        }
     }
-    return name;
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string_view local_name(const pugi::xml_node& node) {
+    const std::string_view name = node.name();
+    const std::size_t colon = name.find(':');
+    const std::string_view prefix = name.substr(0, colon == std::string_view::npos ? 0 : colon);
+    const std::string_view space =
+        namespace_of(node, prefix).value_or(is_one_of(prefix, {"", "svg"}) ? svg_namespace : "");
+    if (space == svg_namespace || (space.empty() && prefix.empty())) {
+        return prefix.empty() ? name : name.substr(colon + 1);
+    }
+    return prefix.empty() ? ":" : name;
 }
 
 SvgDocument::SvgDocument(const std::string& text, const std::string& file)
-    // Parses in place and without conversions, so that every name and value has the same offset in
-    // the buffer as in the file.
-    : text_(text), file_(file), buffer_(text) {
+    // Parses in place, so that every name and value has its offset in the buffer, up to the
+    // references to characters before it in the same value.
+    : text_(text), file_(file), expanded_(text, file), buffer_(expanded_.text()) {
     const pugi::xml_parse_result result = document_.load_buffer_inplace(
-        buffer_.data(), buffer_.size(), pugi::parse_minimal | pugi::parse_cdata);
+        buffer_.data(), buffer_.size(),
+        pugi::parse_minimal | pugi::parse_cdata | pugi::parse_escapes);
     if (!result) {
-        fail(static_cast<std::size_t>(result.offset),
+        fail(expanded_.offset_in_file(static_cast<std::size_t>(result.offset)),
              std::string("not XML: ") + result.description());
     }
     if (local_name(root()) != "svg") {
+        const std::string_view name = root().name();
         fail(offset_of(root().name()),
-             "the outermost element is \"" + std::string(root().name()) + "\", not svg");
+             name == "svg" ? "the outermost element, svg, is not in the namespace of SVG"
+                           : "the outermost element is \"" + std::string(name) + "\", not svg");
     }
     const pugi::xml_node second = root().next_sibling();
     if (second) {
@@ -50,7 +74,7 @@ void SvgDocument::fail(const pugi::xml_node& node, const std::string& reason) co
 }
 
 std::size_t SvgDocument::offset_of(const char* in_buffer) const {
-    return static_cast<std::size_t>(in_buffer - buffer_.data());
+    return expanded_.offset_in_file(static_cast<std::size_t>(in_buffer - buffer_.data()));
 }
 
 SvgText SvgDocument::text_at(std::string_view in_buffer) const {
@@ -59,7 +83,7 @@ SvgText SvgDocument::text_at(std::string_view in_buffer) const {
 
 void SvgDocument::blank_comments(const char* in_buffer) {
     if (std::strstr(in_buffer, "/*") != nullptr) {
-        blank_css_comments(buffer_.data() + offset_of(in_buffer), std::strlen(in_buffer));
+        blank_css_comments(buffer_.data() + (in_buffer - buffer_.data()), std::strlen(in_buffer));
     }
 }
 

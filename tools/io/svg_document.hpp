@@ -3,6 +3,7 @@
 #include <pugixml.hpp>
 #include <tools/io/svg_style.hpp>
 #include <tools/io/svg_text.hpp>
+#include <tools/io/xml_entities.hpp>
 
 #include <cstddef>
 #include <initializer_list>
@@ -17,7 +18,8 @@ namespace nearfield::tools {
 /// True of a name that a list holds.
 [[nodiscard]] bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names);
 
-/// The name of an element or attribute without the prefix "svg:".
+/// The name of an element without its prefix; of one that is not in the namespace of SVG a name
+/// with a colon. An element without a prefix in a file that declares no namespace is of SVG.
 [[nodiscard]] std::string_view local_name(const pugi::xml_node& node);
 
 /// A parsed SVG file: elements, their ids and their properties by attributes and CSS. Every value
@@ -61,6 +63,7 @@ private:
 
     const std::string& text_;
     const std::string& file_;
+    ExpandedXml expanded_;
     std::string buffer_;
     pugi::xml_document document_;
     std::unordered_map<std::string_view, pugi::xml_node> ids_;

@@ -30,7 +30,11 @@ struct AspectRatio {
 };
 
 AspectRatio parse_aspect_ratio(const SvgDocument& document, const pugi::xml_node& node) {
-    const std::string_view text = document.word(node, "preserveAspectRatio");
+    std::string_view text = document.word(node, "preserveAspectRatio");
+    constexpr std::string_view of_images = "defer ";
+    if (text.starts_with(of_images)) {
+        text = without_spaces(text.substr(of_images.size()));
+    }
     AspectRatio ratio;
     if (text.empty()) {
         return ratio;

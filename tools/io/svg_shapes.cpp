@@ -16,7 +16,8 @@ public:
 
     [[nodiscard]] CurvePath read(std::string_view name) const {
         if (name == "path") {
-            std::optional<SvgText> data = text("d");
+            const bool is_none = document_.word(node_, "d") == "none";
+            std::optional<SvgText> data = is_none ? std::nullopt : text("d");
             return data ? parse_path_data(*data) : CurvePath();
         }
         if (name == "polygon" || name == "polyline") {

@@ -2,6 +2,7 @@
 #include <tools/io/svg_shapes.hpp>
 #include <tools/io/svg_transform.hpp>
 #include <tools/io/svg_walk.hpp>
+#include <tools/io/values.hpp>
 
 #include <algorithm>
 #include <string>
@@ -15,6 +16,28 @@ constexpr std::size_t most_work = 2'000'000;  // uses of uses multiply
 
 AffineMap scaling(double factor) {
     return {{factor, 0.0}, {0.0, factor}, {}};
+}
+
+/// Whether an element is for all who draw it: it asks for no extension, and for English if for a
+/// language.
+bool is_meant(const pugi::xml_node& node) {
+    if (node.attribute("requiredExtensions")) {
+        return false;
+    }
+    const pugi::xml_attribute languages = node.attribute("systemLanguage");
+    if (!languages) {
+        return true;
+    }
+    std::string_view left = languages.value();
+    while (!left.empty()) {
+        const std::size_t comma = std::min(left.find(','), left.size());
+        const std::string_view language = without_spaces(left.substr(0, comma));
+        if (language == "en" || language.starts_with("en-")) {
+            return true;
+        }
+        left.remove_prefix(std::min(comma + 1, left.size()));
+    }
+    return false;
 }
 
 }  // namespace
@@ -112,11 +135,10 @@ std::vector<pugi::xml_node> SvgWalk::children_of(const pugi::xml_node& group) {
     const bool is_switch = local_name(group) == "switch";
     std::vector<pugi::xml_node> children;
     for (const pugi::xml_node& child : group.children()) {
-        if (child.type() != pugi::node_element ||
-            (is_switch && (!children.empty() || child.attribute("requiredExtensions")))) {
-            continue;
+        if (child.type() == pugi::node_element && is_meant(child) &&
+            (!is_switch || children.empty())) {
+            children.push_back(child);
         }
-        children.push_back(child);
     }
     return children;
 }

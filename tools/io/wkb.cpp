@@ -59,8 +59,11 @@ public:
     WkbParser(std::string_view bytes, const std::string& file, SkippedParts& skipped)
         : bytes_(bytes), file_(file), skipped_(skipped) {}
 
+    /// One geometry, or several, one after the other.
     std::vector<Ring> parse() {
-        parse_geometry(read_header(), 0);
+        do {
+            parse_geometry(read_header(), 0);
+        } while (position_ < bytes_.size() && (bytes_[position_] == 0 || bytes_[position_] == 1));
         if (position_ < bytes_.size()) {
             fail(position_, std::to_string(bytes_.size() - position_) +
                                 " bytes after the end of the geometry");
@@ -271,6 +274,10 @@ int digit_value(char c) {
 
 }  // namespace
 
+bool is_hex_prefix(std::string_view text) {
+    return text.starts_with("\\x") || text.starts_with("0x") || text.starts_with("0X");
+}
+
 std::vector<Ring> parse_wkb(const std::string& bytes, const std::string& file,
                             SkippedParts& skipped, std::vector<std::uint32_t>* part_sizes) {
     WkbParser parser(bytes, file, skipped);
@@ -288,6 +295,10 @@ std::vector<Ring> parse_hex_wkb(const std::string& text, const std::string& file
     int high = -1;
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (is_space(text[i])) {
+            continue;
+        }
+        if (high < 0 && is_hex_prefix(std::string_view(text).substr(i))) {
+            ++i;
             continue;
         }
         const int value = digit_value(text[i]);

@@ -228,7 +228,8 @@ private:
                 fail(position_,
                      "a position has at most " + std::to_string(ordinates_.most) + " numbers here");
             }
-            ordinates[count++] = parse_number();
+            ordinates[count] = parse_number(count < 2);
+            ++count;
             skip_space();
         } while (position_ < text_.size() && text_[position_] != ',' && text_[position_] != ')');
         if (count < ordinates_.fewest) {
@@ -238,7 +239,8 @@ private:
         return {ordinates[0], ordinates[1]};
     }
 
-    double parse_number() {
+    /// `is_used`: the number matters, so that it has to be one.
+    double parse_number(bool is_used) {
         skip_space();
         const std::size_t start = position_;
         std::size_t first = start;
@@ -254,7 +256,7 @@ private:
         if (error != std::errc{}) {
             fail(start, start < text_.size() ? "expected a number" : "the text ends too early");
         }
-        if (!std::isfinite(number)) {
+        if (is_used && !std::isfinite(number)) {
             fail(start, "not a finite number");
         }
         position_ = static_cast<std::size_t>(rest - text_.data());

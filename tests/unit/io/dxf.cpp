@@ -212,6 +212,72 @@ TEST(ToolsDxf, NotesWhatIsNoOutline) {
     EXPECT_EQ(skipped.text(), "TEXT (2), POINT (1), of paper space, or invisible (1)");
 }
 
+TEST(ToolsDxf, WhatHasNoSizeIsSkipped) {
+    SkippedParts skipped;
+    const CurvePath path = parse_dxf(
+        drawing("0 CIRCLE 10 0 20 0 40 1 0 CIRCLE 10 3 20 0 40 0 0 ARC 10 3 20 0 40 0 50 0 "
+                "51 90 0 LWPOLYLINE 70 1 10 1 20 1"),
+        "a.dxf", skipped);
+    EXPECT_EQ(path.contours().size(), 1U);
+    EXPECT_EQ(skipped.text(), "empty part (3)");
+}
+
+TEST(ToolsDxf, LinesDrawnTwiceCountOnceWhereAnOutlineWouldStayOpen) {
+    const std::string square =
+        line({0, 0}, {1, 0}) + line({1, 0}, {1, 1}) + line({1, 1}, {0, 1}) + line({0, 1}, {0, 0});
+    SkippedParts skipped;
+    EXPECT_EQ(area(parse_dxf(drawing(square + line({1, 1}, {1, 0})), "a.dxf", skipped)), 1.0);
+    EXPECT_EQ(skipped.text(), "line drawn twice (1)");
+    // Two squares with a side in common have it twice.
+    SkippedParts none;
+    const CurvePath two = parse_dxf(drawing(square + line({1, 0}, {2, 0}) + line({2, 0}, {2, 1}) +
+                                            line({2, 1}, {1, 1}) + line({1, 1}, {1, 0})),
+                                    "a.dxf", none);
+    EXPECT_TRUE(none.empty()) << none.text();
+    double sum = 0.0;
+    for (const double each : areas(two)) {
+        sum += std::abs(each);
+    }
+    EXPECT_NEAR(sum, 2.0, 1e-9);
+}
+
+TEST(ToolsDxf, SlightBulgesAreNearlyStraight) {
+    for (const double bulge : {1e-300, -1e-16, 1e-12, -1e-9, 9.9e-9, 1.01e-8}) {
+        std::ostringstream text;
+        text.precision(17);
+        text << "0 LWPOLYLINE 70 1 10 0 20 0 42 " << bulge << " 10 10 20 0 10 10 20 10";
+        // A positive bulge adds a segment of a circle below, 2/3 of chord and sagitta.
+        EXPECT_NEAR(areas(read(drawing(text.str())), 1e-10)[0],
+                    50.0 + 2.0 / 3.0 * 10.0 * 5.0 * bulge, 2e-9)
+            << bulge;
+    }
+}
+
+TEST(ToolsDxf, InsertsMayBeRowsAndColumnsOfABlockInAnyCase) {
+    const std::string blocks = lines(
+        "0 SECTION 2 BLOCKS 0 BLOCK 2 Dot 10 0 20 0 0 CIRCLE 10 0 20 0 40 1 0 ENDBLK 0 "
+        "ENDSEC");
+    const CurvePath path =
+        read(blocks + drawing("0 INSERT 2 dOT 10 5 20 6 50 90 70 3 71 2 44 10 45 20"));
+    ASSERT_EQ(path.contours().size(), 6U);
+    // Columns go along the turned x axis, rows to its left.
+    EXPECT_NEAR(path.contours()[2].start.y - path.contours()[0].start.y, 20.0, 1e-12);
+    EXPECT_NEAR(path.contours()[3].start.x - path.contours()[0].start.x, -20.0, 1e-12);
+    EXPECT_NE(refusal(blocks + drawing("0 INSERT 2 dot 10 5 20 6 70 30000 71 30000"))
+                  .find("more than 262144 segments"),
+              std::string::npos);
+}
+
+TEST(ToolsDxf, PlanesAreThoseOfTheAxesUpToRounding) {
+    const std::string circle = "0 CIRCLE 10 1 20 0 40 1 210 1e-17 220 -1.2e-16 230 ";
+    EXPECT_NEAR(area(read(drawing(circle + "0.9999999999"))), pi, 1e-5);
+    EXPECT_EQ(refusal(drawing(circle + "0.99")),
+              "a.dxf:6:1: CIRCLE: does not lie in the plane of x and y");
+    EXPECT_EQ(refusal(drawing("0 LINE 10 0 20 0 30 0 11 1 21 0 31 5")),
+              "a.dxf:6:1: LINE: does not lie in the plane of x and y");
+    EXPECT_NEAR(area(read(drawing("0 CIRCLE 10 0 20 0 40 1") + "\x1A")), pi, 1e-5);
+}
+
 TEST(ToolsDxf, RefusalsSayWhere) {
     const std::string circle = " 0 CIRCLE 10 0 20 0 40 1";
     EXPECT_EQ(refusal(drawing("0 SPLINE 70 8" + circle)),

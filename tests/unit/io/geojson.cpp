@@ -72,6 +72,8 @@ TEST(ToolsGeojson, WithoutAPolygonTheDocumentIsRefused) {
               "a.geojson: holds no polygon");
     EXPECT_EQ(error_of(R"({"type": "Feature", "geometry": null})"),
               "a.geojson: holds no polygon, only feature without geometry (1)");
+    EXPECT_EQ(error_of(R"({"type": "Feature"})"),
+              "a.geojson: holds no polygon, only feature without geometry (1)");
     EXPECT_EQ(error_of(R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})"),
               "a.geojson: holds no polygon, only LineString (1)");
     EXPECT_EQ(error_of(polygon("[]")), "a.geojson: holds no polygon, only empty part (1)");

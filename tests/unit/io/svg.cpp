@@ -208,7 +208,8 @@ TEST(ToolsSvg, TransformsNestAndGoFromRightToLeft) {
 TEST(ToolsSvg, WhatDrawsNothingIsPassedOver) {
     const std::string file =
         "<?xml version=\"1.0\"?>\n<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" \"svg11.dtd\">\n"
-        "<!-- drawn by hand -->\n<svg:svg xmlns:svg='s' viewBox='0 0 9 9'><svg:title>x</svg:title>"
+        "<!-- drawn by hand -->\n<svg:svg xmlns:svg='http://www.w3.org/2000/svg' viewBox='0 0 9 "
+        "9'><svg:title>x</svg:title>"
         "<sodipodi:namedview id='n'/><svg:defs><svg:text>t</svg:text></svg:defs>"
         "<svg:path display='none' d='nonsense'/><svg:g display='none'><svg:use/></svg:g>"
         "<svg:path style='fill:none;stroke:#000' d='M0 0h4v3z'/></svg:svg>";

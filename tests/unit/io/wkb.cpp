@@ -122,6 +122,12 @@ TEST(ToolsWkb, CollectionsMayMixByteOrdersAndWhatHoldsNoAreaIsCounted) {
               "empty part (1), Point (1), LineString (1), MultiPoint (1), MultiLineString (1)");
 }
 
+TEST(ToolsWkb, GeometriesThatFollowEachOtherAreTheParts) {
+    SkippedParts skipped;
+    const std::string both = triangle_bytes(true).text() + triangle_bytes(false).text();
+    EXPECT_EQ(parse_wkb(both, "f", skipped), (std::vector<Ring>{triangle[0], triangle[0]}));
+}
+
 TEST(ToolsWkb, ErrorsNameFileAndByte) {
     const std::string good = triangle_bytes().text();
     for (std::size_t size = 0; size < good.size(); ++size) {
@@ -179,6 +185,10 @@ TEST(ToolsWkb, ReadsHexadecimalDigits) {
         c = c == 'E' ? 'e' : c;
     }
     EXPECT_EQ(parse_hex_wkb(lower, "f", skipped), closed);
+    EXPECT_EQ(parse_hex_wkb("\\x" + hex, "f", skipped), closed);
+    EXPECT_EQ(parse_hex_wkb(" 0x" + hex + "\\x" + lower, "f", skipped).size(), 2U);
+    EXPECT_EQ(format_of({"a.wkb", "\\x" + hex}), OutlineFormat::hex_wkb);
+    EXPECT_EQ(format_of({"a.wkt", "0x" + hex}), OutlineFormat::hex_wkb);
     EXPECT_EQ(hex_error_of("0103\n00x0"), "a.wkb:2:3: expected a hexadecimal digit of WKB");
     EXPECT_EQ(hex_error_of("010"), "a.wkb:1:4: an odd number of hexadecimal digits");
     EXPECT_EQ(hex_error_of("0203000000"), "a.wkb: byte 0: a byte order is 0 or 1, not 2");

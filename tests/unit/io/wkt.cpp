@@ -41,6 +41,7 @@ TEST(ToolsWkt, ReadsPolygonsInEverySpelling) {
              "PolygonM((0 0 9,4 -0.5 9,1e-3 3 9))",
              "POLYGON ZM ((0 0 9 8,4 -0.5 9 8,1e-3 3 9 8))",
              "POLYGON((0 0 9,4 -0.5 9,1e-3 3 9))",
+             "POLYGON Z((0 0 nan,4 -0.5 NaN,1e-3 3 inf))",
              "MULTIPOLYGON(((0 0,4 -0.5,1e-3 3)))",
              "POLYGON((0 0,4 -.5,1e-3 3));",
              "SRID=4326;POLYGON((0 0,4 -0.5,1e-3 3)) ;\n",
