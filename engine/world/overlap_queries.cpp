@@ -3,6 +3,8 @@
 #include <engine/world/overlap_queries.hpp>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace nearfield::world {
 
@@ -16,12 +18,25 @@ void OverlapQueries::begin(const Instances& instances, const WorldFilter& filter
 
 void OverlapQueries::find(const Vector2& point, std::vector<std::uint32_t>& found) const {
     const Vector p = geometry::to_vector(point);
-    instances_->boxes().for_meeting({p, p}, [&](std::uint32_t index) {
-        if (instances_->passes(index, filter_) &&
-            simd::kernels::contain(instances_->tree(index), p.x(), p.y())) {
+    const Box search = geometry::grown(Box(p, p), instances_->max_rounding());
+    instances_->boxes().for_meeting(search, [&](std::uint32_t index) {
+        if (instances_->passes(index, filter_) && holds(index, p)) {
             found.push_back(index);
         }
     });
+}
+
+/// True if a point is inside, or on the boundary up to rounding.
+bool OverlapQueries::holds(std::uint32_t index, const Vector& point) const {
+    const simd::AabbTree& tree = instances_->tree(index);
+    if (simd::kernels::contain(tree, point.x(), point.y())) {
+        return true;
+    }
+    const double rounding = instances_->rounding(index);
+    const double most =
+        std::nextafter(rounding * rounding, std::numeric_limits<double>::infinity());
+    constexpr std::uint32_t none = UINT32_MAX;
+    return simd::kernels::find_nearer(tree, point.x(), point.y(), {none, most}).edge != none;
 }
 
 /// True if an edge comes into the rectangle, or the rectangle lies inside.

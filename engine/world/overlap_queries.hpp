@@ -15,12 +15,13 @@ public:
     /// The instances have to be prepared.
     void begin(const Instances& instances, const WorldFilter& filter);
 
-    /// Appends the instances that a point lies in, in any order.
+    /// Appends the instances that a point lies in, or on the boundary of, in any order.
     void find(const Vector2& point, std::vector<std::uint32_t>& found) const;
     /// Appends the instances with which a rectangle shares a point, in any order.
     void find(const Rectangle& rectangle, std::vector<std::uint32_t>& found) const;
 
 private:
+    [[nodiscard]] bool holds(std::uint32_t index, const geometry::Vector& point) const;
     [[nodiscard]] bool meets(std::uint32_t index, const geometry::Box& box) const;
 
     const Instances* instances_ = nullptr;

@@ -321,7 +321,7 @@ public:
     /// transformed vertices.
     Status find_overlaps(std::span<const Rectangle> rectangles, InstanceLists& lists,
                          const WorldFilter& filter = {}, const Limits& limits = {});
-    /// For each point, the instances that it lies in; unspecified for points on a boundary.
+    /// For each point, the instances that it lies in, or up to rounding on the boundary of.
     Status find_overlaps(std::span<const Vector2> points, InstanceLists& lists,
                          const WorldFilter& filter = {}, const Limits& limits = {});
     /// For each pose, the instances with which the shape there shares a point; likewise.

@@ -109,6 +109,28 @@ TEST_P(WorldOverlaps, OfPointsAndRectanglesAreThoseOfTheBruteForce) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldOverlaps, testing::Range(0, scene_kinds));
 
+TEST(WorldOverlapsOfSquares, HoldTheirBoundaries) {
+    Scene scene({{"square", rectangle({0, 0}, {10, 10}), {{1e6, -2e6}, 0.7}}});
+    const PlacedRings& truth = scene.truth(0);
+    std::vector<Vector2> points;
+    std::vector<Rectangle> rectangles;
+    for (const WideEdge& edge : truth.edges()) {
+        for (const Wide part : {0.0L, 0.25L, 0.5L}) {
+            points.push_back({static_cast<double>(edge.from.x + part * (edge.to.x - edge.from.x)),
+                              static_cast<double>(edge.from.y + part * (edge.to.y - edge.from.y))});
+            rectangles.push_back({points.back(), points.back()});
+        }
+    }
+    const std::size_t on_boundary = points.size();
+    points.push_back({points[1].x + 20.0, points[1].y});
+    InstanceLists lists;
+    ASSERT_TRUE(scene.world().find_overlaps(points, lists).ok());
+    EXPECT_EQ(lists.instances.size(), on_boundary);
+    EXPECT_EQ(lists.offsets.back(), lists.offsets[on_boundary]);
+    ASSERT_TRUE(scene.world().find_overlaps(rectangles, lists).ok());
+    EXPECT_EQ(lists.instances.size(), on_boundary);
+}
+
 TEST(WorldOverlapsOfSquares, CountTouching) {
     Scene scene({{"square", rectangle({0, 0}, {1, 1}), {{2.0, 0.0}}},
                  {"ring", {rectangle({0, 0}, {9, 9})[0], rectangle({1, 1}, {8, 8})[0]}, {}}});
