@@ -246,6 +246,19 @@ TEST_F(DevicePairIntersections, DoNotShowTheirHistory) {
 }
 
 /// Cut at any checkpoint an update fails as a whole, and the next one is as if nothing had been.
+/// The same instances at the same poses, of which one is filtered otherwise.
+TEST_F(DevicePairIntersections, FollowAFilterThatChanges) {
+    const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
+    const InstanceHandle one = add(square, {});
+    add(square, {.translation = {0.5, 0.5}});
+    Tables tables;
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 1U);
+    ASSERT_TRUE(world().set_filter(one, 1, 0).ok());
+    compare(tables);
+    EXPECT_EQ(tables.device.size(), 0U);
+}
+
 TEST_F(DevicePairIntersections, CutByLimitsAreNone) {
     const ShapeHandle square = add_shape(rectangle({0.0, 0.0}, {1.0, 1.0}));
     for (int i = 0; i < 8; ++i) {

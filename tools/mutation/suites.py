@@ -46,7 +46,7 @@ USED_BY = {
     "render": DEVICE,
     "batch": ("query", "driver", "worlds", "limits", "threads"),
     "context": ("worlds", "limits", "query", "driver", "threads"),
-    "world": ("worlds", "limits", "threads", "hash"),
+    "world": ("worlds", "limits", "threads", "hash", "query"),
     "reload": ("reload", "driver"),
     "io": ("cli",),
     "cli": ("cli",),
