@@ -43,8 +43,10 @@ constexpr Step step_of(std::uint32_t column, std::uint32_t row, std::uint32_t tu
     return {static_cast<std::uint8_t>(position), static_cast<std::uint8_t>(turn)};
 }
 
-constexpr std::array<Step, 4 * side* side> steps = [] {
-    std::array<Step, 4 * side * side> all{};
+using Steps = std::array<Step, std::size_t{4} * side * side>;
+
+constexpr Steps steps = [] {
+    Steps all{};
     for (std::uint32_t i = 0; i < all.size(); ++i) {
         all[i] = step_of(i / side % side, i % side, i / (side * side));
     }

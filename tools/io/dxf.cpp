@@ -101,13 +101,18 @@ private:
     }
 
     [[nodiscard]] double number(const DxfEntity& entity, int code, double usual) const {
-        const DxfGroup* const group = entity.find(code);
-        return group == nullptr ? usual : number(*group);
+        return entity.find(code) == nullptr ? usual : number(*entity.find(code));
     }
 
     [[nodiscard]] bool has_flag(const DxfEntity& entity, int code, int flag) const {
         const double flags = number(entity, code, 0.0);
         return std::abs(flags) <= 0x1p30 && (static_cast<int>(flags) & flag) != 0;
+    }
+
+    /// A number of copies, at least 1; of those that are too many, as many as are refused.
+    [[nodiscard]] std::size_t count(const DxfEntity& entity, int code) const {
+        const double most = static_cast<double>(most_segments) + 1.0;
+        return static_cast<std::size_t>(std::clamp(number(entity, code, 1.0), 1.0, most));
     }
 
     [[nodiscard]] Vector2 point(const DxfEntity& entity, int code) const {
@@ -233,11 +238,10 @@ private:
 
     /// Adds a chain that goes somewhere.
     void add(ArcChain chain, std::vector<ArcChain>& chains) {
-        if (chain.points.size() < 2) {
-            skipped_.add(empty_part);
-        } else {
-            chains.push_back(std::move(chain));
+        if (chain.points.size() >= 2) {
+            return chains.push_back(std::move(chain));
         }
+        skipped_.add(empty_part);
     }
 
     void add_circle(DxfBlock& block, const DxfEntity& entity) const {
@@ -350,21 +354,18 @@ private:
             fail(entity, "there is no block \"" + std::string(entity.text(2).substr(0, 40)) + "\"");
         }
         const CurvePath& content = path_of(found->second, entity.offset);
-        const double columns = std::max(number(entity, 70, 1.0), 1.0);
-        const double rows = std::max(number(entity, 71, 1.0), 1.0);
-        const double segments = columns * rows * static_cast<double>(found->second.segments);
-        if (static_cast<double>(block.segments) + segments > double{most_segments} ||
-            columns * rows > double{most_segments}) {
+        const std::size_t columns = count(entity, 70);
+        const std::size_t copies = columns * count(entity, 71);
+        block.segments += copies * std::max<std::size_t>(found->second.segments, 1);
+        if (block.segments > most_segments) {
             fail(entity,
                  "the blocks place more than " + std::to_string(most_segments) + " segments");
         }
-        block.segments += static_cast<std::size_t>(segments);
-        const double angle = std::numbers::pi / 180.0 * number(entity, 50, 0.0);
         const Vector2 scale{number(entity, 41, 1.0), number(entity, 42, 1.0)};
         const Vector2& base = found->second.base;
         const Vector2 at = point(entity, 10);
         const double way = direction(entity);
-        const auto [sine, cosine] = sine_cosine(angle);
+        const auto [sine, cosine] = sine_cosine(std::numbers::pi / 180.0 * number(entity, 50, 0.0));
         AffineMap map{{way * scale.x * cosine, scale.x * sine},
                       {-way * scale.y * sine, scale.y * cosine},
                       {}};
@@ -372,9 +373,10 @@ private:
                             at.y - base.x * map.x_axis.y - base.y * map.y_axis.y};
         const double between_columns = number(entity, 44, 0.0);
         const double between_rows = number(entity, 45, 0.0);
-        for (double i = 0.0; i < columns * rows; i += 1.0) {
-            const double right = std::fmod(i, columns) * between_columns;
-            const double up = std::floor(i / columns) * between_rows;
+        for (std::size_t i = 0; i < copies; ++i) {
+            const std::size_t row = i / columns;
+            const double right = static_cast<double>(i % columns) * between_columns;
+            const double up = static_cast<double>(row) * between_rows;
             map.origin = {first.x + way * (right * cosine - up * sine),
                           first.y + right * sine + up * cosine};
             block.path.append(CurvePath(content).transform(map));
