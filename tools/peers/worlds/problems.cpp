@@ -11,11 +11,11 @@ namespace {
 
 using benchmark::Random;
 
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double whole_turn = 2.0 * std::numbers::pi;
 
 Pose anywhere(Random& random, const Vector2& low, const Vector2& high) {
     return {{random.between(low.x, high.x), random.between(low.y, high.y)},
-            random.between(0.0, turn)};
+            random.between(0.0, whole_turn)};
 }
 
 /// 48 items of 21 vertices side by side, and another one at many poses among and beside them.
@@ -24,8 +24,9 @@ WorldProblem layout() {
     problem.name = "48 items, 1,008 vertices: an item at 1,000,000 poses, hit or not";
     Random random(41);
     for (int i = 0; i < 48; ++i) {
-        problem.shapes.push_back({{benchmark::star(random, 21)},
-                                  {{2.1 * (i % 8), 2.1 * (i / 8)}, random.between(0.0, turn)}});
+        problem.shapes.push_back(
+            {{benchmark::star(random, 21)},
+             {{2.1 * (i % 8), 2.1 * (i / 8)}, random.between(0.0, whole_turn)}});
     }
     problem.item = {benchmark::star(random, 21)};
     for (int i = 0; i < 1'000'000; ++i) {
@@ -45,7 +46,7 @@ WorldProblem paths() {
                       {benchmark::ireland(), {{600.0, 600.0}, 4.0}}};
     Ring footprint;
     for (int i = 0; i < 12; ++i) {
-        const double angle = turn * i / 12.0;
+        const double angle = whole_turn * i / 12.0;
         footprint.push_back({4.0 * std::cos(angle), 2.0 * std::sin(angle)});
     }
     problem.item = {footprint};
