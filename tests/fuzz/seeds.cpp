@@ -60,7 +60,7 @@ FuzzFormat hex_wkb() {
              "0106000000"
              "01000000" +
                  polygon},
-            {"0103000000", "FFFFFFFF", "0107000000", "\n", "0000000003", "EB030000"}};
+            {"0103000000", "FFFFFFFF", "0107000000", "\n", "0000000003", "EB030000", "0x", "\\x"}};
 }
 
 FuzzFormat svg() {
@@ -74,7 +74,10 @@ path.c{display:none}</style><defs><g id="i"><path d="M0 0h4v3z M1 1a1 1 0 01.5.5
          R"svg(<?xml version="1.0"?><svg><g transform="matrix(1 0 0 -1 5 6)" style="fill-rule:nonzero">
 <path id="b" d="m1 1c1 2 3 2 4 0s3-2 4 0q1 2 2 0t2 0z"/><polygon points="0,0 4,0 4,3"/></g>
 <rect width="50" height="5" rx="1"/><svg x="1" viewBox="0 0 9 9" width="5" height="5">
-<ellipse rx="2" ry="1" visibility="hidden"/><polyline points="1 1 2 2 3 1"/></svg></svg>)svg"},
+<ellipse rx="2" ry="1" visibility="hidden"/><polyline points="1 1 2 2 3 1"/></svg></svg>)svg",
+         R"svg(<!DOCTYPE svg [<!ENTITY a "fill-rule:evenodd"> <!ENTITY b '<n:rect width="1" height="2"/>'>
+<!ENTITY c "&b;&b;">]><n:svg xmlns:n="http://www.w3.org/2000/svg"><n:path style="&a;" d="M0 0&#x20;h9v9z"/>
+&c;<g xmlns="x"><path/></g><n:switch><n:g systemLanguage="de"/><n:g>&b;</n:g></n:switch></n:svg>)svg"},
         {"<g>",
          "</g>",
          "<use href='#i'/>",
@@ -103,7 +106,16 @@ path.c{display:none}</style><defs><g id="i"><path d="M0 0h4v3z M1 1a1 1 0 01.5.5
          "evenodd",
          "url(",
          "skewX(30)",
-         "viewBox='0 0 1 1'"}};
+         "viewBox='0 0 1 1'",
+         "&a;",
+         "&b;",
+         "&c;",
+         "&#10;",
+         "<!ENTITY a '&c;'>",
+         "<!DOCTYPE s [",
+         "]>",
+         "xmlns='x'",
+         "n:"}};
 }
 
 FuzzFormat path() {
@@ -140,10 +152,26 @@ FuzzFormat dxf() {
                    "20 0 11 4 21 0 0 ARC 10 4 20 1 40 1 50 270 51 90 0 LINE 10 4 20 2 11 0 21 0 0 "
                    "POLYLINE 70 1 0 VERTEX 10 5 20 5 42 -.3 0 VERTEX 10 7 20 5 0 VERTEX 10 7 20 7 "
                    "0 SEQEND 0 ELLIPSE 10 0 20 9 11 1 21 0 40 .5 0 ENDSEC 0 EOF")},
-            {"0\n", "\n", lines("0 LINE"), lines("0 ARC"), lines("0 INSERT 2 b 10 0 20 0"),
-             lines("0 ENDSEC"), lines("0 ENDBLK"), lines("0 BLOCK 2 b"),
-             lines("0 VERTEX 10 1 20 1"), lines("230 -1"), lines("42 1"), lines("70 1"), "999\n",
-             lines("0 SPLINE"), "\r\n", "-", lines("0 CIRCLE 10 0 20 0 40 1")}};
+            {"0\n",
+             "\n",
+             lines("0 LINE"),
+             lines("0 ARC"),
+             lines("0 INSERT 2 b 10 0 20 0"),
+             lines("0 ENDSEC"),
+             lines("0 ENDBLK"),
+             lines("0 BLOCK 2 b"),
+             lines("0 VERTEX 10 1 20 1"),
+             lines("230 -1"),
+             lines("42 1"),
+             lines("70 1"),
+             "999\n",
+             lines("0 SPLINE"),
+             lines("70 3 71 2 44 5 45 6"),
+             lines("42 1e-300"),
+             "\x1A",
+             "\r\n",
+             "-",
+             lines("0 CIRCLE 10 0 20 0 40 1")}};
 }
 
 FuzzFormat csv() {

@@ -10,7 +10,7 @@
 namespace nearfield::tools {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 26U;  // of the texts: they can multiply
+constexpr std::size_t most_bytes = std::size_t{1} << 22U;  // of all replaced: they can multiply
 constexpr int deepest_reference = 16;
 
 bool is_in_name(char c) {
@@ -113,8 +113,9 @@ public:
     }
 
     /// Appends a text with all references in it replaced. `offset`: in the file, for errors.
-    void append(std::string_view text, int depth, std::size_t offset, std::string& to) const {
-        if (depth > deepest_reference || to.size() + text.size() > most_bytes) {
+    void append(std::string_view text, int depth, std::size_t offset, std::string& to) {
+        replaced_ += text.size();
+        if (depth > deepest_reference || replaced_ > most_bytes) {
             throw InputError(text_position(file_, document_, offset) +
                              ": entities refer to each other too often");
         }
@@ -135,6 +136,7 @@ private:
     const Entities& entities_;
     std::string_view document_;
     const std::string& file_;
+    std::size_t replaced_ = 0;  // bytes
 };
 
 }  // namespace
@@ -147,7 +149,7 @@ ExpandedXml::ExpandedXml(std::string_view text, const std::string& file) {
         expanded_ = text;
         return;
     }
-    const Expander expander(entities, text, file);
+    Expander expander(entities, text, file);
     const auto begin = static_cast<std::size_t>(subset.data() - text.data()) + subset.size();
     expanded_ = text.substr(0, begin);
     for (std::size_t at = begin; at < text.size();) {
