@@ -15,34 +15,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 void NearestQueries::begin(const Instances& instances, const NearestQuery& query) {
     instances_ = &instances;
     query_ = query;
-    nearest_.reserve(query.count);
     guess_ = BoxHierarchy::nowhere;
-}
-
-double NearestQueries::reach() const {
-    const double farthest = nearest_.size() == query_.count
-                                ? nearest_.back().distance
-                                : std::numeric_limits<double>::infinity();
-    return std::min(farthest, query_.max_distance);
-}
-
-double NearestQueries::squared_reach(double rounding) const {
-    // Slightly more, so that what is exactly as near is not left out.
-    const double most = std::max(reach(), 0.0) * (1.0 + 8.0 * epsilon) + rounding;
-    return most * most;
-}
-
-void NearestQueries::take(const Found& found) {
-    if (std::abs(found.distance) > query_.max_distance) {
-        return;
-    }
-    if (nearest_.size() == query_.count) {
-        if (!(found < nearest_.back())) {
-            return;
-        }
-        nearest_.pop_back();
-    }
-    nearest_.insert(std::upper_bound(nearest_.begin(), nearest_.end(), found), found);
 }
 
 void NearestQueries::find_on(std::uint32_t index) {
@@ -51,7 +24,7 @@ void NearestQueries::find_on(std::uint32_t index) {
     const bool inside =
         edges.box.contains(point_) && simd::kernels::contain(tree, point_.x(), point_.y());
     const double most = inside ? std::numeric_limits<double>::infinity()
-                               : std::nextafter(squared_reach(edges.rounding),
+                               : std::nextafter(nearest_.squared_reach(edges.rounding),
                                                 std::numeric_limits<double>::infinity());
     const simd::NearEdge near =
         simd::kernels::find_nearer(tree, point_.x(), point_.y(), {UINT32_MAX, most});
@@ -61,7 +34,8 @@ void NearestQueries::find_on(std::uint32_t index) {
     const geometry::NearestOnSegment on_edge =
         geometry::nearest_on_segment(point_, edges.start(near.edge), edges.end(near.edge));
     const double distance = std::sqrt(on_edge.squared_distance);
-    take({inside ? -distance : distance, instances_->number(index), index, near.edge, on_edge});
+    nearest_.offer(
+        {{inside ? -distance : distance, instances_->number(index), index, near.edge}, on_edge});
 }
 
 void NearestQueries::find_edges_of(std::uint32_t index) {
@@ -75,12 +49,13 @@ void NearestQueries::find_edges_of(std::uint32_t index) {
         Search& of = *static_cast<Search*>(user);
         const geometry::NearestOnSegment on_edge =
             geometry::nearest_on_segment(of.all.point_, of.edges.start(edge), of.edges.end(edge));
-        of.all.take({std::sqrt(on_edge.squared_distance), of.all.instances_->number(of.index),
-                     of.index, edge, on_edge});
-        return of.all.squared_reach(of.edges.rounding);
+        of.all.nearest_.offer({{std::sqrt(on_edge.squared_distance),
+                                of.all.instances_->number(of.index), of.index, edge},
+                               on_edge});
+        return of.all.nearest_.squared_reach(of.edges.rounding);
     };
     simd::kernels::for_edges_near(instances_->tree(index), point_.x(), point_.y(),
-                                  squared_reach(edges.rounding), {use, &search});
+                                  nearest_.squared_reach(edges.rounding), {use, &search});
 }
 
 void NearestQueries::find_in(std::uint32_t index) {
@@ -93,22 +68,23 @@ void NearestQueries::find_in(std::uint32_t index) {
 
 void NearestQueries::find(const Vector2& point, std::span<NearestHit> hits) {
     point_ = geometry::to_vector(point);
-    nearest_.clear();
+    nearest_.begin(query_.count, query_.max_distance);
     const std::uint32_t guess = guess_;
     if (guess != BoxHierarchy::nowhere) {
         find_in(guess);
     }
     instances_->boxes().for_near(
-        {point_, point_}, [this] { return squared_reach(instances_->max_rounding()); },
+        {point_, point_}, [this] { return nearest_.squared_reach(instances_->max_rounding()); },
         [&](std::uint32_t index, double) {
             if (index != guess && instances_->passes(index, query_.filter)) {
                 find_in(index);
             }
         });
-    guess_ = nearest_.empty() ? BoxHierarchy::nowhere : nearest_.front().instance;
+    const std::vector<Found>& nearest = nearest_.found();
+    guess_ = nearest.empty() ? BoxHierarchy::nowhere : nearest.front().instance;
     std::fill(hits.begin(), hits.end(), NearestHit{});
-    for (std::size_t i = 0; i < nearest_.size(); ++i) {
-        const Found& found = nearest_[i];
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        const Found& found = nearest[i];
         const simd::TransformedEdges& edges = instances_->edges(found.instance);
         hits[i] = {instances_->handle(found.instance), found.distance,
                    edges.rounding + instances_->deviation(found.instance) +

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <engine/world/instances.hpp>
+#include <engine/world/nearest_list.hpp>
 #include <nearfield/world.hpp>
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace nearfield::world {
 
@@ -20,33 +20,18 @@ public:
     void find(const Vector2& point, std::span<NearestHit> hits);
 
 private:
-    /// One of the nearest found so far.
-    struct Found {
-        double distance;
-        std::uint64_t number;  // of the instance
-        std::uint32_t instance;
-        std::uint32_t edge;
+    struct Found : NearInstanceEdge {
         geometry::NearestOnSegment on_edge;
-
-        [[nodiscard]] bool operator<(const Found& other) const {
-            return distance != other.distance ? distance < other.distance
-                   : number != other.number   ? number < other.number
-                                              : edge < other.edge;
-        }
     };
 
-    /// Boundaries farther from the point than this are of no interest.
-    [[nodiscard]] double reach() const;
-    [[nodiscard]] double squared_reach(double rounding) const;
     void find_in(std::uint32_t index);
     void find_on(std::uint32_t index);
     void find_edges_of(std::uint32_t index);
-    void take(const Found& found);
 
     const Instances* instances_ = nullptr;
     NearestQuery query_;
     geometry::Vector point_ = geometry::Vector::Zero();
-    std::vector<Found> nearest_;        // in ascending order
+    NearestList<Found> nearest_;
     std::uint32_t guess_ = UINT32_MAX;  // the nearest instance of the point before
 };
 

@@ -191,7 +191,7 @@ void PoseQueries::write_distance(std::uint32_t index, double max_clearance) {
         const Vector way = way_to_guess();
         const double length = way.norm();
         known = std::min(known, length);
-        // Slightly shorter than a unit vector; without it, nothing is ruled out by it.
+        // Slightly shorter than a unit vector; (0, 0) rules nothing out.
         direction = length > smallest_length ? Vector(way * ((1.0 - 1e-12) / length)) : direction;
     }
     const double at_most = with_slack(known, 4.0 * rounding);

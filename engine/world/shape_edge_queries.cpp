@@ -3,7 +3,6 @@
 #include <engine/world/shape_edge_queries.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -77,34 +76,16 @@ void ShapeEdgeQueries::begin(const Instances& instances, const WorldFilter& filt
     filter_ = filter;
 }
 
-double ShapeEdgeQueries::squared_reach(double rounding) const {
-    const double farthest = nearest_.size() == wanted_ ? nearest_.back().distance : far_away;
-    const double most = std::min(farthest, max_distance_) * (1.0 + 8.0 * unit_of_one) + rounding;
-    return most * most;
-}
-
-void ShapeEdgeQueries::take(const Found& found) {
-    if (found.distance > max_distance_) {
-        return;
-    }
-    if (nearest_.size() == wanted_) {
-        if (!(found < nearest_.back())) {
-            return;
-        }
-        nearest_.pop_back();
-    }
-    nearest_.insert(std::upper_bound(nearest_.begin(), nearest_.end(), found), found);
-}
-
 void ShapeEdgeQueries::measure(std::uint32_t index, std::uint32_t edge) {
     const simd::TransformedEdges& edges = instances_->edges(index);
     const Vector start = edges.start(edge);
-    Found found{0.0, instances_->number(index), index, edge, start, start};
+    Found found{{0.0, instances_->number(index), index, edge}, start, start};
     const bool is_inside =
         shape().box.contains(start) && simd::kernels::contain(shape().tree(), start.x(), start.y());
     if (!is_inside) {
-        const Closest closest = find_closest(shape(), start, edges.end(edge),
-                                             squared_reach(edges.rounding + shape().rounding));
+        const Closest closest =
+            find_closest(shape(), start, edges.end(edge),
+                         nearest_.squared_reach(edges.rounding + shape().rounding));
         if (closest.squared == far_away) {
             return;
         }
@@ -112,7 +93,7 @@ void ShapeEdgeQueries::measure(std::uint32_t index, std::uint32_t edge) {
         found.point = closest.on_boundary;
         found.nearest = closest.on_edge;
     }
-    take(found);
+    nearest_.offer(found);
 }
 
 void ShapeEdgeQueries::find_edges_of(std::uint32_t index) {
@@ -120,7 +101,8 @@ void ShapeEdgeQueries::find_edges_of(std::uint32_t index) {
     const double rounding = instances_->rounding(index) + shape().rounding;
     for_edges_near(
         tree, tree.top_level(), 0, geometry::extent_of(shape().box),
-        [&] { return squared_reach(rounding); }, [&](std::uint32_t edge) { measure(index, edge); });
+        [&] { return nearest_.squared_reach(rounding); },
+        [&](std::uint32_t edge) { measure(index, edge); });
 }
 
 ShapeEdgeHit ShapeEdgeQueries::hit_of(const Found& found) const {
@@ -146,19 +128,17 @@ void ShapeEdgeQueries::find(const geometry::TransformedPolygon& placed, double m
         static_cast<void>(shape_edges_.place(placed));
     }
     shape_edges_.complete(0);
-    wanted_ = hits.size();
-    max_distance_ = max_distance;
-    nearest_.clear();
+    nearest_.begin(hits.size(), max_distance);
     const double rounding = shape().rounding + instances_->max_rounding();
     instances_->boxes().for_near(
-        shape().box, [&] { return squared_reach(rounding); },
+        shape().box, [&] { return nearest_.squared_reach(rounding); },
         [&](std::uint32_t index, double) {
             if (instances_->passes(index, filter_)) {
                 find_edges_of(index);
             }
         });
     std::fill(hits.begin(), hits.end(), ShapeEdgeHit{});
-    std::transform(nearest_.begin(), nearest_.end(), hits.begin(),
+    std::transform(nearest_.found().begin(), nearest_.found().end(), hits.begin(),
                    [this](const Found& found) { return hit_of(found); });
 }
 

@@ -2,11 +2,11 @@
 
 #include <engine/simd/transformed_edges.hpp>
 #include <engine/world/instances.hpp>
+#include <engine/world/nearest_list.hpp>
 #include <nearfield/world.hpp>
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace nearfield::world {
 
@@ -22,36 +22,20 @@ public:
               std::span<ShapeEdgeHit> hits);
 
 private:
-    /// One of the nearest found so far.
-    struct Found {
-        double distance;
-        std::uint64_t number;  // of the instance
-        std::uint32_t instance;
-        std::uint32_t edge;
+    struct Found : NearInstanceEdge {
         geometry::Vector point;    // of the shape
         geometry::Vector nearest;  // of the edge
-
-        [[nodiscard]] bool operator<(const Found& other) const {
-            return distance != other.distance ? distance < other.distance
-                   : number != other.number   ? number < other.number
-                                              : edge < other.edge;
-        }
     };
 
     [[nodiscard]] const simd::TransformedEdges& shape() const { return shape_edges_[0]; }
-    /// Slightly more than the square of the distance beyond which edges are of no interest.
-    [[nodiscard]] double squared_reach(double rounding) const;
     void find_edges_of(std::uint32_t index);
     void measure(std::uint32_t index, std::uint32_t edge);
-    void take(const Found& found);
     [[nodiscard]] ShapeEdgeHit hit_of(const Found& found) const;
 
     const Instances* instances_ = nullptr;
     WorldFilter filter_;
     simd::TransformedInstances shape_edges_;
-    std::size_t wanted_ = 0;
-    double max_distance_ = 0.0;
-    std::vector<Found> nearest_;  // in ascending order
+    NearestList<Found> nearest_;
 };
 
 }  // namespace nearfield::world

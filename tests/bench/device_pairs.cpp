@@ -3,6 +3,7 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/clocks.hpp>
 #include <tests/bench/take.hpp>
 #include <tests/support/polygons.hpp>
 
@@ -19,6 +20,8 @@
 
 namespace {
 
+using nearfield::bench::median;
+using nearfield::bench::processor_milliseconds;
 using nearfield::bench::require;
 using nearfield::bench::take;
 
@@ -35,25 +38,10 @@ using nearfield::Pose;
 using nearfield::SeparationQuery;
 using nearfield::World;
 
-/// The time of this thread only: what the CPU does beside the device.
-double processor_milliseconds() {
-    timespec now{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
-        throw std::runtime_error("no processor time");
-    }
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
 double wall_milliseconds() {
     return std::chrono::duration<double, std::milli>(
                std::chrono::steady_clock::now().time_since_epoch())
         .count();
-}
-
-double median(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Stars of 50 vertices and radius 1, scattered over a square, all of which move.

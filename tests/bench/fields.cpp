@@ -5,6 +5,7 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/clocks.hpp>
 #include <tests/bench/take.hpp>
 #include <tests/support/polygons.hpp>
 
@@ -23,22 +24,12 @@
 namespace {
 
 using namespace nearfield;
+using bench::median;
+using bench::processor_milliseconds;
 using bench::require;
 using bench::take;
 
 constexpr int frames = 21;
-
-double processor_milliseconds(clockid_t of) {
-    timespec now{};
-    clock_gettime(of, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 struct Scene {
     std::string name;

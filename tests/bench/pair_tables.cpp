@@ -3,6 +3,7 @@
 
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/clocks.hpp>
 #include <tests/bench/take.hpp>
 #include <tests/support/polygons.hpp>
 
@@ -16,6 +17,8 @@
 
 namespace {
 
+using nearfield::bench::median;
+using nearfield::bench::processor_milliseconds;
 using nearfield::bench::require;
 using nearfield::bench::take;
 
@@ -37,20 +40,6 @@ constexpr std::size_t count = 1000;
 constexpr std::size_t moving = 10;
 constexpr double side = 36.5;  // so that about 5,000 pairs of boxes overlap
 constexpr int frames = 400;
-
-double processor_milliseconds() {
-    timespec now{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
-        throw std::runtime_error("no processor time");
-    }
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Stars of 50 vertices and radius 1, each a shape of its own, scattered over a square. Others move
 /// in every frame.

@@ -4,6 +4,7 @@
 #include <engine/gpu/headless.hpp>
 #include <nearfield/nearfield.hpp>
 
+#include <tests/bench/clocks.hpp>
 #include <tests/bench/take.hpp>
 #include <tests/support/host_frames.hpp>
 #include <tests/support/polygons.hpp>
@@ -19,6 +20,7 @@
 
 namespace {
 
+using nearfield::bench::processor_milliseconds;
 using nearfield::bench::take;
 
 using nearfield::Batch;
@@ -29,15 +31,6 @@ using nearfield::Technique;
 
 constexpr std::uint64_t warm_up = 2;
 constexpr std::uint64_t frames = 10;
-
-/// The time of this thread only, because other load must not count.
-double processor_milliseconds() {
-    timespec now{};
-    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) {
-        throw std::runtime_error("no processor time");
-    }
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 /// 1,000 pairs of stars of 50 vertices, 32 x 32 cells each.
 Batch pairs(Context& context, Technique technique, PenetrationPoints points) {

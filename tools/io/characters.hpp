@@ -12,5 +12,8 @@ inline bool is_letter(char c) {
 inline bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
+inline char to_upper(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
 
 }  // namespace nearfield::tools

@@ -2,6 +2,7 @@
 #include <nearfield/shape.hpp>
 
 #include <tools/io/arc_chain.hpp>
+#include <tools/io/characters.hpp>
 #include <tools/io/dxf.hpp>
 #include <tools/io/dxf_groups.hpp>
 #include <tools/io/values.hpp>
@@ -37,9 +38,7 @@ bool is_annotation(std::string_view type) {
 /// The name of the block that an entity defines or places; small letters are as capitals.
 std::string block_name(const DxfEntity& entity) {
     std::string name(entity.text(2));
-    std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    });
+    std::transform(name.begin(), name.end(), name.begin(), to_upper);
     return name;
 }
 
@@ -101,7 +100,8 @@ private:
     }
 
     [[nodiscard]] double number(const DxfEntity& entity, int code, double usual) const {
-        return entity.find(code) == nullptr ? usual : number(*entity.find(code));
+        const DxfGroup* const group = entity.find(code);
+        return group == nullptr ? usual : number(*group);
     }
 
     [[nodiscard]] bool has_flag(const DxfEntity& entity, int code, int flag) const {

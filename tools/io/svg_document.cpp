@@ -35,7 +35,7 @@ std::string_view local_name(const pugi::xml_node& node) {
     const std::string_view prefix = name.substr(0, colon == std::string_view::npos ? 0 : colon);
     const std::string_view space =
         namespace_of(node, prefix).value_or(is_one_of(prefix, {"", "svg"}) ? svg_namespace : "");
-    if (space == svg_namespace || (space.empty() && prefix.empty())) {
+    if (space == svg_namespace) {
         return prefix.empty() ? name : name.substr(colon + 1);
     }
     return prefix.empty() ? ":" : name;
@@ -44,7 +44,7 @@ std::string_view local_name(const pugi::xml_node& node) {
 SvgDocument::SvgDocument(const std::string& text, const std::string& file)
     // Parses in place, so that every name and value has its offset in the buffer, up to the
     // references to characters before it in the same value.
-    : text_(text), file_(file), expanded_(text, file), buffer_(expanded_.text()) {
+    : text_(text), file_(file), expanded_(text, file), buffer_(expanded_.take_text()) {
     const pugi::xml_parse_result result = document_.load_buffer_inplace(
         buffer_.data(), buffer_.size(),
         pugi::parse_minimal | pugi::parse_cdata | pugi::parse_escapes);

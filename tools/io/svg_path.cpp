@@ -1,3 +1,4 @@
+#include <tools/io/characters.hpp>
 #include <tools/io/svg_path.hpp>
 
 #include <numbers>
@@ -11,17 +12,13 @@ bool is_one_of(char c, std::string_view set) {
     return c != '\0' && set.find(c) != std::string_view::npos;
 }
 
-char upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
 class PathParser {
 public:
     explicit PathParser(SvgText& text) : text_(text) {}
 
     CurvePath parse() {
         text_.skip_space();
-        if (upper(text_.peek()) != 'M') {
+        if (to_upper(text_.peek()) != 'M') {
             text_.fail("path data begins with M or m");
         }
         while (text_.peek() != '\0') {
@@ -38,7 +35,7 @@ private:
             text_.fail(std::string("'") + command + "' is no command of path data");
         }
         text_.advance();
-        if (upper(command) == 'Z') {
+        if (to_upper(command) == 'Z') {
             path_.close();
             current_ = start_;
             previous_ = 'Z';
@@ -48,9 +45,9 @@ private:
         do {
             relative_ = command >= 'a';
             text_.skip_space();
-            draw(upper(command));
+            draw(to_upper(command));
             // Further pairs after a move are lines.
-            if (first && upper(command) == 'M') {
+            if (first && to_upper(command) == 'M') {
                 command = relative_ ? 'l' : 'L';
             }
             first = false;

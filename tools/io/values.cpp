@@ -1,12 +1,12 @@
 #include <tools/io/characters.hpp>
 #include <tools/io/input_error.hpp>
+#include <tools/io/text_file.hpp>
 #include <tools/io/values.hpp>
 
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <filesystem>
 #include <numbers>
 #include <span>
 #include <system_error>
@@ -78,8 +78,8 @@ double parse_nonzero(std::string_view text, const std::string& option) {
 }
 
 std::string parse_png_name(const std::string& text, const std::string& option) {
-    const std::string extension = std::filesystem::path(text).extension().string();
-    if (!extension.empty() && extension != ".png" && extension != ".PNG") {
+    const std::string extension = lower_case_extension(text);
+    if (!extension.empty() && extension != ".png") {
         fail(option, text, "pictures are written as PNG files, whose names end in .png");
     }
     return text;

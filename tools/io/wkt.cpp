@@ -15,10 +15,6 @@
 namespace nearfield::tools {
 namespace {
 
-char to_upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
 enum class Kind { polygon, multi_polygon, collection, point_or_line };
 
 struct NamedKind {

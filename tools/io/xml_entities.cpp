@@ -146,15 +146,15 @@ ExpandedXml::ExpandedXml(std::string_view text, const std::string& file) {
     const std::string_view subset = internal_subset(text);
     const Entities entities = entities_of(subset);
     if (entities.empty()) {
-        expanded_ = text;
+        text_ = text;
         return;
     }
     Expander expander(entities, text, file);
     const auto begin = static_cast<std::size_t>(subset.data() - text.data()) + subset.size();
-    expanded_ = text.substr(0, begin);
+    text_ = text.substr(0, begin);
     for (std::size_t at = begin; at < text.size();) {
         if (const auto end = end_of_verbatim(text, at)) {
-            expanded_ += text.substr(at, *end - at);
+            text_ += text.substr(at, *end - at);
             at = *end;
             continue;
         }
@@ -162,13 +162,13 @@ ExpandedXml::ExpandedXml(std::string_view text, const std::string& file) {
         const std::string_view* const entity =
             text[at] == '&' ? expander.find(text, at, length) : nullptr;
         if (entity == nullptr) {
-            expanded_ += text[at++];
+            text_ += text[at++];
             continue;
         }
-        copies_.emplace_back(expanded_.size(), at);
-        expander.append(*entity, 1, at, expanded_);
+        copies_.emplace_back(text_.size(), at);
+        expander.append(*entity, 1, at, text_);
         at += length;
-        copies_.emplace_back(expanded_.size(), at);
+        copies_.emplace_back(text_.size(), at);
     }
 }
 

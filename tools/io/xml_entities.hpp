@@ -16,12 +16,13 @@ public:
     /// Throws InputError where the texts refer to each other in a circle, or are too long together.
     ExpandedXml(std::string_view text, const std::string& file);
 
-    [[nodiscard]] const std::string& text() const noexcept { return expanded_; }
+    /// The text; it leaves this object, which still knows its places.
+    [[nodiscard]] std::string take_text() noexcept { return std::move(text_); }
     /// The offset in the file of a byte of the text: of the reference, where it comes from one.
     [[nodiscard]] std::size_t offset_in_file(std::size_t offset) const;
 
 private:
-    std::string expanded_;
+    std::string text_;
     /// Offsets in the text and in the file of what is copied and of what a reference stands for, by
     /// turns; the former comes first.
     std::vector<std::pair<std::size_t, std::size_t>> copies_;
