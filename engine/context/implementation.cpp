@@ -75,9 +75,7 @@ Status lost_device() {
 
 Context::Implementation::Machinery::Machinery(const gpu::Device* device, const Settings& settings,
                                               const CostModel& costs, batch::ShapeStore& shapes)
-    : renderer(device == nullptr ? nullptr
-                                 : std::make_unique<render::Renderer>(*device, settings.techniques,
-                                                                      settings.timestamps)),
+    : renderer(device == nullptr ? nullptr : std::make_unique<render::Renderer>(*device, settings)),
       ring(settings.batches_in_flight, plan_limits(device, settings, shapes.context()), costs,
            settings.jobs, renderer.get(), shapes) {}
 

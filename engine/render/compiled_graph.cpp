@@ -1,62 +1,25 @@
 #include <engine/render/compiled_graph.hpp>
-#include <passes/prototype.hpp>
-#include <passes/tile_renderer.hpp>
-
-#include <shaders/number_frag.hpp>
 
 namespace nearfield::render {
 using graph::Handle;
-
-RasterPipelines::RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
-    : stencil_render_pass_(passes::make_prototype(device, passes::number_format,
-                                                  device.stencil_format(), "stencil")),
-      distance_render_pass_(passes::make_prototype(device, passes::number_format,
-                                                   passes::distance_depth_format, "distance")),
-      white_render_pass_(
-          passes::make_prototype(device, passes::white_format, VK_FORMAT_UNDEFINED, "white")),
-      signed_feature_render_pass_(passes::make_prototype(
-          device, passes::signed_feature_format, passes::distance_depth_format, "signed feature")),
-      gradient_render_pass_(passes::make_prototype(device, device.gradient_format(),
-                                                   VK_FORMAT_UNDEFINED, "gradient")),
-      draw_layout_(passes::make_draw_layout(device)),
-      stencil_(device, draw_layout_.get(), stencil_render_pass_.get(), shaders::number_frag,
-               "stencil"),
-      strategies_(device, draw_layout_.get(), stencil_render_pass_.get(), stencil_),
-      fill(device, draw_layout_.get(), stencil_),
-      color_fill(device, draw_layout_.get(), white_render_pass_.get()),
-      cone_mesh(device, draw_layout_.get(), distance_render_pass_.get()),
-      feature_bit(device, draw_layout_.get(), signed_feature_render_pass_.get()),
-      gradient(device, layout, gradient_render_pass_.get()),
-      early_out(device),
-      intersect(device, draw_layout_.get(), strategies_, early_out),
-      resolve_points(device, layout, passes::ResolvePoints::Source::images),
-      resolve_field(device, layout),
-      resolve_field_points(device, layout),
-      collect_gradients(device, layout),
-      collect(device, layout) {}
-
-ComputePipelines::ComputePipelines(const gpu::Device& device, const passes::ComputeLayout& layout)
-    : resolve_points(device, layout, passes::ResolvePoints::Source::lists),
-      masks(device, layout),
-      fields(device, layout) {}
 
 CompiledGraph::CompiledGraph(const gpu::Device& device, const PipelineSet& passes, GraphKey needs,
                              VkExtent2D extent)
     : needs_(needs), extent_(extent) {
     input_ = graph_.import_buffer({"input", true, false});
     if (needs.compute != ComputeKey{}) {
-        declare_compute(*passes.compute);
+        declare_compute(passes);
     } else {
-        declare_drawn(*passes.raster);
+        declare_drawn(passes.raster());
     }
     graph_.compile(device);
 }
 
-void CompiledGraph::declare_compute(const ComputePipelines& passes) {
+void CompiledGraph::declare_compute(const PipelineSet& passes) {
     const ComputeKey& needs = needs_.compute;
     if (needs.points) {
         results_ = graph_.import_buffer({"point results", false, true});
-        passes.resolve_points.declare(graph_, input_, results_);
+        passes.resolve_points().declare(graph_, input_, results_);
     }
     if (needs.fields || needs.field_points) {
         shapes_ = graph_.import_buffer({"shapes and fields", true, false});
@@ -68,35 +31,35 @@ void CompiledGraph::declare_compute(const ComputePipelines& passes) {
         output = declare_masked(passes, output);
     }
     if (needs.field_points) {
-        static_cast<void>(passes.fields.declare_points(graph_, shapes_, output));
+        static_cast<void>(passes.fields().declare_points(graph_, shapes_, output));
     }
 }
 
-passes::Fields::Output CompiledGraph::declare_masked(const ComputePipelines& passes,
+passes::Fields::Output CompiledGraph::declare_masked(const PipelineSet& passes,
                                                      passes::Fields::Output output) {
     const ComputeKey& needs = needs_.compute;
     scratch_ = graph_.import_buffer({"scratch", false, false});
-    Handle scratch = passes.masks.declare_clear(graph_, scratch_);
+    Handle scratch = passes.masks().declare_clear(graph_, scratch_);
     if (needs.marks) {
-        scratch = passes.masks.declare_marks(graph_, input_, scratch);
+        scratch = passes.masks().declare_marks(graph_, input_, scratch);
     }
     if (needs.fields) {
-        scratch = passes.fields.declare_marks(graph_, {shapes_, scratch, {}});
+        scratch = passes.fields().declare_marks(graph_, {shapes_, scratch, {}});
     }
     if (needs.marks || needs.fields) {
-        scratch = passes.masks.declare_fill(graph_, input_, scratch);
+        scratch = passes.masks().declare_fill(graph_, input_, scratch);
     }
     if (needs.boundaries_b) {
-        scratch = passes.masks.declare_boundaries(graph_, input_, scratch, false);
+        scratch = passes.masks().declare_boundaries(graph_, input_, scratch, false);
     }
     if (needs.boundaries_a) {
-        scratch = passes.masks.declare_boundaries(graph_, input_, scratch, true);
+        scratch = passes.masks().declare_boundaries(graph_, input_, scratch, true);
     }
     if (needs.overlap) {
         samples_ = graph_.import_buffer({"samples", true, true});
-        static_cast<void>(passes.masks.declare_collect(graph_, input_, scratch, samples_));
+        static_cast<void>(passes.masks().declare_collect(graph_, input_, scratch, samples_));
     }
-    return needs.fields ? declare_cells(passes.fields, scratch, output) : output;
+    return needs.fields ? declare_cells(passes.fields(), scratch, output) : output;
 }
 
 passes::Fields::Output CompiledGraph::declare_cells(const passes::Fields& fields, Handle scratch,

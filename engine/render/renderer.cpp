@@ -52,26 +52,15 @@ GraphKey key_of(const plan::TileBatch& batch) {
 
 }  // namespace
 
-Renderer::Renderer(const gpu::Device& device, const DeviceTechniques& techniques, bool timestamps)
+Renderer::Renderer(const gpu::Device& device, const Settings& settings)
     : device_(&device),
-      timestamps_(timestamps),
+      timestamps_(settings.timestamps),
       layout_(device),
       target_views_(device),
-      copy_back_(device),
-      export_field_(device, layout_),
-      export_records_(device, layout_),
-      export_samples_(device, layout_),
-      export_headers_(device, layout_) {
-    if (techniques.raster) {
-        passes_.raster.emplace(device, layout_);
-    }
-    if (techniques.compute) {
-        passes_.compute.emplace(device, layout_);
-        point_search_.emplace(device, layout_);
-        pair_shaders_.emplace(device, layout_);
-        for (std::size_t goal = 0; goal < plan::pair_goals; ++goal) {
-            pair_searches_[goal].emplace(device, *pair_shaders_, static_cast<plan::PairGoal>(goal));
-        }
+      passes_(device, layout_),
+      copy_back_(device) {
+    if (!settings.pipelines_on_demand) {
+        passes_.make(settings.techniques);
     }
 }
 
@@ -84,6 +73,7 @@ std::unique_ptr<BatchResources> Renderer::make_resources() {
 }
 
 std::unique_ptr<PairSearchBuffers> Renderer::make_pair_buffers(const plan::PairQuestion& question) {
+    static_cast<void>(passes_.pair_search(question.goal));
     return std::make_unique<PairSearchBuffers>(*device_, layout_, question, timestamps_);
 }
 
@@ -139,6 +129,9 @@ void Renderer::prepare(std::span<const plan::TileBatch> tile_batches,
     last_had_fields_ = !resident.fields.empty();
     last_had_records_ = !resident.records.empty();
     last_had_samples_ = !resident.samples.empty();
+    if (last_had_fields_ || last_had_records_ || last_had_samples_) {
+        static_cast<void>(passes_.exports());
+    }
     last_graph_.reset();
     last_pairs_.reset();
     slot.run(static_cast<std::uint32_t>(tile_batches.size()));
@@ -158,6 +151,7 @@ void Renderer::prepare_searches(const plan::SearchShapes& shapes,
     const Stopwatch start;
     last_had_searches_ = !searches.empty();
     if (last_had_searches_) {
+        static_cast<void>(passes_.point_search());
         SearchCounts expected;
         for (std::size_t i = 0; i < expected.size(); ++i) {
             expected[i] =
@@ -201,13 +195,13 @@ void Renderer::record_tile_batches(BatchResources& slot, VkCommandBuffer command
         const TileBatchOnDevice& on_device = slot.tile_batch(number);
         const passes::RecordContext context = slot.record_context(number);
         if (!context.batch.by_compute) {
-            passes_.raster->early_out.reset(commands, context);
+            passes_.raster().early_out.reset(commands, context);
         }
         slot.bind_buffers(*on_device.graph, number);
         on_device.graph->execute(commands, slot.timestamps(), context);
     }
     for (const std::uint32_t number : slot.running_searches()) {
-        point_search_->record(commands, slot.timestamps(), slot.search(number).item());
+        passes_.point_search().record(commands, slot.timestamps(), slot.search(number).item());
     }
     record_exports(slot, commands);
 }
@@ -219,16 +213,17 @@ void Renderer::record_exports(BatchResources& slot, VkCommandBuffer commands) {
     }
     if (slot.has_resident_outputs()) {
         const ResidentBuffers& resident = slot.resident();
+        const ExportPipelines& exports = passes_.exports();
         for (std::size_t i = 0; i < resident.resident().fields.size(); ++i) {
-            export_field_.record(commands, slot.timestamps(), resident.field_item(i));
+            exports.field.record(commands, slot.timestamps(), resident.field_item(i));
         }
         for (std::size_t i = 0; i < resident.resident().records.size(); ++i) {
-            export_records_.record(commands, slot.timestamps(), resident.records_item(i));
+            exports.records.record(commands, slot.timestamps(), resident.records_item(i));
         }
         for (std::size_t i = 0; i < resident.resident().samples.size(); ++i) {
-            export_samples_.record(commands, slot.timestamps(), resident.samples_item(i));
+            exports.samples.record(commands, slot.timestamps(), resident.samples_item(i));
         }
-        export_headers_.record(commands, slot.timestamps(), resident.headers_item());
+        exports.headers.record(commands, slot.timestamps(), resident.headers_item());
     }
 }
 
@@ -256,7 +251,7 @@ void Renderer::wait(BatchResources& slot, Timings& timings) {
 
 std::string Renderer::print(GraphFormat format) const {
     if (last_pairs_) {
-        return pair_searches_[static_cast<std::size_t>(*last_pairs_)]->print(format, "pairs");
+        return passes_.pair_search(*last_pairs_).print(format, "pairs");
     }
     std::string text;
     const auto add = [&](const auto& graph, const char* title) {
@@ -266,19 +261,19 @@ std::string Renderer::print(GraphFormat format) const {
         add(*last_graph_, "tiles");
     }
     if (last_had_searches_) {
-        add(*point_search_, "search for points");
+        add(passes_.point_search(), "search for points");
     }
     if (last_had_fields_) {
-        add(export_field_, "resident fields");
+        add(passes_.exports().field, "resident fields");
     }
     if (last_had_records_) {
-        add(export_records_, "resident records");
+        add(passes_.exports().records, "resident records");
     }
     if (last_had_samples_) {
-        add(export_samples_, "resident samples");
+        add(passes_.exports().samples, "resident samples");
     }
     if (last_had_fields_ || last_had_records_ || last_had_samples_) {
-        add(export_headers_, "resident headers");
+        add(passes_.exports().headers, "resident headers");
     }
     return text;
 }

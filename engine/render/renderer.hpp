@@ -6,14 +6,10 @@
 #include <engine/render/batch_resources.hpp>
 #include <engine/render/compiled_graph.hpp>
 #include <engine/render/pair_search_buffers.hpp>
+#include <engine/render/pipeline_set.hpp>
+#include <nearfield/context.hpp>
 #include <nearfield/result.hpp>
 #include <passes/copy_back.hpp>
-#include <passes/export_field.hpp>
-#include <passes/export_headers.hpp>
-#include <passes/export_records.hpp>
-#include <passes/export_samples.hpp>
-#include <passes/pair_search.hpp>
-#include <passes/point_search.hpp>
 
 #include <array>
 #include <cstddef>
@@ -38,21 +34,22 @@ enum class SampleRoom { likely, all };
 /// allocates nothing and creates nothing.
 class Renderer {
 public:
-    /// Makes the pipelines of these techniques; makes none later.
-    Renderer(const gpu::Device& device, const DeviceTechniques& techniques, bool timestamps);
+    /// Makes all pipelines of the settings' techniques and none later, or each when a batch is
+    /// prepared, or memory made for pairs, that needs it.
+    Renderer(const gpu::Device& device, const Settings& settings);
 
     /// The name of the format that gradients are blended in.
     [[nodiscard]] const char* gradient_format() const;
 
     /// Resources for a batch of this renderer, which must outlive them.
     [[nodiscard]] std::unique_ptr<BatchResources> make_resources();
-    /// Memory for searches for all pairs, likewise. `reads_records`: the host reads the points.
+    /// Memory for searches for all pairs, likewise.
     [[nodiscard]] std::unique_ptr<PairSearchBuffers> make_pair_buffers(
         const plan::PairQuestion& question);
-    /// The passes of such searches. The precondition: pipelines of the compute technique.
+    /// The passes of such searches.
     [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) {
         last_pairs_ = goal;
-        return *pair_searches_[static_cast<std::size_t>(goal)];
+        return passes_.pair_search(goal);
     }
     /// Differs from that of every other renderer.
     [[nodiscard]] std::uint32_t number() const { return number_; }
@@ -104,14 +101,7 @@ private:
     passes::ComputeLayout layout_;
     TargetViews target_views_;
     PipelineSet passes_;
-    std::optional<passes::PointSearch> point_search_;  // with the compute technique
-    std::optional<passes::PairShaders> pair_shaders_;  // likewise
-    std::array<std::optional<passes::PairSearch>, plan::pair_goals> pair_searches_;  // likewise
     passes::CopyBack copy_back_;
-    passes::ExportField export_field_;
-    passes::ExportRecords export_records_;
-    passes::ExportSamples export_samples_;
-    passes::ExportHeaders export_headers_;
     std::vector<std::shared_ptr<CompiledGraph>> graphs_;
     std::shared_ptr<const CompiledGraph> last_graph_;
     bool last_had_fields_ = false;  // among the resident outputs of the last batch

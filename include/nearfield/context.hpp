@@ -63,12 +63,16 @@ struct Settings {
     /// Host threads for the queries that the CPU answers. Its function and `user` must stay valid
     /// for the lifetime of the context. Default: everything runs on the calling thread.
     JobSystem jobs = {};
-    /// Techniques to build pipelines for when the context is created. Technique::automatic never
-    /// selects a technique that is left out, and a query that names one fails with
-    /// StatusCode::unsupported_technique in its own result. Ignored by a context without a device.
+    /// Techniques to build pipelines for. Technique::automatic never selects a technique that is
+    /// left out, and a query that names one fails with StatusCode::unsupported_technique in its own
+    /// result. Ignored by a context without a device.
     DeviceTechniques techniques = {};
     /// False: no timestamps are written and no query pool is made, so Timings::passes is empty.
     alignas(std::uint64_t) bool timestamps = true;  // begins a word: see read_versioned()
+    /// False: the context makes all pipelines when it is created, and no later call makes any.
+    /// True: the first call that needs a pipeline makes it, and takes longer, as run(), submit(),
+    /// record() or World::update(); for a program that asks little and should start soon.
+    alignas(std::uint64_t) bool pipelines_on_demand = false;  // likewise
 };
 
 /// Names a batch in flight of one context. The default value names none. A ticket of another

@@ -137,8 +137,9 @@ struct HostDevice {
     /// pfnAllocation, pfnReallocation and pfnFree must be set, and pfnInternalAllocation and
     /// pfnInternalFree both or neither.
     const VkAllocationCallbacks* allocator = nullptr;
-    /// Used to create pipelines, all of them when the context is created; may be null. Borrowed,
-    /// never destroyed. Must not have been created as externally synchronised.
+    /// Used to create pipelines, by default all of them when the context is created
+    /// (Settings::pipelines_on_demand); may be null. Borrowed, never destroyed. Must not have been
+    /// created as externally synchronised.
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     QueueAccess queue_access = {};  ///< default: only this context uses the queue
     Log log = {};                   ///< receives messages

@@ -124,8 +124,9 @@ protected:
         Settings settings;
         settings.jobs = {nullptr, 4, run_jobs};
         std::optional<Expected<Context>> made;
-        measure("`Context::create`",
-                [&] { made.emplace(Context::create(loader_->host(), drawing(settings))); });
+        measure("`Context::create`", [&] {
+            made.emplace(Context::create(loader_->host(), with_all_pipelines(settings)));
+        });
         ASSERT_TRUE(made->has_value()) << made->error().text();
         context_.emplace(std::move(**made));
         a_ = *context_->add_shape(rings_);

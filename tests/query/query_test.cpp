@@ -53,6 +53,13 @@ Settings drawing(Settings settings) {
     constexpr WorkCost dear{1.0, 1.0, 1.0};
     constexpr TechniqueCost too_dear{1.0, dear, dear, dear, dear, dear};
     settings.costs = CostModel{{}, too_dear, too_dear};
+    settings.pipelines_on_demand = true;
+    return settings;
+}
+
+Settings with_all_pipelines(Settings settings) {
+    settings = drawing(settings);
+    settings.pipelines_on_demand = false;
     return settings;
 }
 

@@ -30,8 +30,10 @@ void for_each_case(std::uint64_t seed, int usual, const Check& check) {
 }
 
 /// Settings with which Technique::automatic uses the raster wherever possible, so that a query
-/// without a technique tests it.
+/// without a technique tests it, and with which no pipeline is made that a test does not need.
 [[nodiscard]] Settings drawing(Settings settings = {});
+/// The same with all pipelines made at once, as by default.
+[[nodiscard]] Settings with_all_pipelines(Settings settings = {});
 
 /// Tests that share one context on one bare, validated host device. A test fails if the validation
 /// layers report anything.

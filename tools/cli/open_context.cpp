@@ -23,6 +23,7 @@ Context open_context(Settings settings, const AskedTechniques& asked) {
         return take(Context::create_cpu(settings));
     }
     settings.techniques = {.raster = automatic || raster, .compute = automatic || compute};
+    settings.pipelines_on_demand = true;
     Expected<Context> context = Context::create_headless({}, settings);
     const StatusCode code = context.error().code();
     if ((code == StatusCode::no_device || code == StatusCode::unsupported_device) && !raster &&

@@ -11,6 +11,7 @@ namespace {
 
 Context make_context(const HostDevice& host, Settings settings, const Choices& choices) {
     settings.hierarchy_height = choices.hierarchy_height;
+    settings.pipelines_on_demand = true;
     return tools::take(Context::create(host, settings));
 }
 

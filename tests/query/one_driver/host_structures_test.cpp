@@ -126,7 +126,7 @@ TEST_F(HostStructures, LogTellsWhatIsMadeWhatGrowsAndWhatGoes) {
     HostDevice host = host_device();
     host.log = heard.log();
     {
-        Expected<Context> made = Context::create(host, drawing());
+        Expected<Context> made = Context::create(host, with_all_pipelines());
         ASSERT_TRUE(made.has_value()) << made.error().text();
         EXPECT_EQ(heard.count(LogLevel::information, "context on '" + made->device_name()), 1);
         EXPECT_GT(heard.count(LogLevel::information, "pipeline '"), 10);

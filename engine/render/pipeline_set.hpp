@@ -1,0 +1,114 @@
+#pragma once
+
+#include <engine/gpu/device.hpp>
+#include <nearfield/context.hpp>
+#include <passes/collect.hpp>
+#include <passes/collect_gradients.hpp>
+#include <passes/color_fill.hpp>
+#include <passes/compute_layout.hpp>
+#include <passes/cone_mesh.hpp>
+#include <passes/early_out.hpp>
+#include <passes/export_field.hpp>
+#include <passes/export_headers.hpp>
+#include <passes/export_records.hpp>
+#include <passes/export_samples.hpp>
+#include <passes/feature_bit.hpp>
+#include <passes/fields.hpp>
+#include <passes/fill.hpp>
+#include <passes/gradient.hpp>
+#include <passes/intersect.hpp>
+#include <passes/intersection_strategies.hpp>
+#include <passes/masks.hpp>
+#include <passes/pair_search.hpp>
+#include <passes/point_search.hpp>
+#include <passes/resolve_field.hpp>
+#include <passes/resolve_field_points.hpp>
+#include <passes/resolve_points.hpp>
+#include <passes/stencil_pipelines.hpp>
+
+#include <array>
+#include <optional>
+
+namespace nearfield::render {
+
+/// The passes of the raster technique with their pipelines.
+class RasterPipelines {
+public:
+    RasterPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
+
+private:
+    // Render passes that pipelines are made for; compatible with those that graphs make.
+    gpu::Owned<VkRenderPass> stencil_render_pass_;
+    gpu::Owned<VkRenderPass> distance_render_pass_;
+    gpu::Owned<VkRenderPass> white_render_pass_;
+    gpu::Owned<VkRenderPass> signed_feature_render_pass_;
+    gpu::Owned<VkRenderPass> gradient_render_pass_;
+    gpu::Owned<VkPipelineLayout> draw_layout_;
+    passes::StencilPipelines stencil_;
+    passes::IntersectionStrategies strategies_;
+
+public:
+    passes::Fill fill;
+    passes::ColorFill color_fill;
+    passes::ConeMesh cone_mesh;
+    passes::FeatureBit feature_bit;
+    passes::Gradient gradient;
+    passes::EarlyOut early_out;
+    passes::Intersect intersect;
+    passes::ResolvePoints resolve_points;
+    passes::ResolveField resolve_field;
+    passes::ResolveFieldPoints resolve_field_points;
+    passes::CollectGradients collect_gradients;
+    passes::Collect collect;
+};
+
+/// The passes that write resident outputs, with their pipelines.
+struct ExportPipelines {
+    ExportPipelines(const gpu::Device& device, const passes::ComputeLayout& layout);
+
+    passes::ExportField field;
+    passes::ExportRecords records;
+    passes::ExportSamples samples;
+    passes::ExportHeaders headers;
+};
+
+/// All passes with their pipelines. A function makes what it returns, unless that has been made,
+/// and throws StatusException as the driver fails.
+class PipelineSet {
+public:
+    PipelineSet(const gpu::Device& device, const passes::ComputeLayout& layout)
+        : device_(&device), layout_(&layout) {}
+    /// Makes all of these techniques.
+    void make(const DeviceTechniques& techniques) const;
+
+    [[nodiscard]] const ExportPipelines& exports() const { return made(exports_); }
+    /// Raster.
+    [[nodiscard]] const RasterPipelines& raster() const { return made(raster_); }
+    /// Compute, as are those that follow.
+    [[nodiscard]] const passes::ResolvePoints& resolve_points() const {
+        return made(resolve_points_, passes::ResolvePoints::Source::lists);
+    }
+    [[nodiscard]] const passes::Masks& masks() const { return made(masks_); }
+    [[nodiscard]] const passes::Fields& fields() const { return made(fields_); }
+    [[nodiscard]] const passes::PointSearch& point_search() const { return made(point_search_); }
+    [[nodiscard]] const passes::PairSearch& pair_search(plan::PairGoal goal) const;
+
+private:
+    template <class Passes, class... Arguments>
+    const Passes& made(std::optional<Passes>& passes, Arguments... arguments) const {
+        return passes ? *passes : passes.emplace(*device_, *layout_, arguments...);
+    }
+
+    const gpu::Device* device_;
+    const passes::ComputeLayout* layout_;
+    mutable std::optional<ExportPipelines> exports_;
+    mutable std::optional<RasterPipelines> raster_;
+    mutable std::optional<passes::ResolvePoints> resolve_points_;
+    mutable std::optional<passes::Masks> masks_;
+    mutable std::optional<passes::Fields> fields_;
+    mutable std::optional<passes::PointSearch> point_search_;
+    mutable std::optional<passes::PairShaders> pair_shaders_;
+    mutable std::array<std::optional<passes::PairSearch>, plan::pair_goals> pair_searches_;
+};
+
+}  // namespace nearfield::render

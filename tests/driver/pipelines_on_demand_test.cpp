@@ -1,0 +1,118 @@
+#include <nearfield/nearfield.hpp>
+
+#include <gtest/gtest.h>
+#include <tests/support/mock_driver.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace nearfield::test {
+namespace {
+
+/// When a context makes its pipelines: Settings::pipelines_on_demand.
+class PipelinesOnDemand : public ::testing::Test {
+protected:
+    void make(bool on_demand) {
+        driver_.forget_calls();
+        Settings settings;
+        settings.pipelines_on_demand = on_demand;
+        context_.emplace(*Context::create(driver_.host(), settings));
+        const std::vector<Ring> square{{{0.0, 0.0}, {2.0, 0.0}, {2.0, 2.0}, {0.0, 2.0}}};
+        shape_ = *context_->add_shape(square);
+    }
+
+    /// Pipelines that have been made since the last call of it.
+    [[nodiscard]] std::ptrdiff_t count_made() {
+        const std::ptrdiff_t count = std::count_if(
+            driver_.calls().begin(), driver_.calls().end(), [](std::string_view call) {
+                return call == "vkCreateComputePipelines" || call == "vkCreateGraphicsPipelines";
+            });
+        driver_.forget_calls();
+        return count;
+    }
+
+    /// Kinds of calls, of which each needs pipelines that the ones before it do not.
+    [[nodiscard]] std::vector<std::function<Status()>> calls() {
+        const Instance a{shape_, {}};
+        const Instance b{shape_, {{1.0, 1.0}, 0.0}};
+        const auto run = [this](const auto& query) {
+            return [this, query] {
+                Batch batch;
+                static_cast<void>(batch.add(query));
+                Results results;
+                const Status status = context_->run(batch, results);
+                return status.ok() ? std::visit([](const auto& one) { return one.status; },
+                                                results.results.front())
+                                   : status;
+            };
+        };
+        PenetrationQuery penetration{a, b, 0.1};
+        penetration.technique = Technique::compute;
+        PenetrationQuery resident = penetration;
+        resident.resident = true;
+        IntersectionQuery intersection{a, b, 0.1};
+        intersection.technique = Technique::compute;
+        DistanceFieldQuery field{a, b, 0.1};
+        field.technique = Technique::compute;
+        PenetrationQuery drawn = penetration;
+        drawn.technique = Technique::raster;
+        return {run(penetration),
+                run(resident),
+                run(intersection),
+                run(field),
+                run(drawn),
+                [this, a, b] {
+                    World world = *World::create(*context_);
+                    for (const Instance& one : {a, b}) {
+                        static_cast<void>(world.add({.shape = one.shape, .pose = one.pose}));
+                    }
+                    DevicePairTable<PenetrationQuery> table({.tolerance = 0.1});
+                    return world.update(table);
+                }};
+    }
+
+    test_support::MockDriver driver_;
+    std::optional<Context> context_;
+    ShapeHandle shape_;
+};
+
+TEST_F(PipelinesOnDemand, AreMadeByTheFirstCallThatNeedsThem) {
+    make(true);
+    EXPECT_EQ(count_made(), 0);
+    std::size_t number = 0;
+    for (const auto& call : calls()) {
+        SCOPED_TRACE(number++);
+        EXPECT_TRUE(call().ok());
+        EXPECT_GT(count_made(), 0);
+        EXPECT_TRUE(call().ok());
+        EXPECT_EQ(count_made(), 0);
+    }
+}
+
+TEST_F(PipelinesOnDemand, AreAllMadeAtOnceWithout) {
+    make(false);
+    EXPECT_GT(count_made(), 0);
+    for (const auto& call : calls()) {
+        EXPECT_TRUE(call().ok());
+    }
+    EXPECT_EQ(count_made(), 0);
+}
+
+TEST_F(PipelinesOnDemand, AreMadeByTheNextCallIfTheDriverFails) {
+    make(true);
+    std::size_t number = 0;
+    for (const auto& call : calls()) {
+        SCOPED_TRACE(number++);
+        const bool is_drawn = number == 5;  // counted already
+        driver_.fail(is_drawn ? "vkCreateGraphicsPipelines" : "vkCreateComputePipelines", 0,
+                     VK_ERROR_OUT_OF_HOST_MEMORY, test_support::MockDriver::Failing::once);
+        EXPECT_EQ(call().code(), StatusCode::out_of_memory);
+        EXPECT_TRUE(call().ok());
+    }
+}
+
+}  // namespace
+}  // namespace nearfield::test
